@@ -1,0 +1,20 @@
+# OpenCV::core, OpenCV::imgproc, OpenCV::imgcodecs, OpenCV::features2d from Debian's split packages, which
+# ship headers and libraries without OpenCVConfig.cmake (that comes only with the full libopencv-dev).
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
+set(_opencv_required OPENCV_INCLUDE_DIR)
+foreach(part core imgproc imgcodecs features2d flann)
+  find_library(OPENCV_${part}_LIBRARY opencv_${part})
+  list(APPEND _opencv_required OPENCV_${part}_LIBRARY)
+endforeach()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenCVParts REQUIRED_VARS ${_opencv_required})
+if(OpenCVParts_FOUND AND NOT TARGET OpenCV::core)
+  foreach(part core imgproc imgcodecs features2d flann)
+    add_library(OpenCV::${part} UNKNOWN IMPORTED)
+    set_target_properties(OpenCV::${part} PROPERTIES
+      IMPORTED_LOCATION "${OPENCV_${part}_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${OPENCV_INCLUDE_DIR}")
+  endforeach()
+  set_property(TARGET OpenCV::imgproc PROPERTY INTERFACE_LINK_LIBRARIES OpenCV::core)
+  set_property(TARGET OpenCV::imgcodecs PROPERTY INTERFACE_LINK_LIBRARIES OpenCV::imgproc)
+  set_property(TARGET OpenCV::features2d PROPERTY INTERFACE_LINK_LIBRARIES OpenCV::imgproc OpenCV::flann)
+endif()

@@ -1,0 +1,30 @@
+# Language, warnings, sanitizers. Binaries run on any CPU of the architecture: no -march=native;
+# faster instruction sets are chosen at run time inside single functions.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(ORBWEAVE_CCACHE ccache)
+if(ORBWEAVE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${ORBWEAVE_CCACHE}")
+endif()
+
+add_library(orbweave_warnings INTERFACE)
+target_compile_options(orbweave_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wcast-qual -Wformat=2 -Wimplicit-fallthrough)
+if(ORBWEAVE_WARNINGS_AS_ERRORS)
+  target_compile_options(orbweave_warnings INTERFACE -Werror)
+endif()
+
+# The same source gives the same bits: no contraction of a*b+c that depends on the call site.
+add_compile_options(-ffp-contract=off)
+
+if(ORBWEAVE_SANITIZE)
+  add_compile_options(-fsanitize=${ORBWEAVE_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ORBWEAVE_SANITIZE})
+endif()

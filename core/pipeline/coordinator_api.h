@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/stage_context.h"
+#include "core/pipeline/blob_access.h"
+#include "core/pipeline/task.h"
+
+namespace orbweave {
+
+struct JobSpec {
+  std::string kind{};            ///< names a JobPlan
+  std::vector<Digest> inputs{};  ///< blobs put before the job is submitted
+  std::string options_text{};
+  std::string label{};           ///< for people
+
+  /// Digest of kind, inputs and options: submitting the same job again joins it.
+  [[nodiscard]] Digest Id() const;
+};
+
+enum class JobState : uint8_t { kRunning, kDone, kFailed, kCancelled };
+
+/// What is known of a stage of a job.
+struct StageStatus {
+  std::string stage{};
+  uint32_t tasks_total = 0;     ///< 0 until it is planned
+  uint32_t tasks_done = 0;
+  uint32_t tasks_reused = 0;    ///< of tasks_done: found finished, not computed again
+  uint32_t tasks_running = 0;
+  uint32_t retries = 0;
+  double wall_s = 0.0;          ///< first lease to last result
+  double cpu_s = 0.0;           ///< sum over tasks computed now
+  double fraction_running = 0;  ///< progress of running tasks, in tasks
+};
+
+/// One finished attempt, for the trace.
+struct TaskTiming {
+  std::string stage{};
+  uint32_t part = 0;
+  std::string worker{};
+  uint32_t slot = 0;
+  double start_s = 0.0;  ///< since the job was submitted
+  double end_s = 0.0;
+  bool ok = true;
+};
+
+struct TaskOutcome {
+  std::string stage{};
+  uint32_t part = 0;
+  Digest id{};
+  TaskResult result{};
+};
+
+struct WorkerStatus {
+  std::string name{};
+  uint32_t slots = 1;
+  uint32_t tasks_done = 0;
+  bool alive = true;
+};
+
+struct JobStatus {
+  Digest id{};
+  JobState state = JobState::kRunning;
+  std::string error{};  ///< of a failed job: names stage, task and reason
+  std::string label{};
+  double elapsed_s = 0.0;
+  std::vector<StageStatus> stages{};
+  std::vector<WorkerStatus> workers{};
+};
+
+struct WorkerInfo {
+  std::string name{};     ///< unique among workers
+  std::string version{};  ///< build version; another one than the coordinator's is refused
+  uint32_t slots = 1;
+};
+
+struct JoinReply {
+  uint64_t session = 0;
+  double lease_s = 30.0;
+  double heartbeat_s = 5.0;
+};
+
+struct Lease {
+  Digest task{};
+  uint64_t epoch = 0;  ///< fencing: a result under an older epoch is refused
+  TaskSpec spec{};
+  uint32_t slot = 0;
+};
+
+struct LeaseProgress {
+  Digest task{};
+  uint64_t epoch = 0;
+  Progress progress{};
+};
+
+struct HeartbeatReply {
+  std::vector<Digest> cancelled{};  ///< leases to give up
+  bool shutdown = false;            ///< finish nothing more; leave
+};
+
+/// The one seam of distribution: in-process it is the coordinator object, elsewhere a gRPC stub. Every
+/// method is safe to call from several threads and safe to repeat. Codes common to all: Unavailable (connection;
+/// try again).
+class CoordinatorApi : public BlobAccess {
+ public:
+  /// FailedPrecondition: another version. A known name begins a new session and voids the old one's leases.
+  [[nodiscard]] virtual absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) = 0;
+  /// A task to do, or nullopt when none became ready within wait_s. NotFound: unknown session (join again).
+  [[nodiscard]] virtual absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session, uint32_t slot, double wait_s) = 0;
+  /// Renews the leases listed. NotFound: unknown session.
+  [[nodiscard]] virtual absl::StatusOr<HeartbeatReply> Heartbeat(uint64_t session, const std::vector<LeaseProgress>& leases) = 0;
+  /// FailedPrecondition: stale epoch, the result was not taken (harmless).
+  [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session, const Lease& lease, const TaskResult& result) = 0;
+  /// InvalidArgument and FailedPrecondition errors are permanent and fail the job; Cancelled gives the task back; others are retried.
+  [[nodiscard]] virtual absl::Status FailTask(uint64_t session, const Lease& lease, const absl::Status& error) = 0;
+  [[nodiscard]] virtual absl::Status Leave(uint64_t session) = 0;
+
+  /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is missing.
+  [[nodiscard]] virtual absl::StatusOr<Digest> SubmitJob(const JobSpec& job) = 0;
+  /// NotFound: no such job.
+  [[nodiscard]] virtual absl::StatusOr<JobStatus> GetJob(const Digest& job) = 0;
+  [[nodiscard]] virtual absl::StatusOr<std::vector<JobStatus>> ListJobs() = 0;
+  [[nodiscard]] virtual absl::Status CancelJob(const Digest& job) = 0;
+  /// Results of a job's finished tasks in (stage, part) order, and timings in order of their end.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) = 0;
+  [[nodiscard]] virtual absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) = 0;
+
+  /// Which of these blobs are stored (same order).
+  [[nodiscard]] virtual absl::StatusOr<std::vector<bool>> StatBlobs(const std::vector<Digest>& digests) = 0;
+  /// Registers a file on the coordinator's machine as a blob without copying it; verified at every read.
+  /// NotFound / PermissionDenied: the coordinator cannot read it; DataLoss: it has another digest.
+  [[nodiscard]] virtual absl::Status LinkFile(const Digest& digest, const std::string& path) = 0;
+};
+
+}  // namespace orbweave

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/digest.h"
+#include "core/base/status.h"
+
+namespace orbweave {
+
+/// Where one input of a stage comes from.
+struct InputRule {
+  enum class Kind {
+    kJobInput,    ///< the job's input blob number `index`
+    kOutput,      ///< output number `index` of the (only) task of stage `stage`
+    kCollection,  ///< a list blob: all outputs of all parts of `stage`, in part order
+    kRecipe,      ///< recipe of this part, as emitted by stage `stage`
+  };
+  Kind kind = Kind::kJobInput;
+  std::string stage{};
+  uint32_t index = 0;
+};
+
+/// One row of a plan. A stage has one part, or as many as stage `parts_from` emitted recipes.
+struct StageRule {
+  std::string stage{};
+  std::string parts_from{};                    ///< empty: one part
+  std::vector<InputRule> inputs{};
+  std::vector<std::string> option_sections{};  ///< option sections whose change makes the stage run again
+};
+
+/// A kind of job: its stages in order. A stage starts when all stages before it are done.
+struct JobPlan {
+  std::string kind{};
+  std::vector<StageRule> stages{};
+};
+
+/// "sparse" (from images) and "sparse_from_matches" (from a database). NotFound otherwise.
+[[nodiscard]] absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind);
+
+/// The lines of `options_text` ("section.key=value") that belong to one of `sections`, in order.
+[[nodiscard]] std::string SelectSections(std::string_view options_text, const std::vector<std::string>& sections);
+
+/// A collection blob: concatenated 32-byte digests, and back. InvalidArgument when the size is no multiple of 32.
+[[nodiscard]] std::string EncodeCollection(const std::vector<Digest>& digests);
+[[nodiscard]] absl::StatusOr<std::vector<Digest>> DecodeCollection(std::string_view bytes);
+
+}  // namespace orbweave

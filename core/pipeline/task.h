@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/digest.h"
+
+namespace orbweave {
+
+/// The name of a computation: a stage, its inputs and its options. Equal specs have equal results, so a
+/// result can be cached, repeated or computed twice without harm.
+struct TaskSpec {
+  std::string stage{};
+  std::vector<Digest> inputs{};
+  std::string options_text{};  ///< canonical text of the sections the stage reads
+  uint32_t part = 0;           ///< which part of the stage: for people and for order, not part of the id
+
+  /// SHA-256 of stage, code version, options and inputs.
+  [[nodiscard]] Digest Id() const;
+};
+
+/// What a stage leaves behind. All bulk is in blobs; the coordinator only ever sees their names.
+struct TaskResult {
+  std::vector<Digest> outputs{};
+  /// One blob per part of the stage that follows: everything this part reads, by digest.
+  std::vector<Digest> recipes{};
+  std::string report_json{};  ///< counts and reasons, for the job's report; "{}" at least
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+};
+
+}  // namespace orbweave

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/rigid3.h"
+#include "core/scene/ids.h"
+
+namespace orbweave {
+
+enum class TwoViewKind : uint8_t {
+  kNone = 0,          ///< no geometry fits: too few matches or inliers
+  kGeneral = 1,       ///< rotation and direction of translation
+  kPureRotation = 2,  ///< same centre: the translation is noise
+  kPlanar = 3,        ///< general, but nearly all inliers lie on one plane
+};
+
+/// What two panoramas say about each other.
+struct TwoViewGeometry {
+  ImagePair pair{};
+  TwoViewKind kind = TwoViewKind::kNone;
+  Rigid3 b_from_a{};  ///< |translation| = 1, or 0 for kPureRotation
+  std::vector<FeatureMatch> inliers{};  ///< sorted
+  uint32_t num_putative = 0;            ///< matches before verification
+  double median_angle_rad = 0.0;        ///< median triangulation angle of the inliers
+  /// Share of the equal-area cells of the sphere (core/geometry/sphere_cells.h, 8 x 8 cells)
+  /// in image a that hold an inlier: 0 ... 1.
+  double spread = 0.0;
+};
+
+}  // namespace orbweave

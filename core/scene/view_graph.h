@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/geometry/rigid3.h"
+#include "core/scene/ids.h"
+#include "core/scene/two_view_geometry.h"
+
+namespace orbweave {
+
+/// A TwoViewGeometry without its matches: an edge of the view graph.
+struct ViewEdge {
+  ImagePair pair{};
+  TwoViewKind kind = TwoViewKind::kGeneral;
+  Rigid3 b_from_a{};
+  uint32_t num_inliers = 0;
+  double median_angle_rad = 0.0;
+  double spread = 0.0;
+};
+
+/// Images joined by verified geometry. Edges sorted by pair.
+struct ViewGraph {
+  uint32_t num_images = 0;
+  std::vector<ViewEdge> edges{};
+};
+
+/// An edge that was dropped, and why ("3 of 3 triplets do not close").
+struct DroppedEdge {
+  ImagePair pair{};
+  std::string reason{};
+};
+
+/// Overlapping clusters of images. Every image of `graph` with an edge is interior to exactly one
+/// cluster; an image in more than one cluster is a separator image of those clusters.
+struct Cluster {
+  std::vector<ImageId> images{};    ///< sorted: interior and overlap
+  std::vector<ImageId> interior{};  ///< sorted: those that belong to this cluster first of all
+};
+
+struct Seam {
+  uint32_t cluster_a = 0;  ///< < cluster_b
+  uint32_t cluster_b = 0;
+  std::vector<ImageId> shared{};  ///< images in both
+};
+
+struct Partition {
+  std::vector<Cluster> clusters{};
+  std::vector<Seam> seams{};  ///< sorted by (a, b), those with at least one shared image
+};
+
+}  // namespace orbweave
