@@ -30,7 +30,7 @@ class Random {
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
   /// Uniform in {0, ..., n-1}; n > 0.
   uint32_t Index(uint32_t n) {
-    return static_cast<uint32_t>((static_cast<unsigned __int128>(Next()) * n) >> 64);
+    return static_cast<uint32_t>(((Next() >> 32) * n) >> 32);
   }
   /// Standard normal, Box-Muller.
   double Normal() {

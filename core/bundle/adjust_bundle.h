@@ -18,7 +18,17 @@ enum class BundleLoss { kLeastSquares, kCauchy, kHuber };
 template <>
 struct EnumNames<BundleLoss> {
   static constexpr std::array<std::pair<BundleLoss, std::string_view>, 3> kNames = {
-      {{BundleLoss::kLeastSquares, "least_squares"}, {BundleLoss::kCauchy, "cauchy"}, {BundleLoss::kHuber, "huber"}}};
+      {{BundleLoss::kLeastSquares, "least_squares"},
+       {BundleLoss::kCauchy, "cauchy"},
+       {BundleLoss::kHuber, "huber"}}};
+};
+
+enum class BundleSolver { kSchur, kCeres };
+
+template <>
+struct EnumNames<BundleSolver> {
+  static constexpr std::array<std::pair<BundleSolver, std::string_view>, 2> kNames = {
+      {{BundleSolver::kSchur, "schur"}, {BundleSolver::kCeres, "ceres"}}};
 };
 
 /// How to solve.
@@ -28,14 +38,23 @@ struct BundleOptions {
   int max_iterations = 50;
   double function_tolerance = 1e-6;
   double initial_lambda = 1e-6;
+  BundleSolver solver = BundleSolver::kSchur;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("loss", self.loss, "robust loss of the bearing residuals");
-    visit("loss_scale", self.loss_scale, "residual, in sigmas, where the loss starts to bite", Range{0.1, 100});
-    visit("max_iterations", self.max_iterations, "Levenberg-Marquardt steps at most", Range{1, 1000});
-    visit("function_tolerance", self.function_tolerance, "stop when the cost falls by less than this share", Range{1e-16, 0.1});
+    visit("loss_scale",
+          self.loss_scale,
+          "residual, in sigmas, where the loss starts to bite",
+          Range{0.1, 100});
+    visit(
+        "max_iterations", self.max_iterations, "Levenberg-Marquardt steps at most", Range{1, 1000});
+    visit("function_tolerance",
+          self.function_tolerance,
+          "stop when the cost falls by less than this share",
+          Range{1e-16, 0.1});
     visit("initial_lambda", self.initial_lambda, "start damping", Range{1e-16, 1e6});
+    visit("solver", self.solver, "our own Schur solver, or Ceres for comparison");
   }
 };
 
@@ -47,13 +66,22 @@ struct BundleObservation {
   double sigma_rad = 1e-3;
 };
 
-/// Robust prior on a camera centre: |diag(1/sigma) (C + bias[group] - position)|^2 under a Cauchy loss
-/// of one sigma. Cameras of one drive share a bias group; no group, no bias.
+/// Robust prior on a camera centre: |diag(1/sigma) (C + bias[group] - position)|^2 under a Cauchy
+/// loss of one sigma. Cameras of one drive share a bias group; no group, no bias.
 struct PositionPrior {
   uint32_t pose = 0;
   Eigen::Vector3d position_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
   std::optional<uint32_t> bias_group{};
+};
+
+/// Prior on a rotation: R direction_in_world should be direction_in_cam, both unit; the angle
+/// between them over sigma, squared. With many cameras it says how a world stands upright.
+struct DirectionPrior {
+  uint32_t pose = 0;
+  Eigen::Vector3d direction_in_world = -Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d direction_in_cam = Eigen::Vector3d::UnitY();
+  double sigma_rad = 0.1;
 };
 
 /// What to solve: poses (R, C), points and bearings, all in one world frame.
@@ -64,6 +92,7 @@ struct BundleProblem {
   std::vector<uint8_t> point_is_fixed{};  ///< empty: none
   std::vector<BundleObservation> observations{};
   std::vector<PositionPrior> position_priors{};
+  std::vector<DirectionPrior> direction_priors{};
   /// Sigma of the (zero) prior on each bias group's bias; its size is the number of groups.
   std::vector<double> bias_sigma_m{};
 };
@@ -77,11 +106,11 @@ struct BundleReport {
 };
 
 /// Minimises sum rho(|B^T (ray/|ray|... tangent residual) / sigma|^2) over poses and points by
-/// Levenberg-Marquardt. Residual: the 2-vector of the predicted unit ray in the tangent plane of the
-/// observed bearing, with the angle as its length. Each pose is one 6-dof block (R, C). Where neither
-/// fixed poses nor priors hold the gauge, the first pose and the distance to the farthest other centre are held.
-/// Same bytes for any `context.num_threads`. InvalidArgument: an index out of range.
-/// Cancelled when asked to stop (the problem then holds the last accepted step).
+/// Levenberg-Marquardt. Residual: the 2-vector of the predicted unit ray in the tangent plane of
+/// the observed bearing, with the angle as its length. Each pose is one 6-dof block (R, C). Where
+/// neither fixed poses nor priors hold the gauge, the first pose and the distance to the farthest
+/// other centre are held. Same bytes for any `context.num_threads`. InvalidArgument: an index out
+/// of range. Cancelled when asked to stop (the problem then holds the last accepted step).
 [[nodiscard]] absl::StatusOr<BundleReport> AdjustBundle(BundleProblem& problem,
                                                         const BundleOptions& options,
                                                         const StageContext& context);

@@ -20,17 +20,28 @@ struct MatchOptions {
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("max_ratio", self.max_ratio, "largest ratio of best to second-best descriptor distance", Range{0.1, 1.0});
-    visit("max_distance", self.max_distance, "largest distance of unit descriptors", Range{0.01, 2.0});
+    visit("max_ratio",
+          self.max_ratio,
+          "largest ratio of best to second-best descriptor distance",
+          Range{0.1, 1.0});
+    visit("max_distance",
+          self.max_distance,
+          "largest distance of unit descriptors",
+          Range{0.01, 2.0});
     visit("cross_check", self.cross_check, "a match must be the best in both directions");
     visit("guided", self.guided, "match again along epipolar planes once the geometry is known");
-    visit("guided_max_ratio", self.guided_max_ratio, "ratio test among candidates near the epipolar plane", Range{0.1, 1.0});
+    visit("guided_max_ratio",
+          self.guided_max_ratio,
+          "ratio test among candidates near the epipolar plane",
+          Range{0.1, 1.0});
   }
 };
 
 /// Nearest-neighbour matches of two panoramas by descriptor distance, sorted by (a, b).
 /// Empty when either has no descriptors.
-[[nodiscard]] std::vector<FeatureMatch> MatchDescriptors(const Features& a, const Features& b, const MatchOptions& options);
+[[nodiscard]] std::vector<FeatureMatch> MatchDescriptors(const Features& a,
+                                                         const Features& b,
+                                                         const MatchOptions& options);
 
 /// Matches among features whose bearings lie within `max_error_rad` of each other's epipolar plane
 /// under b_from_a and in front of both spheres. Sorted by (a, b), one-to-one.

@@ -17,7 +17,7 @@ struct FeatureTrack {
 
 struct BuiltTracks {
   std::vector<FeatureTrack> tracks{};  ///< sorted by first feature, two features at least
-  uint32_t num_conflicting = 0;        ///< joins refused because they held two features of one image
+  uint32_t num_conflicting = 0;  ///< joins refused because they held two features of one image
 };
 
 /// Tracks by union-find over verified matches, strongest pairs first; a join that would put two

@@ -12,19 +12,40 @@ namespace orbweave {
 
 struct PartitionOptions {
   int cluster_size = 100;
-  int min_clusters = 1;
+  int min_clusters = 3;
+  int min_cluster_size = 16;
   int overlap = 12;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("cluster_size", self.cluster_size, "panoramas per cluster before overlap; 0: one cluster", Range{0, 1000000});
-    visit("min_clusters", self.min_clusters, "divide into at least this many clusters where the images suffice", Range{1, 100000});
+    visit("cluster_size",
+          self.cluster_size,
+          "panoramas per cluster before overlap; 0: one cluster",
+          Range{0, 1000000});
+    visit("min_clusters",
+          self.min_clusters,
+          "divide each connected part of the view graph into at least this many clusters where the "
+          "images suffice",
+          Range{1, 100000});
+    visit("min_cluster_size",
+          self.min_cluster_size,
+          "panoramas per cluster before overlap that min_clusters leaves at least",
+          Range{2, 100000});
     visit("overlap", self.overlap, "images shared at each seam, at least", Range{2, 1000});
   }
 };
 
-/// METIS k-way partition of each connected component of the view graph (edge weight = inliers x spread), overlap
-/// grown seam by seam along the strongest edges. Images without an edge are in no cluster. Deterministic.
-[[nodiscard]] absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph, const PartitionOptions& options);
+/// Divides each connected component of the view graph into clusters and lets neighbours overlap.
+///
+/// A component of n images becomes max(round(n / cluster_size), min(min_clusters, n /
+/// min_cluster_size)) clusters: the number depends on the images alone, never on who will compute
+/// them. METIS k-way with edge weight = inliers x spread cuts it; the interior of every cluster is
+/// connected. At every seam images are then shared, those with the strongest edges to the other
+/// side first and alternating between both sides, until `overlap` are shared or no more are
+/// connected. Clusters are sorted by their smallest interior image. Images without an edge are in
+/// no cluster. InvalidArgument when an edge names an image that does not exist, Internal when METIS
+/// fails.
+[[nodiscard]] absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
+                                                           const PartitionOptions& options);
 
 }  // namespace orbweave

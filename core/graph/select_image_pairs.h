@@ -14,21 +14,49 @@ struct PairOptions {
   double gnss_radius_m = 20.0;
   int gnss_max_neighbours = 20;
   int exhaustive_below = 40;
+  double similar_gate_m = 50.0;
+  double similar_gate_sigmas = 3.0;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("sequence_window", self.sequence_window, "following images of the same drive each image is paired with", Range{0, 10000});
-    visit("gnss_radius_m", self.gnss_radius_m, "images closer than this by GNSS are paired", Range{0, 100000});
-    visit("gnss_max_neighbours", self.gnss_max_neighbours, "nearest GNSS neighbours at most", Range{0, 10000});
-    visit("exhaustive_below", self.exhaustive_below, "jobs of fewer images pair every two", Range{0, 10000});
+    visit("sequence_window",
+          self.sequence_window,
+          "following images of the same drive each image is paired with",
+          Range{0, 10000});
+    visit("gnss_radius_m",
+          self.gnss_radius_m,
+          "images closer than this by GNSS are paired",
+          Range{0, 100000});
+    visit("gnss_max_neighbours",
+          self.gnss_max_neighbours,
+          "nearest GNSS neighbours at most",
+          Range{0, 10000});
+    visit("exhaustive_below",
+          self.exhaustive_below,
+          "jobs of fewer images pair every two",
+          Range{0, 10000});
+    visit("similar_gate_m",
+          self.similar_gate_m,
+          "look-alikes further apart by GNSS are not paired",
+          Range{0, 10000000});
+    visit("similar_gate_sigmas",
+          self.similar_gate_sigmas,
+          "the gate is at least this many times the sum of both GNSS sigmas",
+          Range{0, 1000});
   }
 };
 
-/// Which two panoramas may see the same: union of a sequence window, GNSS neighbours within a radius,
-/// and `similar` (per image the most similar others, best first; may be empty) gated by GNSS where both have
-/// it. Sorted, without repetition.
-[[nodiscard]] std::vector<ImagePair> SelectImagePairs(const ImageManifest& manifest,
-                                                      const std::vector<std::vector<ImageId>>& similar,
-                                                      const PairOptions& options);
+/// Which two panoramas may see the same. The union of
+///   - a window along the sequence of each drive (images of one drive in id order),
+///   - each image's nearest GNSS neighbours within a radius, by horizontal distance,
+///   - `similar` (per image the most similar others, best first; may be empty), without those whose
+///     horizontal GNSS distance exceeds max(similar_gate_m, similar_gate_sigmas (sigma_a +
+///     sigma_b)) where both images have a position;
+/// or every two images of a small job. A wrong GNSS position adds pairs and takes look-alikes away;
+/// sequence pairs it leaves alone. Sorted, without repetition.
+[[nodiscard]] std::vector<ImagePair> SelectImagePairs(
+    const ImageManifest& manifest,
+    const std::vector<std::vector<ImageId>>& similar,
+    const PairOptions& options);
 
 }  // namespace orbweave

@@ -38,15 +38,42 @@ struct MappingOptions {
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("preset", self.preset, "orbweave, or the paper's own schedule for comparisons");
-    visit("seed_min_inliers", self.seed_min_inliers, "matches of the seed pair; relaxed when none qualifies", Range{8, 100000});
-    visit("seed_min_angle_deg", self.seed_min_angle_deg, "triangulation angle of the seed pair; relaxed when none qualifies", Range{0.1, 90});
-    visit("min_inliers", self.min_inliers, "scene points an image must agree with to be registered", Range{6, 10000});
-    visit("max_error_px", self.max_error_px, "observations further off are removed, pixels at the equator", Range{0.1, 100});
-    visit("min_angle_deg", self.min_angle_deg, "points seen under a smaller angle are removed", Range{0.01, 45});
-    visit("local_window", self.local_window, "images in the local adjustment after each registration", Range{2, 1000});
-    visit("global_growth", self.global_growth, "share of new images or points that triggers a global adjustment", Range{0.01, 10});
-    visit("max_seeds", self.max_seeds, "seed pairs tried per component before giving up", Range{1, 1000});
-    visit("min_component_images", self.min_component_images, "smaller components are not kept", Range{2, 1000});
+    visit("seed_min_inliers",
+          self.seed_min_inliers,
+          "matches of the seed pair; relaxed when none qualifies",
+          Range{8, 100000});
+    visit("seed_min_angle_deg",
+          self.seed_min_angle_deg,
+          "triangulation angle of the seed pair; relaxed when none qualifies",
+          Range{0.1, 90});
+    visit("min_inliers",
+          self.min_inliers,
+          "scene points an image must agree with to be registered",
+          Range{6, 10000});
+    visit("max_error_px",
+          self.max_error_px,
+          "observations further off are removed, pixels at the equator",
+          Range{0.1, 100});
+    visit("min_angle_deg",
+          self.min_angle_deg,
+          "points seen under a smaller angle are removed",
+          Range{0.01, 45});
+    visit("local_window",
+          self.local_window,
+          "images in the local adjustment after each registration",
+          Range{2, 1000});
+    visit("global_growth",
+          self.global_growth,
+          "share of new images or points that triggers a global adjustment",
+          Range{0.01, 10});
+    visit("max_seeds",
+          self.max_seeds,
+          "seed pairs tried per component before giving up",
+          Range{1, 1000});
+    visit("min_component_images",
+          self.min_component_images,
+          "smaller components are not kept",
+          Range{2, 1000});
   }
 };
 
@@ -63,8 +90,8 @@ struct ClusterImage {
 
 /// Everything one cluster needs, and nothing else: its size does not depend on the job's.
 struct ClusterProblem {
-  std::vector<ClusterImage> images{};     ///< sorted by id
-  std::vector<TwoViewGeometry> pairs{};   ///< among `images`, sorted by pair
+  std::vector<ClusterImage> images{};    ///< sorted by id
+  std::vector<TwoViewGeometry> pairs{};  ///< among `images`, sorted by pair
 };
 
 struct NotRegistered {
@@ -81,11 +108,11 @@ struct ClusterReconstruction {
   double residual_rms_px = 0.0;
 };
 
-/// Incremental spherical SfM: seed pair, next-best image by visibility on the sphere, P3P, triangulation,
-/// track completion and merging, filtering, local and global adjustment, retries, several components.
-/// No component is a value (every image in `not_registered`). Cancelled when asked to stop.
-[[nodiscard]] absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& problem,
-                                                                       const MappingOptions& options,
-                                                                       const StageContext& context);
+/// Incremental spherical SfM: seed pair, next-best image by visibility on the sphere, P3P,
+/// triangulation, track completion and merging, filtering, local and global adjustment, retries,
+/// several components. No component is a value (every image in `not_registered`). Cancelled when
+/// asked to stop.
+[[nodiscard]] absl::StatusOr<ClusterReconstruction> ReconstructCluster(
+    const ClusterProblem& problem, const MappingOptions& options, const StageContext& context);
 
 }  // namespace orbweave

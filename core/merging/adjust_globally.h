@@ -18,7 +18,8 @@ enum class GnssUse { kAuto, kOff };
 
 template <>
 struct EnumNames<GnssUse> {
-  static constexpr std::array<std::pair<GnssUse, std::string_view>, 2> kNames = {{{GnssUse::kAuto, "auto"}, {GnssUse::kOff, "off"}}};
+  static constexpr std::array<std::pair<GnssUse, std::string_view>, 2> kNames = {
+      {{GnssUse::kAuto, "auto"}, {GnssUse::kOff, "off"}}};
 };
 
 struct GlobalAdjustOptions {
@@ -31,10 +32,22 @@ struct GlobalAdjustOptions {
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("gnss", self.gnss, "use GNSS positions as robust terms when they agree with the model");
-    visit("gnss_bias_sigma_m", self.gnss_bias_sigma_m, "expected constant GNSS offset of one drive", Range{0, 1000});
-    visit("max_error_px", self.max_error_px, "observations further off are removed, pixels at the equator", Range{0.1, 100});
-    visit("min_angle_deg", self.min_angle_deg, "points seen under a smaller angle are removed", Range{0.01, 45});
-    visit("rounds", self.rounds, "adjust and filter rounds before the final least squares", Range{1, 10});
+    visit("gnss_bias_sigma_m",
+          self.gnss_bias_sigma_m,
+          "expected constant GNSS offset of one drive",
+          Range{0, 1000});
+    visit("max_error_px",
+          self.max_error_px,
+          "observations further off are removed, pixels at the equator",
+          Range{0.1, 100});
+    visit("min_angle_deg",
+          self.min_angle_deg,
+          "points seen under a smaller angle are removed",
+          Range{0.01, 45});
+    visit("rounds",
+          self.rounds,
+          "adjust and filter rounds before the final least squares",
+          Range{1, 10});
   }
 };
 
@@ -54,7 +67,9 @@ struct GlobalAdjustReport {
   std::vector<BundleReport> adjustments{};
   uint32_t removed_observations = 0;
   uint32_t removed_tracks = 0;
-  double residual_px_mean = 0.0;
+  std::vector<std::string>
+      unobserved_images{};        ///< names of images left without observations; now loose
+  double residual_px_mean = 0.0;  ///< angle x W / 2pi
   double residual_px_rms = 0.0;
 };
 
@@ -63,8 +78,11 @@ struct GloballyAdjusted {
   GlobalAdjustReport report{};
 };
 
-/// Georeferences robustly (Sim3 to GNSS, outliers found; not at all where GNSS cannot carry a scale), adjusts all
-/// poses and points with Cauchy loss and robust GNSS terms, filters, and finishes with least squares.
+/// Georeferences robustly (GeoreferenceReconstruction; ChooseLocalFrame where GNSS cannot carry a
+/// scale and must not bend the model), then `rounds` times adjusts all poses and points with the
+/// given loss and robust GNSS terms and filters (FilterObservations), and finishes with least
+/// squares and a last filter. Loose images follow the frame but take no part. Cancelled when asked
+/// to stop.
 [[nodiscard]] absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruction,
                                                               const ImageManifest& manifest,
                                                               const GlobalAdjustOptions& options,

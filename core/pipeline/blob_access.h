@@ -14,8 +14,8 @@ namespace orbweave {
 class BlobAccess {
  public:
   virtual ~BlobAccess() = default;
-  /// The bytes named `digest`, verified. NotFound: nobody has them. DataLoss: what is stored is not what
-  /// was named. Unavailable: try again. May be repeated.
+  /// The bytes named `digest`, verified. NotFound: nobody has them. DataLoss: what is stored is not
+  /// what was named. Unavailable: try again. May be repeated.
   [[nodiscard]] virtual absl::StatusOr<std::string> Get(const Digest& digest) = 0;
   /// Stores bytes under their digest; harmless when repeated. ResourceExhausted: disk full.
   [[nodiscard]] virtual absl::StatusOr<Digest> Put(std::string_view bytes) = 0;

@@ -17,7 +17,7 @@ struct JobSpec {
   std::string kind{};            ///< names a JobPlan
   std::vector<Digest> inputs{};  ///< blobs put before the job is submitted
   std::string options_text{};
-  std::string label{};           ///< for people
+  std::string label{};  ///< for people
 
   /// Digest of kind, inputs and options: submitting the same job again joins it.
   [[nodiscard]] Digest Id() const;
@@ -28,9 +28,9 @@ enum class JobState : uint8_t { kRunning, kDone, kFailed, kCancelled };
 /// What is known of a stage of a job.
 struct StageStatus {
   std::string stage{};
-  uint32_t tasks_total = 0;     ///< 0 until it is planned
+  uint32_t tasks_total = 0;  ///< 0 until it is planned
   uint32_t tasks_done = 0;
-  uint32_t tasks_reused = 0;    ///< of tasks_done: found finished, not computed again
+  uint32_t tasks_reused = 0;  ///< of tasks_done: found finished, not computed again
   uint32_t tasks_running = 0;
   uint32_t retries = 0;
   double wall_s = 0.0;          ///< first lease to last result
@@ -67,7 +67,7 @@ struct JobStatus {
   Digest id{};
   JobState state = JobState::kRunning;
   std::string error{};  ///< of a failed job: names stage, task and reason
-  std::string label{};
+  JobSpec spec{};
   double elapsed_s = 0.0;
   std::vector<StageStatus> stages{};
   std::vector<WorkerStatus> workers{};
@@ -103,24 +103,35 @@ struct HeartbeatReply {
   bool shutdown = false;            ///< finish nothing more; leave
 };
 
-/// The one seam of distribution: in-process it is the coordinator object, elsewhere a gRPC stub. Every
-/// method is safe to call from several threads and safe to repeat. Codes common to all: Unavailable (connection;
-/// try again).
+/// The one seam of distribution: in-process it is the coordinator object, elsewhere a gRPC stub.
+/// Every method is safe to call from several threads and safe to repeat. Codes common to all:
+/// Unavailable (connection; try again).
 class CoordinatorApi : public BlobAccess {
  public:
-  /// FailedPrecondition: another version. A known name begins a new session and voids the old one's leases.
+  /// FailedPrecondition: another version. A known name begins a new session and voids the old one's
+  /// leases.
   [[nodiscard]] virtual absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) = 0;
-  /// A task to do, or nullopt when none became ready within wait_s. NotFound: unknown session (join again).
-  [[nodiscard]] virtual absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session, uint32_t slot, double wait_s) = 0;
+  /// A task to do, or nullopt when none became ready within wait_s. NotFound: unknown session (join
+  /// again).
+  [[nodiscard]] virtual absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
+                                                                       uint32_t slot,
+                                                                       double wait_s) = 0;
   /// Renews the leases listed. NotFound: unknown session.
-  [[nodiscard]] virtual absl::StatusOr<HeartbeatReply> Heartbeat(uint64_t session, const std::vector<LeaseProgress>& leases) = 0;
+  [[nodiscard]] virtual absl::StatusOr<HeartbeatReply> Heartbeat(
+      uint64_t session, const std::vector<LeaseProgress>& leases) = 0;
   /// FailedPrecondition: stale epoch, the result was not taken (harmless).
-  [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session, const Lease& lease, const TaskResult& result) = 0;
-  /// InvalidArgument and FailedPrecondition errors are permanent and fail the job; Cancelled gives the task back; others are retried.
-  [[nodiscard]] virtual absl::Status FailTask(uint64_t session, const Lease& lease, const absl::Status& error) = 0;
+  [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session,
+                                                  const Lease& lease,
+                                                  const TaskResult& result) = 0;
+  /// InvalidArgument and FailedPrecondition errors are permanent and fail the job; Cancelled gives
+  /// the task back; others are retried.
+  [[nodiscard]] virtual absl::Status FailTask(uint64_t session,
+                                              const Lease& lease,
+                                              const absl::Status& error) = 0;
   [[nodiscard]] virtual absl::Status Leave(uint64_t session) = 0;
 
-  /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is missing.
+  /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is
+  /// missing.
   [[nodiscard]] virtual absl::StatusOr<Digest> SubmitJob(const JobSpec& job) = 0;
   /// NotFound: no such job.
   [[nodiscard]] virtual absl::StatusOr<JobStatus> GetJob(const Digest& job) = 0;
@@ -131,9 +142,11 @@ class CoordinatorApi : public BlobAccess {
   [[nodiscard]] virtual absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) = 0;
 
   /// Which of these blobs are stored (same order).
-  [[nodiscard]] virtual absl::StatusOr<std::vector<bool>> StatBlobs(const std::vector<Digest>& digests) = 0;
-  /// Registers a file on the coordinator's machine as a blob without copying it; verified at every read.
-  /// NotFound / PermissionDenied: the coordinator cannot read it; DataLoss: it has another digest.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<bool>> StatBlobs(
+      const std::vector<Digest>& digests) = 0;
+  /// Registers a file on the coordinator's machine as a blob without copying it; verified at every
+  /// read. NotFound / PermissionDenied: the coordinator cannot read it; DataLoss: it has another
+  /// digest.
   [[nodiscard]] virtual absl::Status LinkFile(const Digest& digest, const std::string& path) = 0;
 };
 

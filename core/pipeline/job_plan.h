@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,19 +19,24 @@ struct InputRule {
     kJobInput,    ///< the job's input blob number `index`
     kOutput,      ///< output number `index` of the (only) task of stage `stage`
     kCollection,  ///< a list blob: all outputs of all parts of `stage`, in part order
-    kRecipe,      ///< recipe of this part, as emitted by stage `stage`
+    kRecipe,  ///< recipe of this part: what `parts_from` emitted or `parts_listed_in` lists for it
   };
   Kind kind = Kind::kJobInput;
   std::string stage{};
   uint32_t index = 0;
 };
 
-/// One row of a plan. A stage has one part, or as many as stage `parts_from` emitted recipes.
+/// One row of a plan. A stage has one part, or as many as stage `parts_from` emitted recipes, or as
+/// many as the collection in job input `parts_listed_in` lists. No part at all is a stage that is
+/// done.
 struct StageRule {
   std::string stage{};
-  std::string parts_from{};                    ///< empty: one part
+  std::string parts_from{};  ///< empty: one part
+  std::optional<uint32_t>
+      parts_listed_in{};  ///< each digest listed there is the recipe of one part
   std::vector<InputRule> inputs{};
-  std::vector<std::string> option_sections{};  ///< option sections whose change makes the stage run again
+  std::vector<std::string>
+      option_sections{};  ///< option sections whose change makes the stage run again
 };
 
 /// A kind of job: its stages in order. A stage starts when all stages before it are done.
@@ -42,9 +49,11 @@ struct JobPlan {
 [[nodiscard]] absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind);
 
 /// The lines of `options_text` ("section.key=value") that belong to one of `sections`, in order.
-[[nodiscard]] std::string SelectSections(std::string_view options_text, const std::vector<std::string>& sections);
+[[nodiscard]] std::string SelectSections(std::string_view options_text,
+                                         const std::vector<std::string>& sections);
 
-/// A collection blob: concatenated 32-byte digests, and back. InvalidArgument when the size is no multiple of 32.
+/// A collection blob: concatenated 32-byte digests, and back. InvalidArgument when the size is no
+/// multiple of 32.
 [[nodiscard]] std::string EncodeCollection(const std::vector<Digest>& digests);
 [[nodiscard]] absl::StatusOr<std::vector<Digest>> DecodeCollection(std::string_view bytes);
 

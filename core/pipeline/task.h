@@ -10,13 +10,13 @@
 
 namespace orbweave {
 
-/// The name of a computation: a stage, its inputs and its options. Equal specs have equal results, so a
-/// result can be cached, repeated or computed twice without harm.
+/// The name of a computation: a stage, its inputs and its options. Equal specs have equal results,
+/// so a result can be cached, repeated or computed twice without harm.
 struct TaskSpec {
   std::string stage{};
   std::vector<Digest> inputs{};
   std::string options_text{};  ///< canonical text of the sections the stage reads
-  uint32_t part = 0;           ///< which part of the stage: for people and for order, not part of the id
+  uint32_t part = 0;  ///< which part of the stage: for people and for order, not part of the id
 
   /// SHA-256 of stage, code version, options and inputs.
   [[nodiscard]] Digest Id() const;

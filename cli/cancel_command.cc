@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/cancel_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/find_job.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+struct CancelOptions {
+  std::string coordinator{};
+  std::string job{};
+};
+
+absl::Status Cancel(const CancelOptions& options) {
+  GrpcCoordinatorClient coordinator(options.coordinator);
+  const absl::StatusOr<JobStatus> job = FindJob(coordinator, options.job);
+  if (absl::IsUnavailable(job.status())) {
+    return Annotate(job.status(), "no coordinator answers at " + options.coordinator);
+  }
+  ORBWEAVE_RETURN_IF_ERROR(job.status());
+  if (job->state != JobState::kRunning) {
+    return absl::FailedPreconditionError("job " + job->id.ToShortHex() + " has ended already");
+  }
+  ORBWEAVE_RETURN_IF_ERROR(coordinator.CancelJob(job->id));
+  std::printf("cancelled job %s; its finished tasks are kept\n", job->id.ToShortHex().c_str());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddCancelCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("cancel", "End a job; what it finished is kept");
+  const auto options = std::make_shared<CancelOptions>();
+  command->add_option("--coordinator", options->coordinator, "Address of the coordinator")
+      ->required();
+  command->add_option("job", options->job, "First digits of the job's id")->required();
+  command->callback([options, &selected] {
+    selected.run = [options] { return ReportStatus(Cancel(*options)); };
+  });
+}
+
+}  // namespace orbweave

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/export_command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/fetch_results.h"
+#include "coordinator/coordinator.h"
+#include "core/io/colmap_database.h"
+
+namespace orbweave {
+namespace {
+
+struct ExportArguments {
+  std::string output{};
+  std::string database{};
+  DatabaseCameraModel camera = DatabaseCameraModel::kEquirectangular;
+};
+
+absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std::string& output) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
+  for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) {
+    if (job->state == JobState::kDone) return *job;
+  }
+  return absl::FailedPreconditionError(output + " holds no finished job; run it to its end first");
+}
+
+absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& arguments) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, LastFinishedJob(coordinator, arguments.output));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes, coordinator.GetOutcomes(job.id));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchManifest(coordinator, job.spec, outcomes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto features, FetchFeatures(coordinator, job.spec, outcomes, true));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto pairs, FetchVerifiedPairs(coordinator, outcomes));
+  ORBWEAVE_RETURN_IF_ERROR(WriteColmapDatabase(arguments.database, manifest, features, pairs, arguments.camera));
+  std::printf("%zu images and %zu verified pairs written to %s\n", features.size(), pairs.size(),
+              arguments.database.c_str());
+  return absl::OkStatus();
+}
+
+absl::Status Export(const ExportArguments& arguments) {
+  const std::string state = arguments.output + "/.orbweave";
+  if (!std::filesystem::is_directory(state)) {
+    return absl::NotFoundError(arguments.output + " is not the output folder of a job (no .orbweave in it)");
+  }
+  const SteadyClock clock;
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open({.state_dir = state}, clock));
+  return ExportDatabase(*coordinator, arguments);
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("export", "Write a job's features and verified matches for other programs");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("OUTPUT", arguments->output, "Output folder of a finished job")->required();
+  command->add_option("--database", arguments->database, "COLMAP database to write; replaced when it exists")->required();
+  command->add_option("--camera", arguments->camera, "equirectangular (COLMAP) or sphere (SphereSfM)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, DatabaseCameraModel>{{"equirectangular", DatabaseCameraModel::kEquirectangular},
+                                                     {"sphere", DatabaseCameraModel::kSphere}}))
+      ->default_str("equirectangular");
+  command->footer(
+      "Examples:\n"
+      "  orbweave export model --database model.db\n"
+      "  orbweave export model --database model.db --camera sphere");
+  command->callback(
+      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Export(*arguments)); }; });
+}
+
+}  // namespace orbweave

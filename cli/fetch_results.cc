@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/fetch_results.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/pipeline/job_plan.h"
+#include "proto/codec/features_codec.h"
+#include "proto/codec/manifest_codec.h"
+#include "proto/codec/reconstruction_codec.h"
+#include "proto/codec/two_view_codec.h"
+
+namespace orbweave {
+namespace {
+
+constexpr const char* kFromMatches = "sparse_from_matches";
+
+/// All outputs of a stage, in part order.
+std::vector<Digest> OutputsOf(const std::vector<TaskOutcome>& outcomes, std::string_view stage) {
+  std::vector<Digest> outputs;
+  for (const TaskOutcome& outcome : outcomes) {
+    if (outcome.stage != stage) continue;
+    outputs.insert(outputs.end(), outcome.result.outputs.begin(), outcome.result.outputs.end());
+  }
+  return outputs;
+}
+
+template <typename Decode>
+auto FetchOne(CoordinatorApi& coordinator, const std::vector<TaskOutcome>& outcomes, std::string_view stage, Decode decode)
+    -> decltype(decode(std::string_view())) {
+  const std::vector<Digest> outputs = OutputsOf(outcomes, stage);
+  if (outputs.empty()) return absl::NotFoundError("the job has no result of stage " + std::string(stage));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(outputs.front()));
+  return decode(bytes);
+}
+
+/// Blobs of Features and PlaceSample, alternating.
+absl::StatusOr<std::vector<Digest>> ExtractedBlobs(CoordinatorApi& coordinator,
+                                                   const JobSpec& job,
+                                                   const std::vector<TaskOutcome>& outcomes) {
+  if (job.kind != kFromMatches) return OutputsOf(outcomes, "extract_features");
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(job.inputs[1]));
+  return DecodeCollection(bytes);
+}
+
+std::vector<std::string> ImageProblems(const std::vector<TaskOutcome>& outcomes) {
+  std::vector<std::string> problems;
+  for (const TaskOutcome& outcome : outcomes) {
+    if (outcome.stage != "extract_features") continue;
+    const auto report = nlohmann::json::parse(outcome.result.report_json, nullptr, false);
+    problems.push_back(report.is_object() ? report.value("problem", "") : "");
+  }
+  return problems;
+}
+
+}  // namespace
+
+absl::StatusOr<ImageManifest> FetchManifest(CoordinatorApi& coordinator,
+                                            const JobSpec& job,
+                                            const std::vector<TaskOutcome>& outcomes) {
+  if (job.kind != kFromMatches) return FetchOne(coordinator, outcomes, "ingest_images", DecodeImageManifest);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(job.inputs[0]));
+  return DecodeImageManifest(bytes);
+}
+
+absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
+                                        const JobSpec& job,
+                                        const std::vector<TaskOutcome>& outcomes) {
+  JobResults results;
+  ORBWEAVE_ASSIGN_OR_RETURN(results.manifest, FetchManifest(coordinator, job, outcomes));
+  results.image_problems = ImageProblems(outcomes);
+  ORBWEAVE_ASSIGN_OR_RETURN(results.view_graph,
+                            FetchOne(coordinator, outcomes, "partition_view_graph", DecodeDividedViewGraph));
+  for (const Digest& digest : OutputsOf(outcomes, "reconstruct_cluster")) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
+    ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult cluster, DecodeClusterResult(bytes));
+    results.clusters.push_back(std::move(cluster));
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(results.alignment, FetchOne(coordinator, outcomes, "align_submodels", DecodeAlignment));
+  ORBWEAVE_ASSIGN_OR_RETURN(results.worlds, FetchOne(coordinator, outcomes, "adjust_globally", DecodeAdjustedWorlds));
+  return results;
+}
+
+absl::StatusOr<std::vector<Features>> FetchFeatures(CoordinatorApi& coordinator,
+                                                    const JobSpec& job,
+                                                    const std::vector<TaskOutcome>& outcomes,
+                                                    bool keep_descriptors) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> blobs, ExtractedBlobs(coordinator, job, outcomes));
+  std::vector<Features> features;
+  for (size_t i = 0; i < blobs.size(); i += 2) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(blobs[i]));
+    ORBWEAVE_ASSIGN_OR_RETURN(Features decoded, DecodeFeatures(bytes));
+    if (!keep_descriptors) decoded.descriptors = {};
+    features.push_back(std::move(decoded));
+  }
+  return features;
+}
+
+absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(CoordinatorApi& coordinator,
+                                                                const std::vector<TaskOutcome>& outcomes) {
+  std::vector<TwoViewGeometry> pairs;
+  for (const char* stage : {"match_images", "verify_matches"}) {
+    for (const Digest& digest : OutputsOf(outcomes, stage)) {
+      ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
+      ORBWEAVE_ASSIGN_OR_RETURN(std::vector<TwoViewGeometry> part, DecodeTwoViewGeometries(bytes));
+      std::move(part.begin(), part.end(), std::back_inserter(pairs));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) { return x.pair < y.pair; });
+  return pairs;
+}
+
+}  // namespace orbweave

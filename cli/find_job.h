@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "core/pipeline/coordinator_api.h"
+
+namespace orbweave {
+
+/// The job whose id begins with `prefix` (hexadecimal digits). NotFound: none; InvalidArgument:
+/// several; else the codes of ListJobs.
+[[nodiscard]] absl::StatusOr<JobStatus> FindJob(CoordinatorApi& coordinator,
+                                                const std::string& prefix);
+
+}  // namespace orbweave

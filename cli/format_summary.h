@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "core/io/job_report.h"
+
+namespace orbweave {
+
+/// A finished job on a terminal: what was registered, how well it fits, time per stage, where the outputs are.
+[[nodiscard]] std::string FormatSummary(const JobReport& report, const std::string& output);
+
+}  // namespace orbweave

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/local_fleet.h"
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "coordinator/listen_address.h"
+
+namespace orbweave {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kLook{50};
+/// What a worker gets between SIGTERM and SIGKILL to give its task back.
+constexpr std::chrono::seconds kGrace{5};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOptions& options) {
+  std::unique_ptr<LocalFleet> fleet(new LocalFleet(options));
+  ORBWEAVE_RETURN_IF_ERROR(fleet->OpenCoordinator());
+  const std::string logs = options.coordinator.state_dir + "/logs";
+  std::error_code error;
+  fs::create_directories(logs, error);
+  if (error)
+    return absl::PermissionDeniedError(
+        absl::StrCat("cannot create folder ", logs, ": ", error.message()));
+  for (uint32_t k = 1; k <= options.workers; ++k) {
+    const std::string name = absl::StrCat("worker-", k);
+    fleet->members_.push_back({.name = name, .log_path = absl::StrCat(logs, "/", name, ".log")});
+  }
+  fleet->supervisor_ =
+      std::jthread([raw = fleet.get()](const std::stop_token& stop) { raw->Supervise(stop); });
+  return fleet;
+}
+
+absl::Status LocalFleet::OpenCoordinator() {
+  ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string socket, ChooseSocket());
+  ORBWEAVE_ASSIGN_OR_RETURN(server_, GrpcServer::Start(*coordinator_, socket));
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
+  std::error_code error;
+  const std::string in_state =
+      fs::absolute(options_.coordinator.state_dir, error).string() + "/coordinator.sock";
+  if (CheckListenAddress("unix:" + in_state).ok()) return "unix:" + in_state;
+  std::string folder = (fs::temp_directory_path(error) / "orbweave-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) {
+    return absl::PermissionDeniedError(absl::StrCat("cannot create a folder like ", folder));
+  }
+  short_folder_ = folder;
+  return absl::StrCat("unix:", folder, "/coordinator.sock");
+}
+
+LocalFleet::~LocalFleet() {
+  supervisor_ = {};
+  if (coordinator_) coordinator_->BeginShutdown();
+  server_.reset();
+  std::error_code ignored;
+  if (!short_folder_.empty()) fs::remove_all(short_folder_, ignored);
+}
+
+uint32_t LocalFleet::restarts() const {
+  const std::lock_guard lock(mutex_);
+  return restarts_;
+}
+
+absl::Status LocalFleet::Health() const {
+  const std::lock_guard lock(mutex_);
+  return health_;
+}
+
+absl::StatusOr<JobStatus> LocalFleet::RunJob(const JobSpec& job,
+                                             const JobListener& listener,
+                                             const std::stop_token& stop) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest id, coordinator_->SubmitJob(job));
+  return WaitForJob(
+      *coordinator_, id, listener, [this] { return Health(); }, stop);
+}
+
+absl::Status LocalFleet::StartMember(Member& member) const {
+  const std::vector<std::string> arguments = {"orbweave",
+                                              "work",
+                                              "--join",
+                                              address(),
+                                              "--name",
+                                              member.name,
+                                              "--threads",
+                                              absl::StrCat(options_.threads_per_worker),
+                                              "--parent-pid",
+                                              absl::StrCat(::getpid())};
+  ORBWEAVE_ASSIGN_OR_RETURN(member.process, ChildProcess::SpawnSelf(arguments, member.log_path));
+  return absl::OkStatus();
+}
+
+void LocalFleet::Supervise(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  for (Member& member : members_) {
+    const absl::Status started = StartMember(member);
+    const std::lock_guard lock(mutex_);
+    health_.Update(started);
+  }
+  while (!stop.stop_requested()) {
+    ReviveDead();
+    std::unique_lock lock(mutex);
+    never.wait_for(lock, stop, kLook, [] { return false; });
+  }
+  EndMembers();
+}
+
+void LocalFleet::ReviveDead() {
+  for (Member& member : members_) {
+    const std::optional<std::string> end = member.process.PollEnd();
+    if (!end) continue;
+    coordinator_->WorkerDied(member.name);
+    const std::lock_guard lock(mutex_);
+    if (restarts_ == options_.max_restarts) {
+      health_.Update(absl::InternalError(absl::StrCat("workers died ",
+                                                      restarts_ + 1,
+                                                      " times, last ",
+                                                      member.name,
+                                                      " (",
+                                                      *end,
+                                                      "): see ",
+                                                      member.log_path)));
+      continue;
+    }
+    ++restarts_;
+    health_.Update(StartMember(member));
+  }
+}
+
+void LocalFleet::EndMembers() {
+  for (const Member& member : members_) member.process.Signal(SIGTERM);
+  const auto deadline = std::chrono::steady_clock::now() + kGrace;
+  for (Member& member : members_) {
+    while (member.process.IsRunning() && !member.process.PollEnd() &&
+           std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+  members_.clear();  // kills who is left
+}
+
+}  // namespace orbweave

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/child_process.h"
+#include "cli/wait_for_job.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/grpc_server.h"
+#include "core/base/clock.h"
+
+namespace orbweave {
+
+struct LocalFleetOptions {
+  CoordinatorOptions coordinator{};
+  uint32_t workers = 2;
+  int threads_per_worker = 1;
+  uint32_t max_restarts = 20;  ///< of all workers together
+};
+
+/// A coordinator in this process, listening on a unix socket in its state folder, and worker
+/// processes of the same executable (`<self> work --join ...`), which end with it however it ends.
+/// A worker that dies is started again; its tasks go to others at once. Workers write to
+/// `<state>/logs/worker-<n>.log`.
+class LocalFleet {
+ public:
+  /// Errors: those of Coordinator::Open and GrpcServer::Start.
+  [[nodiscard]] static absl::StatusOr<std::unique_ptr<LocalFleet>> Start(
+      const LocalFleetOptions& options);
+  /// Ends the workers (running tasks are given back), then the coordinator.
+  ~LocalFleet();
+
+  [[nodiscard]] CoordinatorApi& coordinator() { return *coordinator_; }
+  [[nodiscard]] const std::string& address() const { return server_->address(); }
+  [[nodiscard]] uint32_t restarts() const;
+
+  /// Submits a job and waits for its end; see WaitForJob. Unavailable: too many workers died.
+  [[nodiscard]] absl::StatusOr<JobStatus> RunJob(const JobSpec& job,
+                                                 const JobListener& listener,
+                                                 const std::stop_token& stop);
+
+ private:
+  struct Member {
+    std::string name{};
+    std::string log_path{};
+    ChildProcess process{};
+  };
+
+  explicit LocalFleet(const LocalFleetOptions& options) : options_(options) {}
+  [[nodiscard]] absl::Status OpenCoordinator();
+  [[nodiscard]] absl::StatusOr<std::string> ChooseSocket();
+  void Supervise(const std::stop_token& stop);
+  [[nodiscard]] absl::Status StartMember(Member& member) const;
+  void ReviveDead();
+  void EndMembers();
+  [[nodiscard]] absl::Status Health() const;
+
+  LocalFleetOptions options_;
+  SteadyClock clock_;
+  std::string short_folder_;  ///< of the socket, when the state folder's path is too long for one
+  std::unique_ptr<Coordinator> coordinator_;
+  std::unique_ptr<GrpcServer> server_;
+  std::vector<Member> members_;  ///< of the supervisor thread
+  mutable std::mutex mutex_;
+  uint32_t restarts_ = 0;
+  absl::Status health_;
+  std::jthread supervisor_;  ///< starts and ends all workers: they are told to die with the thread
+                             ///< that started them
+};
+
+}  // namespace orbweave

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "cli/cancel_command.h"
+#include "cli/command.h"
+#include "cli/evaluate_command.h"
+#include "cli/exit_code.h"
+#include "cli/export_command.h"
+#include "cli/options_command.h"
+#include "cli/reconstruct_command.h"
+#include "cli/run_command.h"
+#include "cli/serve_command.h"
+#include "cli/single_threaded_libraries.h"
+#include "cli/status_command.h"
+#include "cli/submit_command.h"
+#include "cli/synth_command.h"
+#include "cli/work_command.h"
+#include "core/pipeline/build_version.h"
+#include "worker/stage_table.h"
+
+int main(int argc, char** argv) {
+  orbweave::RunLibrariesOnOneThread(argv);
+  CLI::App app("Orbweave: structure from motion for 360-degree panoramas, on one machine or many");
+  app.set_version_flag("--version", "orbweave " + std::string(orbweave::BuildVersion()));
+  app.require_subcommand(1);
+  const orbweave::StageLookup stages = orbweave::FindStage;
+  orbweave::SelectedCommand selected;
+  orbweave::AddRunCommand(app, selected);
+  orbweave::AddReconstructCommand(app, selected);
+  orbweave::AddEvaluateCommand(app, selected);
+  orbweave::AddExportCommand(app, selected);
+  orbweave::AddOptionsCommand(app, selected);
+  orbweave::AddSynthCommand(app, selected);
+  orbweave::AddServeCommand(app, selected);
+  orbweave::AddWorkCommand(app, selected, stages);
+  orbweave::AddSubmitCommand(app, selected);
+  orbweave::AddStatusCommand(app, selected);
+  orbweave::AddCancelCommand(app, selected);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? orbweave::kExitOk : orbweave::kExitUsage;
+  }
+  return selected.run();
+}

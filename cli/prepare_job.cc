@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/prepare_job.h"
+
+#include <filesystem>
+
+#include "core/io/colmap_database.h"
+#include "core/io/file.h"
+#include "core/pipeline/job_plan.h"
+#include "core/stages/ingest_images.h"
+#include "core/stages/plan_recipes.h"
+#include "proto/codec/features_codec.h"
+#include "proto/codec/manifest_codec.h"
+#include "proto/codec/recipes_codec.h"
+
+namespace orbweave {
+namespace {
+
+constexpr size_t kPairsPerVerification = 256;
+
+absl::Status OfferFile(CoordinatorApi& coordinator, const Digest& digest, const std::string& path) {
+  const absl::Status linked = coordinator.LinkFile(digest, path);
+  if (linked.ok() || absl::IsDataLoss(linked)) return linked;
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest stored, coordinator.Put(bytes));
+  if (stored != digest) return absl::DataLossError(path + " changed while it was read; run again");
+  return absl::OkStatus();
+}
+
+/// Every usable file and mask that the coordinator does not know yet.
+absl::Status OfferFiles(CoordinatorApi& coordinator, const ImageSources& sources, const StageContext& context) {
+  std::vector<Digest> digests;
+  std::vector<std::string> paths;
+  for (const SourceImage& image : sources.images) {
+    if (!image.problem.empty()) continue;
+    digests.push_back(image.content);
+    paths.push_back(image.path);
+    if (image.mask.IsZero()) continue;
+    digests.push_back(image.mask);
+    paths.push_back(image.mask_path);
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<bool> known, coordinator.StatBlobs(digests));
+  for (size_t i = 0; i < digests.size(); ++i) {
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+    if (!known[i]) ORBWEAVE_RETURN_IF_ERROR(OfferFile(coordinator, digests[i], paths[i]));
+    context.Report(i + 1, digests.size(), "files");
+  }
+  return absl::OkStatus();
+}
+
+/// A database knows keypoints: one pixel of angular sigma, no descriptors, no colours.
+Features FeaturesOf(const DatabaseImage& image) {
+  Features features{.camera = image.camera, .keypoints = image.keypoints};
+  features.sigma_rad.assign(features.size(), static_cast<float>(image.camera.AngleFromPixels(1.0)));
+  features.colors.assign(features.size(), Rgb{128, 128, 128});
+  return features;
+}
+
+absl::StatusOr<std::vector<Digest>> PutFeatures(CoordinatorApi& coordinator, const ColmapDatabase& database) {
+  std::vector<Digest> blobs;
+  for (const DatabaseImage& image : database.images) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest features, coordinator.Put(EncodeFeatures(FeaturesOf(image))));
+    const PlaceSample place{.num_features = static_cast<uint32_t>(image.keypoints.size())};
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest sample, coordinator.Put(EncodePlaceSample(place)));
+    blobs.insert(blobs.end(), {features, sample});
+  }
+  return blobs;
+}
+
+absl::StatusOr<std::vector<Digest>> PutMatches(CoordinatorApi& coordinator,
+                                               const ColmapDatabase& database,
+                                               const std::vector<Digest>& feature_blobs) {
+  std::vector<MatchRecipe::Pair> pairs;
+  for (const TwoViewGeometry& pair : database.pairs) {
+    if (!pair.inliers.empty()) pairs.push_back({pair.pair, pair.inliers});
+  }
+  std::vector<Digest> features;
+  for (size_t i = 0; i < feature_blobs.size(); i += 2) features.push_back(feature_blobs[i]);
+  std::vector<Digest> recipes;
+  for (const MatchRecipe& recipe : PlanMatching(pairs, features, kPairsPerVerification)) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, coordinator.Put(EncodeMatchRecipe(recipe)));
+    recipes.push_back(digest);
+  }
+  return recipes;
+}
+
+}  // namespace
+
+absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
+                                        const ScanRequest& request,
+                                        const PipelineOptions& options,
+                                        const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImageFolder(request, context));
+  ORBWEAVE_RETURN_IF_ERROR(OfferFiles(coordinator, sources, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest blob, coordinator.Put(EncodeImageSources(sources)));
+  return JobSpec{.kind = "sparse",
+                 .inputs = {blob},
+                 .options_text = PipelineOptionsToText(options),
+                 .label = std::filesystem::path(request.image_folder).lexically_normal().filename().string()};
+}
+
+absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
+                                           const std::string& database_path,
+                                           const std::string& gnss_table,
+                                           const PipelineOptions& options,
+                                           const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ColmapDatabase database, ReadColmapDatabase(database_path));
+  ImageSources sources = SourcesFromDatabase(database);
+  if (!gnss_table.empty()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadFile(gnss_table));
+    sources.gnss_name = std::filesystem::path(gnss_table).filename().string();
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, IngestImages(sources, options.ingest, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features, PutFeatures(coordinator, database));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> recipes, PutMatches(coordinator, database, features));
+  JobSpec job{.kind = "sparse_from_matches",
+              .options_text = PipelineOptionsToText(options),
+              .label = std::filesystem::path(database_path).filename().string()};
+  for (const std::string& bytes :
+       {EncodeImageManifest(manifest), EncodeCollection(features), EncodeCollection(recipes)}) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, coordinator.Put(bytes));
+    job.inputs.push_back(digest);
+  }
+  return job;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "core/base/stage_context.h"
+#include "core/io/scan_image_folder.h"
+#include "core/pipeline/coordinator_api.h"
+#include "core/stages/pipeline_options.h"
+
+namespace orbweave {
+
+/// Makes everything a job on a folder of panoramas reads known to the coordinator: files are linked where
+/// the coordinator can read them itself and uploaded where it cannot. The job is not submitted.
+[[nodiscard]] absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
+                                                      const ScanRequest& request,
+                                                      const PipelineOptions& options,
+                                                      const StageContext& context);
+
+/// The same for keypoints and matches from a COLMAP database. `gnss_table`: path, or empty.
+[[nodiscard]] absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
+                                                         const std::string& database,
+                                                         const std::string& gnss_table,
+                                                         const PipelineOptions& options,
+                                                         const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/progress_bar.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+
+namespace orbweave {
+namespace {
+
+/// What the stages of a job on images usually cost, in percent of the whole.
+constexpr std::array<std::pair<std::string_view, double>, 10> kWeights = {{
+    {"ingest_images", 1.0},
+    {"extract_features", 30.0},
+    {"select_image_pairs", 3.0},
+    {"match_images", 25.0},
+    {"verify_matches", 10.0},
+    {"partition_view_graph", 1.0},
+    {"reconstruct_cluster", 28.0},
+    {"align_submodels", 1.0},
+    {"merge_submodels", 1.0},
+    {"adjust_globally", 10.0},
+}};
+
+double WeightOf(const std::string& stage) {
+  for (const auto& [name, weight] : kWeights) {
+    if (name == stage) return weight;
+  }
+  return 1.0;
+}
+
+/// How many stages lie behind: all before the last one that has tasks, and that one when its tasks
+/// are done.
+size_t CountPastStages(const JobStatus& job) {
+  if (job.state == JobState::kDone) return job.stages.size();
+  size_t past = 0;
+  for (size_t s = 0; s < job.stages.size(); ++s) {
+    const StageStatus& stage = job.stages[s];
+    if (stage.tasks_total > 0) past = stage.tasks_done == stage.tasks_total ? s + 1 : s;
+  }
+  return past;
+}
+
+double FractionOf(double tasks, uint32_t total) {
+  return total == 0 ? 0.0 : std::min(1.0, tasks / static_cast<double>(total));
+}
+
+std::string FormatView(const ProgressView& view) {
+  if (view.stage.empty()) return "done";
+  std::string text = absl::StrFormat("%s %.*f/%u",
+                                     view.stage,
+                                     view.tasks_total < 10 && view.tasks_total > 0 ? 1 : 0,
+                                     view.tasks_done,
+                                     view.tasks_total);
+  if (view.tasks_per_s > 0.0)
+    absl::StrAppend(&text, absl::StrFormat("  %.2g tasks/s", view.tasks_per_s));
+  if (view.eta_s >= 0.0) absl::StrAppend(&text, "  about ", FormatDuration(view.eta_s), " left");
+  return text;
+}
+
+std::string Bar(double fraction) {
+  constexpr size_t kWidth = 30;
+  const auto filled = static_cast<size_t>(std::lround(fraction * kWidth));
+  return absl::StrCat("[", std::string(filled, '#'), std::string(kWidth - filled, '.'), "]");
+}
+
+}  // namespace
+
+ProgressView ViewProgress(const JobStatus& status) {
+  const size_t past = CountPastStages(status);
+  double total = 0.0;
+  double done = 0.0;
+  double reused = 0.0;
+  for (size_t s = 0; s < status.stages.size(); ++s) {
+    const StageStatus& stage = status.stages[s];
+    const double weight = WeightOf(stage.stage);
+    total += weight;
+    reused += weight * FractionOf(stage.tasks_reused, stage.tasks_total);
+    done +=
+        weight *
+        (s < past ? 1.0 : FractionOf(stage.tasks_done + stage.fraction_running, stage.tasks_total));
+  }
+  ProgressView view;
+  view.fraction = total > 0.0 ? done / total : 0.0;
+  const double computed = total > 0.0 ? (done - reused) / total : 0.0;
+  if (computed > 0.02) view.eta_s = status.elapsed_s * (1.0 - view.fraction) / computed;
+  if (past == status.stages.size()) return view;
+  const StageStatus& active = status.stages[past];
+  view.stage = active.stage;
+  view.tasks_done = active.tasks_done + active.fraction_running;
+  view.tasks_total = active.tasks_total;
+  if (active.wall_s > 0.0)
+    view.tasks_per_s = (active.tasks_done - active.tasks_reused) / active.wall_s;
+  return view;
+}
+
+std::string FormatDuration(double seconds) {
+  const auto whole = static_cast<int64_t>(std::llround(std::max(0.0, seconds)));
+  if (whole < 60) return absl::StrFormat("%d s", whole);
+  if (whole < 3600) return absl::StrFormat("%d min %02d s", whole / 60, whole % 60);
+  return absl::StrFormat("%d h %02d min", whole / 3600, whole % 3600 / 60);
+}
+
+ProgressBar::ProgressBar(std::FILE* out) : out_(out), is_terminal_(::isatty(::fileno(out)) == 1) {}
+
+ProgressBar::~ProgressBar() { Finish(); }
+
+void ProgressBar::Update(const JobStatus& status) {
+  const ProgressView view = ViewProgress(status);
+  const std::string percent = absl::StrFormat("%3.0f %%", 100.0 * view.fraction);
+  if (is_terminal_) {
+    std::fprintf(out_,
+                 "\r\033[K%s %s  %s",
+                 Bar(view.fraction).c_str(),
+                 percent.c_str(),
+                 FormatView(view).c_str());
+    line_is_open_ = true;
+  } else if (IsWorthALine(view, status.elapsed_s)) {
+    std::fprintf(out_,
+                 "%s  %s  after %s\n",
+                 percent.c_str(),
+                 FormatView(view).c_str(),
+                 FormatDuration(status.elapsed_s).c_str());
+    last_stage_ = view.stage;
+    last_line_s_ = status.elapsed_s;
+  }
+  std::fflush(out_);
+}
+
+bool ProgressBar::IsWorthALine(const ProgressView& view, double elapsed_s) const {
+  constexpr double kEvery_s = 15.0;
+  return view.stage != last_stage_ || elapsed_s - last_line_s_ > kEvery_s;
+}
+
+void ProgressBar::Finish() {
+  if (line_is_open_) std::fputc('\n', out_);
+  line_is_open_ = false;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/reconstruct_command.h"
+
+#include <memory>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/option_arguments.h"
+#include "cli/prepare_job.h"
+#include "cli/run_local_job.h"
+
+namespace orbweave {
+namespace {
+
+struct ReconstructArguments {
+  std::string database{};
+  std::string gnss{};
+  std::string output{};
+  bool single = false;
+  uint32_t workers = 2;
+  OptionArguments options{};
+};
+
+absl::Status Reconstruct(const ReconstructArguments& arguments) {
+  ORBWEAVE_ASSIGN_OR_RETURN(PipelineOptions options, ReadOptions(arguments.options));
+  if (arguments.single) options.partition.cluster_size = 0;
+  return RunLocalJob({.output = arguments.output,
+                      .workers = arguments.workers,
+                      .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
+                        return PrepareDatabaseJob(coordinator, arguments.database, arguments.gnss, options, context);
+                      }});
+}
+
+}  // namespace
+
+void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("reconstruct", "Reconstruct from the keypoints and matches of a COLMAP database");
+  const auto arguments = std::make_shared<ReconstructArguments>();
+  command->add_option("--database", arguments->database, "COLMAP (3.8 to 4.x) or SphereSfM database")->required();
+  command->add_option("--output", arguments->output, "Folder of the results; run again with it to go on")->required();
+  command->add_option("--gnss", arguments->gnss, "Positions, instead of the database's pose priors");
+  command->add_flag("--single", arguments->single, "One cluster: do not divide");
+  command->add_option("--workers", arguments->workers, "Worker processes")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  AddOptionArguments(*command, arguments->options);
+  command->footer(
+      "Examples:\n"
+      "  orbweave synth corridor --panoramas 500 --output corridor\n"
+      "  orbweave reconstruct --database corridor/corridor.db --gnss corridor/gnss.csv --output model\n"
+      "  orbweave reconstruct --database corridor/corridor.db --single --output undivided");
+  command->callback(
+      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Reconstruct(*arguments)); }; });
+}
+
+}  // namespace orbweave

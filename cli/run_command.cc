@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run_command.h"
+
+#include <memory>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/image_arguments.h"
+#include "cli/option_arguments.h"
+#include "cli/prepare_job.h"
+#include "cli/run_local_job.h"
+
+namespace orbweave {
+namespace {
+
+struct RunArguments {
+  ScanRequest scan{};
+  std::string output{};
+  uint32_t workers = 2;
+  OptionArguments options{};
+};
+
+absl::Status Run(const RunArguments& arguments) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
+  return RunLocalJob({.output = arguments.output,
+                      .workers = arguments.workers,
+                      .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
+                        return PrepareImageJob(coordinator, arguments.scan, options, context);
+                      }});
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("run", "Reconstruct a folder of panoramas on this machine");
+  const auto arguments = std::make_shared<RunArguments>();
+  AddImageArguments(*command, arguments->scan);
+  command->add_option("--output", arguments->output, "Folder of the results; run again with it to go on")->required();
+  command->add_option("--workers", arguments->workers, "Worker processes")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  AddOptionArguments(*command, arguments->options);
+  command->footer(
+      "Examples:\n"
+      "  orbweave run street/images --output street/model --gnss street/gnss.csv --masks street/masks\n"
+      "  orbweave run flat --output flat_model --workers 4 --set features.max_features=4096\n"
+      "Ctrl-C stops cleanly; the same command goes on where it was.");
+  command->callback([arguments, &selected] { selected.run = [arguments] { return ReportStatus(Run(*arguments)); }; });
+}
+
+}  // namespace orbweave

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/serve_command.h"
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "cli/exit_code.h"
+#include "cli/log_line.h"
+#include "cli/stop_signals.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/grpc_server.h"
+
+namespace orbweave {
+namespace {
+
+struct ServeOptions {
+  std::string listen{};
+  CoordinatorOptions coordinator{};
+};
+
+void WaitForStop(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  never.wait(lock, stop, [] { return false; });
+}
+
+absl::Status Serve(const ServeOptions& options) {
+  const StopSignals signals;
+  const SteadyClock clock;
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(options.coordinator, clock));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto server, GrpcServer::Start(*coordinator, options.listen));
+  LogLine(absl::StrCat(
+      "coordinator ready address=", server->address(), " state=", options.coordinator.state_dir));
+  WaitForStop(signals.token());
+  coordinator->BeginShutdown();
+  LogLine("coordinator stops; its jobs go on when it is started again on the same state");
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command =
+      app.add_subcommand("serve", "Run a coordinator: give the tasks of jobs to workers that join");
+  const auto options = std::make_shared<ServeOptions>();
+  options->coordinator.log = LogLine;
+  command
+      ->add_option(
+          "--listen", options->listen, "unix:/path or 127.0.0.1:port (port 0: any free one)")
+      ->required();
+  command
+      ->add_option("--state", options->coordinator.state_dir, "Folder of blobs, results and jobs")
+      ->required();
+  command
+      ->add_option("--lease",
+                   options->coordinator.lease_s,
+                   "Seconds of silence after which a worker is given up")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->callback(
+      [options, &selected] { selected.run = [options] { return ReportStatus(Serve(*options)); }; });
+}
+
+}  // namespace orbweave

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/status_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/find_job.h"
+#include "cli/format_status.h"
+#include "cli/progress_bar.h"
+#include "cli/stop_signals.h"
+#include "cli/wait_for_job.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+struct StatusOptions {
+  std::string coordinator{};
+  std::string job{};
+  bool json = false;
+  bool watch = false;
+};
+
+absl::StatusOr<std::vector<JobStatus>> WantedJobs(CoordinatorApi& coordinator,
+                                                  const std::string& prefix) {
+  if (prefix.empty()) return coordinator.ListJobs();
+  ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, FindJob(coordinator, prefix));
+  return std::vector<JobStatus>{std::move(job)};
+}
+
+void Print(const std::vector<JobStatus>& jobs, bool as_json) {
+  if (!as_json && jobs.empty()) std::puts("no jobs");
+  for (const JobStatus& job : jobs) {
+    std::fputs((as_json ? JobStatusToJson(job) + "\n" : FormatJobStatus(job)).c_str(), stdout);
+  }
+}
+
+/// Follows the job asked for, or the last submitted one, to its end.
+absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job) {
+  const StopSignals signals;
+  ProgressBar bar(stderr);
+  const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus last,
+                            WaitForJob(coordinator, job.id, show, {}, signals.token()));
+  bar.Finish();
+  Print({last}, false);
+  return absl::OkStatus();
+}
+
+absl::Status ShowStatus(const StatusOptions& options) {
+  GrpcCoordinatorClient coordinator(options.coordinator);
+  absl::StatusOr<std::vector<JobStatus>> jobs = WantedJobs(coordinator, options.job);
+  if (absl::IsUnavailable(jobs.status())) {
+    return Annotate(jobs.status(), "no coordinator answers at " + options.coordinator);
+  }
+  ORBWEAVE_RETURN_IF_ERROR(jobs.status());
+  if (options.watch && !jobs->empty()) return Watch(coordinator, jobs->back());
+  Print(*jobs, options.json);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("status", "Show the jobs of a coordinator");
+  const auto options = std::make_shared<StatusOptions>();
+  command->add_option("--coordinator", options->coordinator, "Address of the coordinator")
+      ->required();
+  command->add_option("job", options->job, "First digits of a job's id (default: all jobs)");
+  CLI::Option* json =
+      command->add_flag("--json", options->json, "One JSON object per job and line");
+  command->add_flag("--watch", options->watch, "Follow the job, or the last one, to its end")
+      ->excludes(json);
+  command->callback([options, &selected] {
+    selected.run = [options] { return ReportStatus(ShowStatus(*options)); };
+  });
+}
+
+}  // namespace orbweave

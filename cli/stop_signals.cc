@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/stop_signals.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <ctime>
+
+#include "cli/exit_code.h"
+
+namespace orbweave {
+namespace {
+
+sigset_t StoppingSignals() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGINT);
+  ::sigaddset(&signals, SIGTERM);
+  return signals;
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  const sigset_t signals = StoppingSignals();
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  listener_ = std::jthread([this](const std::stop_token& end) {
+    const sigset_t awaited = StoppingSignals();
+    const timespec look{.tv_sec = 0, .tv_nsec = 100'000'000};
+    while (!end.stop_requested()) {
+      if (::sigtimedwait(&awaited, nullptr, &look) < 0) continue;
+      if (!source_.request_stop()) ::_exit(kExitInterrupted);
+    }
+  });
+}
+
+}  // namespace orbweave

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stop_token>
+#include <thread>
+
+namespace orbweave {
+
+/// While it lives, the first SIGINT or SIGTERM asks for a stop through `token()`; the second ends
+/// the process at once. To be made before any other thread, so that all threads leave these signals
+/// to it.
+class StopSignals {
+ public:
+  StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::jthread listener_;
+};
+
+}  // namespace orbweave

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/submit_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/format_summary.h"
+#include "cli/image_arguments.h"
+#include "cli/option_arguments.h"
+#include "cli/prepare_job.h"
+#include "cli/progress_bar.h"
+#include "cli/stop_signals.h"
+#include "cli/wait_for_job.h"
+#include "cli/write_outputs.h"
+#include "core/io/file.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+struct SubmitArguments {
+  std::string coordinator{};
+  ScanRequest scan{};
+  std::string output{};
+  OptionArguments options{};
+};
+
+absl::Status WaitAndWrite(CoordinatorApi& coordinator,
+                          const Digest& job,
+                          const std::string& output,
+                          const std::stop_token& stop) {
+  ProgressBar bar(stderr);
+  const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status, WaitForJob(coordinator, job, show, {}, stop));
+  bar.Finish();
+  if (status.state != JobState::kDone) return absl::InternalError("the job did not finish: " + status.error);
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(coordinator, status, output));
+  std::fputs(FormatSummary(report, output).c_str(), stdout);
+  return absl::OkStatus();
+}
+
+absl::Status Submit(const SubmitArguments& arguments) {
+  const StopSignals signals;
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
+  if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
+  GrpcCoordinatorClient coordinator(arguments.coordinator);
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec,
+                            PrepareImageJob(coordinator, arguments.scan, options, {.stop = signals.token()}));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator.SubmitJob(spec));
+  if (!arguments.output.empty()) return WaitAndWrite(coordinator, job, arguments.output, signals.token());
+  std::printf("%s\n", job.ToHex().c_str());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
+  const auto arguments = std::make_shared<SubmitArguments>();
+  command->add_option("--coordinator", arguments->coordinator, "Address of the coordinator")->required();
+  AddImageArguments(*command, arguments->scan);
+  command->add_option("--output", arguments->output,
+                      "Wait for the end and write the results here (default: print the job's id and leave)");
+  AddOptionArguments(*command, arguments->options);
+  command->footer(
+      "Examples:\n"
+      "  orbweave serve --listen 127.0.0.1:7000 --state state &\n"
+      "  orbweave work --join 127.0.0.1:7000 --slots 2 &\n"
+      "  orbweave submit --coordinator 127.0.0.1:7000 street/images --gnss street/gnss.csv --output model\n"
+      "The same command after an interruption joins the job, or collects its results.");
+  command->callback(
+      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Submit(*arguments)); }; });
+}
+
+}  // namespace orbweave

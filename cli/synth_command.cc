@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/synth_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "absl/strings/str_format.h"
+#include "cli/exit_code.h"
+#include "core/io/cameras_csv.h"
+#include "core/io/colmap_database.h"
+#include "core/io/file.h"
+#include "core/synthetic/corridor.h"
+
+namespace orbweave {
+namespace {
+
+struct CorridorArguments {
+  CorridorOptions options{};
+  std::string output{};
+};
+
+/// One command-line option per field of an options struct: --noise-px for noise_px.
+template <typename Options>
+void AddFields(CLI::App& command, Options& options) {
+  internal::ForEachField(options, [&](std::string_view name, auto& member, std::string_view help, Range range) {
+    std::string flag = "--" + std::string(name);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    const std::string key(name);
+    Options* target = &options;
+    command
+        .add_option_function<std::string>(
+            flag,
+            [target, key](const std::string& text) {
+              const absl::Status status = SetOption(*target, key, text);
+              if (!status.ok()) throw CLI::ValidationError(std::string(status.message()));
+            },
+            std::string(help))
+        ->type_name(internal::RangeOf(member, range))
+        ->default_str(internal::ValueToText(member));
+  });
+}
+
+std::string GnssCsv(const ImageManifest& manifest) {
+  std::string csv = "name,latitude,longitude,altitude,accuracy\n";
+  for (const ImageRecord& image : manifest.images) {
+    if (!image.prior.geodetic) continue;
+    absl::StrAppendFormat(&csv, "%s,%.9f,%.9f,%.4f,%.3f\n", image.name, image.prior.geodetic->latitude_deg,
+                          image.prior.geodetic->longitude_deg, image.prior.geodetic->altitude_m,
+                          image.prior.horizontal_sigma_m);
+  }
+  return csv;
+}
+
+std::string TruthCsv(const Corridor& corridor) {
+  Reconstruction truth;
+  for (const ImageRecord& image : corridor.manifest.images) {
+    truth.images[image.id].cam_from_world = corridor.cams_from_world[image.id.value];
+  }
+  return CamerasCsv(truth, corridor.manifest, false);
+}
+
+std::vector<TwoViewGeometry> VerifiedPairs(Corridor& corridor) {
+  std::vector<TwoViewGeometry> pairs;
+  for (PairMatches& pair : corridor.pairs) {
+    const auto count = static_cast<uint32_t>(pair.matches.size());
+    pairs.push_back({.pair = pair.pair, .inliers = std::move(pair.matches), .num_putative = count});
+  }
+  return pairs;
+}
+
+absl::Status WriteCorridor(const CorridorArguments& arguments) {
+  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
+  Corridor corridor = MakeCorridor(arguments.options);
+  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(arguments.output + "/truth.csv", TruthCsv(corridor)));
+  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(arguments.output + "/gnss.csv", GnssCsv(corridor.manifest)));
+  const std::vector<TwoViewGeometry> pairs = VerifiedPairs(corridor);
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteColmapDatabase(arguments.output + "/corridor.db", corridor.manifest, corridor.features, pairs));
+  std::printf("%zu panoramas and %zu pairs written to %s\n", corridor.features.size(), pairs.size(),
+              arguments.output.c_str());
+  return absl::OkStatus();
+}
+
+void AddCorridor(CLI::App& synth, SelectedCommand& selected) {
+  CLI::App* command = synth.add_subcommand("corridor", "Rays only, for scale: keypoints and matches, no pixels");
+  const auto arguments = std::make_shared<CorridorArguments>();
+  AddFields(*command, arguments->options);
+  command->add_option("--output", arguments->output, "Folder for corridor.db, gnss.csv and truth.csv")->required();
+  command->footer(
+      "Examples:\n"
+      "  orbweave synth corridor --panoramas 500 --output corridor\n"
+      "  orbweave synth corridor --panoramas 2000 --shape grid --outlier-share 0.3 --output grid");
+  command->callback(
+      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(WriteCorridor(*arguments)); }; });
+}
+
+}  // namespace
+
+void AddSynthCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("synth", "Make streets whose truth is known");
+  command->require_subcommand(1);
+  AddCorridor(*command, selected);
+}
+
+}  // namespace orbweave

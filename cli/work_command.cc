@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/work_command.h"
+
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "cli/exit_code.h"
+#include "cli/log_line.h"
+#include "cli/stop_signals.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+std::string DefaultName() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return absl::StrCat(host.data(), "-", ::getpid());
+}
+
+/// False when the parent is dead already.
+bool DieWithParent(int parent_pid) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  return ::getppid() == parent_pid;
+}
+
+absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
+  if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
+  const StopSignals signals;
+  const SteadyClock clock;
+  GrpcCoordinatorClient coordinator(options.join, signals.token());
+  LogLine(absl::StrCat("worker started name=", options.worker.name, " coordinator=", options.join));
+  const absl::Status status =
+      RunWorker(coordinator, stages, options.worker, clock, signals.token());
+  LogLine(absl::StrCat("worker ended name=", options.worker.name));
+  return status;
+}
+
+}  // namespace
+
+void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup& stages) {
+  CLI::App* command = app.add_subcommand("work", "Run a worker: do tasks for a coordinator");
+  const auto options = std::make_shared<WorkOptions>();
+  options->worker.name = DefaultName();
+  options->worker.log = LogLine;
+  command->add_option("--join", options->join, "Address of the coordinator")->required();
+  command->add_option("--slots", options->worker.slots, "Tasks at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--threads", options->worker.threads_per_task, "Threads of one task")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--name", options->worker.name, "Name, unique among the coordinator's workers")
+      ->capture_default_str();
+  command
+      ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
+      ->group("");
+  command->callback([options, &selected, &stages] {
+    selected.run = [options, &stages] { return ReportStatus(Work(*options, stages)); };
+  });
+}
+
+}  // namespace orbweave

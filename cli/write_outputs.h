@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pipeline/coordinator_api.h"
+#include "core/stages/build_job_report.h"
+
+namespace orbweave {
+
+/// Writes everything a finished job leaves in its folder: sparse/N in COLMAP's format, points.ply, cameras.csv,
+/// trajectory.geojson, georeference.json, report.json, report.html, trace.json. Returns the report.
+/// Codes of WriteFileAtomically; what was written before stays.
+[[nodiscard]] absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
+                                                     const JobStatus& status,
+                                                     const std::string& folder);
+
+}  // namespace orbweave

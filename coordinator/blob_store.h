@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/pipeline/blob_access.h"
+
+namespace orbweave {
+
+/// Blobs in a folder: `<folder>/ab/<hex>` holds the bytes, `<folder>/links/<hex>` the absolute path
+/// of a file outside that holds them. A blob is written once and whole. Every read is verified; a
+/// blob that is not what its name says is removed, so that it can be made again. Thread-safe.
+class BlobStore final : public BlobAccess {
+ public:
+  [[nodiscard]] static absl::StatusOr<BlobStore> Open(const std::string& folder);
+
+  [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
+  [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
+
+  /// Whether the blob, or the file it links to, is there; its bytes are not looked at.
+  [[nodiscard]] bool Has(const Digest& digest) const;
+  /// Whether it is there and its bytes are right (otherwise it is removed).
+  [[nodiscard]] bool Verify(const Digest& digest);
+  /// See CoordinatorApi::LinkFile. InvalidArgument: the path is not absolute.
+  [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path);
+
+ private:
+  explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
+  [[nodiscard]] std::string BlobPath(const Digest& digest) const;
+  [[nodiscard]] std::string LinkPath(const Digest& digest) const;
+  [[nodiscard]] std::string ScratchDir() const { return folder_ + "/tmp"; }
+  /// The file that holds the blob's bytes, whether ours or linked; empty when there is none.
+  [[nodiscard]] std::string FileOf(const Digest& digest) const;
+  void Forget(const Digest& digest) const;
+
+  std::string folder_;
+};
+
+}  // namespace orbweave

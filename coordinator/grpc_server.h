@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <grpcpp/server.h>
+
+#include <memory>
+#include <string>
+
+#include "coordinator/grpc_service.h"
+
+namespace orbweave {
+
+/// Serves a CoordinatorApi on an address until destroyed. Before that, whatever keeps calls waiting
+/// in `api` has to let go (Coordinator::BeginShutdown).
+class GrpcServer {
+ public:
+  /// `address`: see CheckListenAddress; port 0 lets the system choose. InvalidArgument: not
+  /// allowed. Unavailable: taken, or not ours to use.
+  [[nodiscard]] static absl::StatusOr<std::unique_ptr<GrpcServer>> Start(
+      CoordinatorApi& api, const std::string& address);
+  ~GrpcServer();
+
+  /// Where workers and clients find it.
+  [[nodiscard]] const std::string& address() const { return address_; }
+
+ private:
+  explicit GrpcServer(CoordinatorApi& api) : service_(api) {}
+
+  GrpcService service_;
+  std::string address_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace orbweave

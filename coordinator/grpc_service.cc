@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/grpc_service.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "proto/codec/coordinator_codec.h"
+
+/// Leaves a handler with the status of `expression` unless it is OK.
+#define ORBWEAVE_GRPC_ASSIGN_OR_RETURN(declaration, expression) \
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN_INNER(                         \
+      ORBWEAVE_CONCAT(orbweave_value_, __LINE__), declaration, expression)
+#define ORBWEAVE_GRPC_ASSIGN_OR_RETURN_INNER(temporary, declaration, expression) \
+  auto temporary = (expression);                                                 \
+  if (!temporary.ok()) return OnWire(temporary.status());                        \
+  declaration = std::move(temporary).value()
+
+namespace orbweave {
+namespace {
+
+constexpr size_t kChunkBytes = size_t{512} << 10;
+constexpr size_t kMaxBlobBytes = size_t{8} << 30;
+/// Error texts travel in a header, which gRPC limits to 8 KiB.
+constexpr size_t kMaxErrorBytes = 4000;
+
+/// The codes of absl::Status and gRPC are the same numbers.
+grpc::Status OnWire(const absl::Status& status) {
+  if (status.ok()) return grpc::Status::OK;
+  return {static_cast<grpc::StatusCode>(status.code()),
+          std::string(status.message().substr(0, kMaxErrorBytes))};
+}
+
+grpc::Status ReaderLeft() { return {grpc::StatusCode::CANCELLED, "the reader left"}; }
+
+}  // namespace
+
+grpc::Status GrpcService::Join(Context*, const v1::JoinRequest* request, v1::JoinReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JoinReply joined, api_.Join(FromProto(*request)));
+  *reply = ToProto(joined);
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::LeaseTask(Context* context,
+                                    const v1::LeaseTaskRequest* request,
+                                    v1::LeaseTaskReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(
+      const std::optional<Lease> lease,
+      api_.LeaseTask(request->session(), request->slot(), request->wait_s()));
+  if (!lease) return grpc::Status::OK;
+  if (context->IsCancelled()) {  // nobody is there to take it
+    return OnWire(
+        api_.FailTask(request->session(), *lease, absl::CancelledError("the worker hung up")));
+  }
+  *reply->mutable_lease() = ToProto(*lease);
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::Heartbeat(Context*,
+                                    const v1::HeartbeatRequest* request,
+                                    v1::HeartbeatReply* reply) {
+  std::vector<LeaseProgress> leases;
+  for (const v1::LeaseProgress& held : request->leases()) {
+    ORBWEAVE_GRPC_ASSIGN_OR_RETURN(leases.emplace_back(), FromProto(held));
+  }
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const HeartbeatReply heard,
+                                 api_.Heartbeat(request->session(), leases));
+  *reply = ToProto(heard);
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::CompleteTask(Context*,
+                                       const v1::CompleteTaskRequest* request,
+                                       v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Lease lease, FromProto(request->lease()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const TaskResult result, FromProto(request->result()));
+  return OnWire(api_.CompleteTask(request->session(), lease, result));
+}
+
+grpc::Status GrpcService::FailTask(Context*, const v1::FailTaskRequest* request, v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Lease lease, FromProto(request->lease()));
+  const absl::Status error(static_cast<absl::StatusCode>(request->code()), request->message());
+  return OnWire(api_.FailTask(request->session(), lease, error));
+}
+
+grpc::Status GrpcService::Leave(Context*, const v1::LeaveRequest* request, v1::Empty*) {
+  return OnWire(api_.Leave(request->session()));
+}
+
+grpc::Status GrpcService::SubmitJob(Context*, const v1::JobSpec* request, v1::JobReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JobSpec job, FromProto(*request));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, api_.SubmitJob(job));
+  reply->set_id(ToProto(id));
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::GetJob(Context*, const v1::JobRequest* request, v1::JobStatus* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JobStatus status, api_.GetJob(id));
+  *reply = ToProto(status);
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::ListJobs(Context*, const v1::Empty*, v1::ListJobsReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, api_.ListJobs());
+  for (const JobStatus& job : jobs) *reply->add_jobs() = ToProto(job);
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::CancelJob(Context*, const v1::JobRequest* request, v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
+  return OnWire(api_.CancelJob(id));
+}
+
+grpc::Status GrpcService::GetOutcomes(Context*,
+                                      const v1::JobRequest* request,
+                                      grpc::ServerWriter<v1::TaskOutcome>* writer) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes, api_.GetOutcomes(id));
+  for (const TaskOutcome& outcome : outcomes) {
+    if (!writer->Write(ToProto(outcome))) return ReaderLeft();
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::GetTimings(Context*,
+                                     const v1::JobRequest* request,
+                                     grpc::ServerWriter<v1::TaskTiming>* writer) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<TaskTiming> timings, api_.GetTimings(id));
+  for (const TaskTiming& timing : timings) {
+    if (!writer->Write(ToProto(timing))) return ReaderLeft();
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::StatBlobs(Context*,
+                                    const v1::StatBlobsRequest* request,
+                                    v1::StatBlobsReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<Digest> digests,
+                                 DigestsFromProto(request->digests()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<bool> stored, api_.StatBlobs(digests));
+  for (const bool is_stored : stored) reply->add_stored(is_stored);
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::LinkFile(Context*, const v1::LinkFileRequest* request, v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
+  return OnWire(api_.LinkFile(digest, request->path()));
+}
+
+grpc::Status GrpcService::GetBlob(Context*,
+                                  const v1::GetBlobRequest* request,
+                                  grpc::ServerWriter<v1::BlobChunk>* writer) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::string bytes, api_.Get(digest));
+  for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
+    v1::BlobChunk chunk;
+    chunk.set_data(bytes.data() + offset, std::min(kChunkBytes, bytes.size() - offset));
+    if (!writer->Write(chunk)) return ReaderLeft();
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::PutBlob(Context* context,
+                                  grpc::ServerReader<v1::BlobChunk>* reader,
+                                  v1::PutBlobReply* reply) {
+  std::string bytes;
+  v1::BlobChunk chunk;
+  while (reader->Read(&chunk)) {
+    bytes += chunk.data();
+    if (bytes.size() > kMaxBlobBytes)
+      return OnWire(absl::InvalidArgumentError("a blob of more than 8 GiB"));
+  }
+  if (context->IsCancelled()) return {grpc::StatusCode::CANCELLED, "the writer left"};
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, api_.Put(bytes));
+  reply->set_digest(ToProto(digest));
+  return grpc::Status::OK;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/pipeline/coordinator_api.h"
+#include "orbweave/v1/coordinator.grpc.pb.h"
+
+namespace orbweave {
+
+/// CoordinatorApi on the wire: each handler decodes, calls and encodes.
+class GrpcService final : public v1::Coordinator::Service {
+ public:
+  explicit GrpcService(CoordinatorApi& api) : api_(api) {}
+
+  using Context = grpc::ServerContext;
+
+  grpc::Status Join(Context*, const v1::JoinRequest*, v1::JoinReply*) override;
+  grpc::Status LeaseTask(Context*, const v1::LeaseTaskRequest*, v1::LeaseTaskReply*) override;
+  grpc::Status Heartbeat(Context*, const v1::HeartbeatRequest*, v1::HeartbeatReply*) override;
+  grpc::Status CompleteTask(Context*, const v1::CompleteTaskRequest*, v1::Empty*) override;
+  grpc::Status FailTask(Context*, const v1::FailTaskRequest*, v1::Empty*) override;
+  grpc::Status Leave(Context*, const v1::LeaveRequest*, v1::Empty*) override;
+
+  grpc::Status SubmitJob(Context*, const v1::JobSpec*, v1::JobReply*) override;
+  grpc::Status GetJob(Context*, const v1::JobRequest*, v1::JobStatus*) override;
+  grpc::Status ListJobs(Context*, const v1::Empty*, v1::ListJobsReply*) override;
+  grpc::Status CancelJob(Context*, const v1::JobRequest*, v1::Empty*) override;
+  grpc::Status GetOutcomes(Context*,
+                           const v1::JobRequest*,
+                           grpc::ServerWriter<v1::TaskOutcome>*) override;
+  grpc::Status GetTimings(Context*,
+                          const v1::JobRequest*,
+                          grpc::ServerWriter<v1::TaskTiming>*) override;
+
+  grpc::Status StatBlobs(Context*, const v1::StatBlobsRequest*, v1::StatBlobsReply*) override;
+  grpc::Status LinkFile(Context*, const v1::LinkFileRequest*, v1::Empty*) override;
+  grpc::Status GetBlob(Context*,
+                       const v1::GetBlobRequest*,
+                       grpc::ServerWriter<v1::BlobChunk>*) override;
+  grpc::Status PutBlob(Context*, grpc::ServerReader<v1::BlobChunk>*, v1::PutBlobReply*) override;
+
+ private:
+  CoordinatorApi& api_;
+};
+
+}  // namespace orbweave

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/lease_book.h"
+
+#include "absl/strings/str_cat.h"
+
+namespace orbweave {
+
+const LeaseEntry* LeaseBook::Renew(uint64_t epoch,
+                                   const Digest& task,
+                                   uint64_t session,
+                                   double until_s) {
+  const auto it = entries_.find(epoch);
+  if (it == entries_.end() || it->second.task != task || it->second.session != session)
+    return nullptr;
+  it->second.until_s = until_s;
+  return &it->second;
+}
+
+absl::StatusOr<LeaseEntry> LeaseBook::Take(uint64_t epoch, const Digest& task, uint64_t session) {
+  const auto it = entries_.find(epoch);
+  if (it == entries_.end() || it->second.task != task || it->second.session != session) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        "stale lease of task ", task.ToShortHex(), " (epoch ", epoch, "): it was given away"));
+  }
+  const LeaseEntry entry = it->second;
+  entries_.erase(it);
+  return entry;
+}
+
+template <typename Predicate>
+std::vector<LeaseEntry> LeaseBook::TakeIf(Predicate predicate) {
+  std::vector<LeaseEntry> taken;
+  std::erase_if(entries_, [&](const auto& item) {
+    if (!predicate(item.second)) return false;
+    taken.push_back(item.second);
+    return true;
+  });
+  return taken;
+}
+
+std::vector<LeaseEntry> LeaseBook::TakeExpired(double now_s) {
+  return TakeIf([now_s](const LeaseEntry& entry) { return entry.until_s < now_s; });
+}
+
+std::vector<LeaseEntry> LeaseBook::TakeSession(uint64_t session) {
+  return TakeIf([session](const LeaseEntry& entry) { return entry.session == session; });
+}
+
+void LeaseBook::DropJob(const Digest& job) {
+  std::erase_if(entries_, [&job](const auto& item) { return item.second.job == job; });
+}
+
+}  // namespace orbweave

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "coordinator/job_machine.h"
+#include "core/pipeline/coordinator_api.h"
+
+namespace orbweave {
+
+/// Who holds what until when.
+struct LeaseEntry {
+  uint64_t epoch = 0;
+  Digest task{};
+  Digest job{};
+  TaskRef ref{};
+  uint64_t session = 0;
+  double until_s = 0.0;
+};
+
+/// The leases that are out. A lease is named by its epoch, which is never given twice: whoever
+/// comes with an epoch that is not in the book is late. Pure bookkeeping: time is handed in. Not
+/// thread-safe.
+class LeaseBook {
+ public:
+  void Grant(const LeaseEntry& entry) { entries_.emplace(entry.epoch, entry); }
+
+  /// Moves the end of a lease to `until_s`; nullptr when the book does not have it for this
+  /// session.
+  const LeaseEntry* Renew(uint64_t epoch, const Digest& task, uint64_t session, double until_s);
+  /// Strikes a lease out. FailedPrecondition when the book does not have it for this session.
+  [[nodiscard]] absl::StatusOr<LeaseEntry> Take(uint64_t epoch,
+                                                const Digest& task,
+                                                uint64_t session);
+
+  /// Strike out and return, in order of epoch.
+  [[nodiscard]] std::vector<LeaseEntry> TakeExpired(double now_s);
+  [[nodiscard]] std::vector<LeaseEntry> TakeSession(uint64_t session);
+  void DropJob(const Digest& job);
+
+ private:
+  template <typename Predicate>
+  std::vector<LeaseEntry> TakeIf(Predicate predicate);
+
+  std::map<uint64_t, LeaseEntry> entries_;
+};
+
+}  // namespace orbweave

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/prepare_stage.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+
+namespace orbweave {
+namespace {
+
+absl::StatusOr<std::vector<Digest>> ReadListedRecipes(const JobSnapshot& snapshot,
+                                                      BlobStore& blobs) {
+  const std::optional<uint32_t> input = snapshot.plan.stages[snapshot.stage].parts_listed_in;
+  if (!input) return std::vector<Digest>{};
+  if (*input >= snapshot.spec.inputs.size()) {
+    return absl::InvalidArgumentError(absl::StrCat("the job has no input ", *input));
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(snapshot.spec.inputs[*input]));
+  return DecodeCollection(bytes);
+}
+
+std::optional<TaskResult> FindResult(const TaskSpec& task,
+                                     bool verify,
+                                     BlobStore& blobs,
+                                     const Journal& journal) {
+  absl::StatusOr<TaskResult> result = journal.LoadResult(task.Id());
+  if (!result.ok()) return std::nullopt;
+  const auto is_there = [&](const Digest& blob) {
+    return verify ? blobs.Verify(blob) : blobs.Has(blob);
+  };
+  const bool complete = std::all_of(result->outputs.begin(), result->outputs.end(), is_there) &&
+                        std::all_of(result->recipes.begin(), result->recipes.end(), is_there);
+  return complete ? std::optional(*std::move(result)) : std::nullopt;
+}
+
+}  // namespace
+
+absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
+                                           BlobStore& blobs,
+                                           const Journal& journal) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed, ReadListedRecipes(snapshot, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      StagePlan plan,
+      PlanStage(snapshot.plan, snapshot.stage, snapshot.spec, snapshot.results, listed));
+  for (const std::string& collection : plan.collections) {
+    ORBWEAVE_RETURN_IF_ERROR(blobs.Put(collection).status());
+  }
+  PreparedStage prepared{.tasks = std::move(plan.tasks)};
+  for (const TaskSpec& task : prepared.tasks) {
+    prepared.found.push_back(FindResult(task, snapshot.verify, blobs, journal));
+  }
+  return prepared;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/pipeline/coordinator_api.h"
+
+namespace orbweave {
+
+/// The workers that ever joined, by name, each with its present session. A worker is alive while it
+/// was heard within `silence_s`. Pure bookkeeping: time is handed in. Not thread-safe.
+class WorkerRoster {
+ public:
+  explicit WorkerRoster(double silence_s) : silence_s_(silence_s) {}
+
+  /// Begins session `session` of a worker; returns the session it replaces.
+  std::optional<uint64_t> Join(const WorkerInfo& worker, uint64_t session, double now_s);
+  /// Notes that a session was heard. NotFound: it is unknown, or over.
+  [[nodiscard]] absl::Status Hear(uint64_t session, double now_s);
+  /// Ends a session; the worker stays listed as not alive.
+  void End(uint64_t session);
+  void CountTask(uint64_t session);
+
+  [[nodiscard]] std::string NameOf(uint64_t session) const;
+  [[nodiscard]] std::optional<uint64_t> SessionOf(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> Alive(double now_s) const;
+  [[nodiscard]] std::vector<WorkerStatus> Status(double now_s) const;
+
+ private:
+  struct Record {
+    uint64_t session = 0;  ///< 0: none
+    double heard_s = 0.0;
+    uint32_t slots = 1;
+    uint32_t tasks_done = 0;
+  };
+  [[nodiscard]] bool IsAlive(const Record& record, double now_s) const;
+
+  double silence_s_;
+  std::map<std::string, Record, std::less<>> records_;
+  std::map<uint64_t, std::string> names_;  ///< of sessions that are not over
+};
+
+}  // namespace orbweave

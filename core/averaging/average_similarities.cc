@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/averaging/average_similarities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/averaging/solve_similarity_graph.h"
+#include "core/graph/disjoint_sets.h"
+
+namespace orbweave {
+namespace {
+
+DisjointSets Connect(const SimilarityGraph& graph, const std::vector<uint8_t>& is_used) {
+  DisjointSets sets(static_cast<uint32_t>(graph.node_length.size()));
+  for (size_t e = 0; e < graph.edges.size(); ++e) {
+    if (is_used[e] != 0) sets.Unite(graph.edges[e].a, graph.edges[e].b);
+  }
+  return sets;
+}
+
+// Number of each node's connected part, in order of the parts' smallest nodes.
+std::vector<uint32_t> NumberParts(const SimilarityGraph& graph) {
+  DisjointSets sets = Connect(graph, std::vector<uint8_t>(graph.edges.size(), 1));
+  const size_t n = graph.node_length.size();
+  constexpr uint32_t kUnnumbered = std::numeric_limits<uint32_t>::max();
+  std::vector<uint32_t> part_of_set(n, kUnnumbered);
+  std::vector<uint32_t> part(n);
+  uint32_t num_parts = 0;
+  for (uint32_t i = 0; i < n; ++i) {
+    uint32_t& number = part_of_set[sets.Find(i)];
+    if (number == kUnnumbered) number = num_parts++;
+    part[i] = number;
+  }
+  return part;
+}
+
+// The heaviest node of every part.
+std::vector<uint8_t> ChooseFixedNodes(const SimilarityGraph& graph,
+                                      const std::vector<uint32_t>& part) {
+  std::vector<int64_t> heaviest(part.size(), -1);
+  for (size_t i = 0; i < part.size(); ++i) {
+    int64_t& best = heaviest[part[i]];
+    if (best < 0 || graph.node_weight[i] > graph.node_weight[static_cast<size_t>(best)]) {
+      best = static_cast<int64_t>(i);
+    }
+  }
+  std::vector<uint8_t> is_fixed(part.size(), 0);
+  for (const int64_t node : heaviest) {
+    if (node >= 0) is_fixed[static_cast<size_t>(node)] = 1;
+  }
+  return is_fixed;
+}
+
+// Edges of a maximum spanning forest by strength.
+std::vector<uint32_t> SpanningForest(const SimilarityGraph& graph) {
+  std::vector<uint32_t> order(graph.edges.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
+    return graph.edges[x].strength > graph.edges[y].strength;
+  });
+  DisjointSets sets(static_cast<uint32_t>(graph.node_length.size()));
+  std::vector<uint32_t> forest;
+  for (const uint32_t e : order) {
+    if (sets.Unite(graph.edges[e].a, graph.edges[e].b)) forest.push_back(e);
+  }
+  return forest;
+}
+
+// Chains the measurements of a forest outward from the fixed nodes.
+std::vector<Sim3> ChainForest(const SimilarityGraph& graph,
+                              const std::vector<uint32_t>& forest,
+                              const std::vector<uint8_t>& is_fixed) {
+  std::vector<std::vector<uint32_t>> edges_of(is_fixed.size());
+  for (const uint32_t e : forest) {
+    edges_of[graph.edges[e].a].push_back(e);
+    edges_of[graph.edges[e].b].push_back(e);
+  }
+  std::vector<Sim3> world_from_node(is_fixed.size());
+  std::vector<uint8_t> is_placed = is_fixed;
+  std::vector<uint32_t> queue;
+  for (uint32_t i = 0; i < is_fixed.size(); ++i) {
+    if (is_fixed[i] != 0) queue.push_back(i);
+  }
+  for (size_t next = 0; next < queue.size(); ++next) {
+    const uint32_t from = queue[next];
+    for (const uint32_t e : edges_of[from]) {
+      const SimilarityEdge& edge = graph.edges[e];
+      const uint32_t to = edge.a == from ? edge.b : edge.a;
+      if (is_placed[to] != 0) continue;
+      const Sim3& a_from_b = edge.measured.a_from_b;
+      world_from_node[to] =
+          world_from_node[from] * (edge.a == from ? a_from_b : a_from_b.Inverse());
+      is_placed[to] = 1;
+      queue.push_back(to);
+    }
+  }
+  return world_from_node;
+}
+
+ptrdiff_t NumContradicted(const std::vector<double>& error, double max_error) {
+  return std::count_if(error.begin(), error.end(), [&](double e) { return e > max_error; });
+}
+
+// The edge that is most wrong (then weakest, then first), -1 when none may go.
+int64_t WorstEdge(const SimilarityGraph& graph,
+                  const std::vector<double>& error,
+                  const std::vector<uint8_t>& is_used,
+                  double max_error) {
+  int64_t worst = -1;
+  for (size_t e = 0; e < graph.edges.size(); ++e) {
+    if (is_used[e] == 0 || error[e] <= max_error) continue;
+    const auto w = static_cast<size_t>(std::max<int64_t>(worst, 0));
+    const bool is_worse =
+        error[e] > error[w] ||
+        (error[e] == error[w] && graph.edges[e].strength < graph.edges[w].strength);
+    if (worst >= 0 && !is_worse) continue;
+    std::vector<uint8_t> without = is_used;
+    without[e] = 0;
+    DisjointSets sets = Connect(graph, without);
+    if (sets.Find(graph.edges[e].a) == sets.Find(graph.edges[e].b)) worst = static_cast<int64_t>(e);
+  }
+  return worst;
+}
+
+}  // namespace
+
+absl::StatusOr<AveragedSimilarities> AverageSimilarities(const SimilarityGraph& graph,
+                                                         const AverageSimilaritiesOptions& options,
+                                                         const StageContext& context) {
+  AveragedSimilarities result;
+  result.part = NumberParts(graph);
+  result.is_used.assign(graph.edges.size(), 1);
+  const std::vector<uint8_t> is_fixed = ChooseFixedNodes(graph, result.part);
+  const std::vector<Sim3> chained = ChainForest(graph, SpanningForest(graph), is_fixed);
+
+  SimilaritySolver solver(graph, is_fixed);
+  ORBWEAVE_ASSIGN_OR_RETURN(SimilaritySolution best,
+                            solver.Solve(chained, result.is_used, options.loss_scale, context));
+  SimilaritySolution graduated{.world_from_node = chained};
+  for (const double factor : {1000.0, 100.0, 10.0, 1.0}) {
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        graduated,
+        solver.Solve(
+            graduated.world_from_node, result.is_used, factor * options.loss_scale, context));
+  }
+  result.error = solver.Errors(best.world_from_node);
+  const std::vector<double> graduated_error = solver.Errors(graduated.world_from_node);
+  if (NumContradicted(graduated_error, options.max_error) <
+      NumContradicted(result.error, options.max_error)) {
+    best = std::move(graduated);
+    result.error = graduated_error;
+  }
+  for (int64_t worst = WorstEdge(graph, result.error, result.is_used, options.max_error);
+       worst >= 0;
+       worst = WorstEdge(graph, result.error, result.is_used, options.max_error)) {
+    result.is_used[static_cast<size_t>(worst)] = 0;
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        best, solver.Solve(best.world_from_node, result.is_used, options.loss_scale, context));
+    result.error = solver.Errors(best.world_from_node);
+  }
+  result.world_from_node = std::move(best.world_from_node);
+  return result;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace orbweave {
+
+/// A pose (R, C); the matrix is kept beside the quaternion because every observation turns by it.
+struct PoseState {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d world_from_cam = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+};
+
+/// The variables of one solve, held ones included.
+struct BundleState {
+  std::vector<PoseState> poses{};
+  std::vector<Eigen::Vector3d> points{};
+  std::vector<Eigen::Vector3d> biases{};
+};
+
+}  // namespace orbweave

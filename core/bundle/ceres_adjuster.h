@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/bundle/adjust_bundle.h"
+
+namespace orbweave {
+
+/// AdjustBundle with Ceres: independent of our own solver down to the residual, which here is the
+/// 2-vector r = theta / sin(theta) B^T u in the tangent plane B of the observed bearing, with its
+/// analytic Jacobian. The oracle of tests and an option for users. `problem` is valid.
+[[nodiscard]] absl::StatusOr<BundleReport> AdjustBundleWithCeres(BundleProblem& problem,
+                                                                 const BundleOptions& options,
+                                                                 const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/bundle/reduced_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel_for.h"
+#include "core/bundle/bearing_term.h"
+
+namespace orbweave {
+namespace {
+
+using Matrix63 = Eigen::Matrix<double, 6, 3>;
+
+// A pose's part in the elimination of one point.
+struct PosePart {
+  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();  // J_X^T J_X
+  Eigen::Vector3d d = Eigen::Vector3d::Zero();
+  Matrix63 Y = Matrix63::Zero();  // W G with W = J_pose^T J_X = [[d]x; -I] M
+  uint32_t local = kHeld;
+};
+
+// [d]x A
+Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& d, const Eigen::Matrix3d& A) {
+  Eigen::Matrix3d result;
+  for (int j = 0; j < 3; ++j) result.col(j) = d.cross(A.col(j));
+  return result;
+}
+
+// J_pose^T J_pose = [[d]x; -I] M [[d]x; -I]^T
+// and the traces of its two diagonal blocks.
+void AddPoseHessian(const Eigen::Vector3d& d,
+                    const Eigen::Matrix3d& M,
+                    Block6& target,
+                    Eigen::Vector2d& trace) {
+  const Eigen::Matrix3d dM = CrossColumns(d, M);
+  const Eigen::Matrix3d dMd = CrossColumns(d, dM.transpose());
+  trace += Eigen::Vector2d(dMd.trace(), M.trace());
+  target.topLeftCorner<3, 3>() += dMd;
+  target.topRightCorner<3, 3>() -= dM;
+  target.bottomLeftCorner<3, 3>() -= dM.transpose();
+  target.bottomRightCorner<3, 3>() += M;
+}
+
+Vector6 PoseGradient(const Eigen::Vector3d& d, const Eigen::Vector3d& point_gradient) {
+  Vector6 gradient;
+  gradient << d.cross(point_gradient), -point_gradient;
+  return gradient;
+}
+
+// target -= A B^T
+void SubtractProduct(const Matrix63& A, const Matrix63& B, Block6& target) {
+  for (int c = 0; c < 6; ++c) {
+    target.col(c) -= A.col(0) * B(c, 0) + A.col(1) * B(c, 1) + A.col(2) * B(c, 2);
+  }
+}
+
+// G with G G^T = A^-1; zero when A is not positive definite.
+Eigen::Matrix3d InverseFactor(const Eigen::Matrix3d& A) {
+  const double l00 = std::sqrt(A(0, 0));
+  const double l10 = A(1, 0) / l00;
+  const double l20 = A(2, 0) / l00;
+  const double p1 = A(1, 1) - l10 * l10;
+  const double l11 = std::sqrt(p1);
+  const double l21 = (A(2, 1) - l20 * l10) / l11;
+  const double p2 = A(2, 2) - l20 * l20 - l21 * l21;
+  const double l22 = std::sqrt(p2);
+  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
+  const bool is_definite = A(0, 0) > 0.0 && p1 > 0.0 && p2 > 0.0;
+  if (!is_definite || !std::isfinite(l22)) return G;
+  G(0, 0) = 1.0 / l00;
+  G(1, 1) = 1.0 / l11;
+  G(2, 2) = 1.0 / l22;
+  G(0, 1) = -l10 * G(0, 0) * G(1, 1);
+  G(1, 2) = -l21 * G(1, 1) * G(2, 2);
+  G(0, 2) = (l10 * l21 * G(1, 1) - l20) * G(0, 0) * G(2, 2);
+  return G;
+}
+
+// Linearises and eliminates the points of one chunk.
+class ChunkReducer {
+ public:
+  ChunkReducer(const BundleLayout& layout,
+               const BundleState& state,
+               const RobustLoss& loss,
+               double lambda,
+               ChunkSums& sums)
+      : layout_(layout), state_(state), loss_(loss), lambda_(lambda), sums_(sums) {}
+
+  PointFactor Reduce(const PackedPoint& point) {
+    PointFactor factor;
+    Eigen::Matrix3d V = Eigen::Matrix3d::Zero();
+    parts_.clear();
+    for (uint32_t k = point.first; k < point.end; ++k) {
+      AddObservation(layout_.observations[k], state_.points[point.point], V, factor.gradient);
+    }
+    if (point.is_fixed) return factor;
+    // A seen point has trace(V) > 0; without damping its depth would be undefined when seen once.
+    factor.mu = lambda_ * V.trace() / 3.0;
+    V.diagonal().array() += factor.mu;
+    factor.G = InverseFactor(V);
+    Eliminate(factor);
+    return factor;
+  }
+
+ private:
+  void AddObservation(const PackedObservation& seen,
+                      const Eigen::Vector3d& point_in_world,
+                      Eigen::Matrix3d& V,
+                      Eigen::Vector3d& point_gradient) {
+    const PoseState& pose = state_.poses[seen.pose];
+    BearingTerm term =
+        LineariseBearing(pose.centre, point_in_world, pose.world_from_cam * seen.bearing);
+    const double weight = ApplyLoss(loss_, seen.weight, term);
+    const Eigen::Matrix3d M = PointHessian(term, weight);
+    const Eigen::Vector3d gradient = PointGradient(term, weight);
+    V += M;
+    point_gradient += gradient;
+    if (seen.local == kHeld) return;
+    AddPoseHessian(
+        term.d, M, sums_.triangle[PairIndex(seen.local, seen.local)], sums_.trace[seen.local]);
+    sums_.gradient[seen.local] += PoseGradient(term.d, gradient);
+    PosePart& part = parts_.emplace_back();
+    part.M = M;
+    part.d = term.d;
+    part.local = seen.local;
+  }
+
+  void Eliminate(const PointFactor& factor) {
+    const Eigen::Vector3d h = factor.G.transpose() * factor.gradient;
+    size_t count = 0;  // parts of the same pose become one
+    for (const PosePart& part : parts_) {
+      const Eigen::Matrix3d MG = part.M * factor.G;
+      Matrix63 Y;
+      Y << CrossColumns(part.d, MG), -MG;
+      if (count > 0 && parts_[count - 1].local == part.local) {
+        parts_[count - 1].Y += Y;
+      } else {
+        parts_[count].local = part.local;
+        parts_[count++].Y = Y;
+      }
+    }
+    for (size_t j = 0; j < count; ++j) {
+      sums_.rhs[parts_[j].local].noalias() += parts_[j].Y * h;
+      for (size_t i = 0; i <= j; ++i) {
+        SubtractProduct(
+            parts_[i].Y, parts_[j].Y, sums_.triangle[PairIndex(parts_[i].local, parts_[j].local)]);
+      }
+    }
+  }
+
+  const BundleLayout& layout_;
+  const BundleState& state_;
+  const RobustLoss& loss_;
+  double lambda_;
+  ChunkSums& sums_;
+  std::vector<PosePart> parts_{};
+};
+
+void ResetSums(size_t num_blocks, size_t num_pairs, ChunkSums& sums) {
+  sums.triangle.assign(num_pairs, Block6::Zero());
+  sums.rhs.assign(num_blocks, Vector6::Zero());
+  sums.gradient.assign(num_blocks, Vector6::Zero());
+  sums.trace.assign(num_blocks, Eigen::Vector2d::Zero());
+}
+
+}  // namespace
+
+ReducedSystem MakeReducedSystem(const BundleLayout& layout) {
+  ReducedSystem system;
+  system.S = layout.matrix;
+  system.rhs.assign(layout.num_blocks, Vector6::Zero());
+  system.gradient = system.rhs;
+  system.damping = system.rhs;
+  system.trace.assign(layout.num_blocks, Eigen::Vector2d::Zero());
+  system.points.resize(layout.points.size());
+  return system;
+}
+
+void Clear(ReducedSystem& system) {
+  system.S.SetZero();
+  std::fill(system.rhs.begin(), system.rhs.end(), Vector6::Zero());
+  std::fill(system.gradient.begin(), system.gradient.end(), Vector6::Zero());
+  std::fill(system.trace.begin(), system.trace.end(), Eigen::Vector2d::Zero());
+}
+
+void DampPoses(double lambda, ReducedSystem& system) {
+  for (uint32_t block = 0; block < system.S.num_blocks; ++block) {
+    // A block that nothing observes has no gradient either: any positive number holds it.
+    const Eigen::Vector2d& trace = system.trace[block];
+    const double mu_rotation = trace[0] > 0.0 ? lambda * trace[0] / 3.0 : 1.0;
+    const double mu_centre = trace[1] > 0.0 ? lambda * trace[1] / 3.0 : 1.0;
+    system.damping[block] << Eigen::Vector3d::Constant(mu_rotation),
+        Eigen::Vector3d::Constant(mu_centre);
+    system.S.Diagonal(block).diagonal() += system.damping[block];
+  }
+}
+
+BearingReducer::BearingReducer(const BundleLayout& layout, int num_threads)
+    : layout_(layout), num_threads_(num_threads), sums_(num_threads > 1 ? 16 * num_threads : 1) {}
+
+void BearingReducer::AddBearings(const BundleState& state,
+                                 const RobustLoss& loss,
+                                 double lambda,
+                                 ReducedSystem& system) {
+  for (size_t first = 0; first < layout_.chunks.size(); first += sums_.size()) {
+    const size_t count = std::min(sums_.size(), layout_.chunks.size() - first);
+    ParallelFor(count, num_threads_, [&](size_t i) {
+      const PointChunk& chunk = layout_.chunks[first + i];
+      ResetSums(chunk.blocks.size(), chunk.NumPairs(), sums_[i]);
+      ChunkReducer reducer(layout_, state, loss, lambda, sums_[i]);
+      for (uint32_t p = chunk.first_point; p < chunk.end_point; ++p) {
+        system.points[p] = reducer.Reduce(layout_.points[p]);
+      }
+    });
+    for (size_t i = 0; i < count; ++i) Merge(layout_.chunks[first + i], sums_[i], system);
+  }
+}
+
+void BearingReducer::Merge(const PointChunk& chunk,
+                           const ChunkSums& sums,
+                           ReducedSystem& system) const {
+  for (const PointChunk::Target& target : chunk.targets) {
+    system.S.values[target.value] += sums.triangle[target.pair];
+  }
+  for (size_t i = 0; i < chunk.blocks.size(); ++i) {
+    system.rhs[chunk.blocks[i]] += sums.rhs[i] - sums.gradient[i];
+    system.gradient[chunk.blocks[i]] += sums.gradient[i];
+    system.trace[chunk.blocks[i]] += sums.trace[i];
+  }
+}
+
+}  // namespace orbweave

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/bundle/block_matrix.h"
+#include "core/bundle/bundle_layout.h"
+#include "core/bundle/bundle_state.h"
+#include "core/bundle/robust_loss.h"
+
+namespace orbweave {
+
+/// Of a point's 3x3 Hessian V with damping: V + mu I = (G G^T)^-1, G upper triangular.
+struct PointFactor {
+  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();  ///< zero: the point is held in this step
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double mu = 0.0;
+};
+
+/// Normal equations of all poses and biases after the points are eliminated:
+///   S = U + mu I - sum W (V + mu I)^-1 W^T,   rhs = -(g - sum W (V + mu I)^-1 g_point).
+/// `gradient` and `damping` (mu of rotation and centre) are those of the full system.
+/// mu = lambda x mean diagonal entry of the 3x3 block: unlike Marquardt's diagonal it turns with
+/// the world, so that the steps do too.
+struct ReducedSystem {
+  SymmetricBlockMatrix S{};
+  std::vector<Vector6> rhs{};
+  std::vector<Vector6> gradient{};
+  std::vector<Eigen::Vector2d> trace{};  ///< of U: rotation, centre
+  std::vector<Vector6> damping{};
+  std::vector<PointFactor> points{};  ///< per layout.points
+};
+
+/// Workspace for systems of `layout`'s structure.
+[[nodiscard]] ReducedSystem MakeReducedSystem(const BundleLayout& layout);
+
+/// Everything but the structure to zero.
+void Clear(ReducedSystem& system);
+
+/// Adds mu to the diagonal of S, once all terms are in.
+void DampPoses(double lambda, ReducedSystem& system);
+
+/// Sums of one chunk, in its own dense triangle.
+struct ChunkSums {
+  std::vector<Block6> triangle{};
+  std::vector<Vector6> rhs{};
+  std::vector<Vector6> gradient{};
+  std::vector<Eigen::Vector2d> trace{};
+};
+
+/// Forms the reduced system of bearings chunk by chunk on `num_threads` threads and adds the chunks
+/// in order. `system` is cleared by the caller,
+/// who also adds priors and damps the poses.
+class BearingReducer {
+ public:
+  BearingReducer(const BundleLayout& layout, int num_threads);
+
+  void AddBearings(const BundleState& state,
+                   const RobustLoss& loss,
+                   double lambda,
+                   ReducedSystem& system);
+
+ private:
+  void Merge(const PointChunk& chunk, const ChunkSums& sums, ReducedSystem& system) const;
+
+  const BundleLayout& layout_;
+  int num_threads_ = 1;
+  std::vector<ChunkSums> sums_{};  // one per chunk of a wave
+};
+
+}  // namespace orbweave

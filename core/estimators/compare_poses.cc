@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/estimators/compare_poses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/base/status.h"
+#include "core/estimators/estimate_similarity.h"
+#include "core/geometry/rotation.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kTrimmedRefits = 30;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+std::vector<Eigen::Vector3d> Centres(std::span<const Rigid3> cams) {
+  std::vector<Eigen::Vector3d> centres;
+  for (const Rigid3& cam : cams) centres.push_back(cam.Centre());
+  return centres;
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<double> Distances(const Sim3& b_from_a, const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+  std::vector<double> distances(a.size());
+  for (size_t i = 0; i < a.size(); ++i) distances[i] = (b_from_a * a[i] - b[i]).norm();
+  return distances;
+}
+
+std::optional<Sim3> FitTrimmed(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+  std::vector<double> weights(a.size(), 1.0);
+  std::optional<Sim3> fit;
+  for (int refit = 0; refit < kTrimmedRefits; ++refit) {
+    const std::optional<Sim3> next = FitSimilarity(a, b, weights);
+    if (!next) return fit;
+    fit = next;
+    const std::vector<double> distances = Distances(*fit, a, b);
+    const double limit = std::max(3.0 * Median(distances), 1e-9);
+    std::vector<double> trimmed(a.size());
+    std::transform(distances.begin(), distances.end(), trimmed.begin(), [&](double d) { return d <= limit ? 1.0 : 0.0; });
+    if (trimmed == weights) break;
+    weights = std::move(trimmed);
+  }
+  return fit;
+}
+
+double Rms(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
+                                       std::span<const Rigid3> cams_from_reference) {
+  ORBWEAVE_CHECK(cams_from_model.size() == cams_from_reference.size());
+  if (cams_from_model.size() < 3) return std::nullopt;
+  const std::vector<Eigen::Vector3d> in_model = Centres(cams_from_model);
+  const std::vector<Eigen::Vector3d> in_reference = Centres(cams_from_reference);
+  const std::optional<Sim3> fit = FitTrimmed(in_model, in_reference);
+  if (!fit) return std::nullopt;
+
+  std::vector<double> rotations_deg;
+  std::vector<double> steps;
+  for (size_t i = 0; i < in_model.size(); ++i) {
+    const Rigid3 aligned = TransformCamera(*fit, cams_from_model[i]);
+    rotations_deg.push_back(RotationAngle(aligned.rotation * cams_from_reference[i].rotation.conjugate()) * kDegPerRad);
+    if (i == 0) continue;
+    const Eigen::Vector3d step = fit->scale * (fit->rotation * (in_model[i] - in_model[i - 1]));
+    steps.push_back((step - (in_reference[i] - in_reference[i - 1])).norm());
+  }
+  const std::vector<double> distances = Distances(*fit, in_model, in_reference);
+  return PoseErrors{.reference_from_model = *fit,
+                    .position_rmse_m = Rms(distances),
+                    .position_max_m = *std::max_element(distances.begin(), distances.end()),
+                    .rotation_median_deg = Median(rotations_deg),
+                    .rotation_max_deg = *std::max_element(rotations_deg.begin(), rotations_deg.end()),
+                    .unaligned_rmse_m = Rms(Distances({}, in_model, in_reference)),
+                    .neighbour_rmse_m = Rms(steps)};
+}
+
+}  // namespace orbweave

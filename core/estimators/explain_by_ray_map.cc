@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/estimators/explain_by_ray_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/ray_maps.h"
+#include "core/robust/ransac.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kConfidence = 0.9999;
+constexpr int kTrialsFactor = 4;  // minimal samples are noisy: more than a clean sample's worth
+constexpr int kMaxRefits = 3;
+
+using FitRayMap = std::optional<Matrix3d> (*)(std::span<const Vector3d>, std::span<const Vector3d>);
+
+/// RANSAC over maps M of bearings; residual: the chord between p_b and M p_a / |M p_a|.
+template <size_t kSize, FitRayMap kFit>
+class RayMapEstimator {
+ public:
+  static constexpr size_t kSampleSize = kSize;
+  using Model = Matrix3d;
+
+  RayMapEstimator(const BearingPairs& pairs, double max_error_rad)
+      : pairs_(pairs), max_squared_chord_(2.0 - 2.0 * std::cos(max_error_rad)) {}
+
+  [[nodiscard]] size_t Size() const { return pairs_.Size(); }
+
+  void Generate(std::span<const uint32_t> sample, std::vector<Matrix3d>& models) const {
+    const SelectedBearings selected = SelectPairs(pairs_, sample);
+    if (const std::optional<Matrix3d> M = kFit(selected.a, selected.b)) models.push_back(*M);
+  }
+
+  [[nodiscard]] std::optional<RansacScore> Score(const Matrix3d& M, const EarlyRejection& gate) const {
+    RansacScore score;
+    for (size_t i = 0; i < Size(); ++i) {
+      const double squared = SquaredChord(M, i);
+      const bool inlier = squared < max_squared_chord_;
+      score.cost += inlier ? squared : max_squared_chord_;
+      score.num_inliers += inlier ? 1U : 0U;
+    }
+    if (gate.Rejects(score.cost, score.num_inliers, Size())) return std::nullopt;
+    return score;
+  }
+
+  [[nodiscard]] Matrix3d Refine(Matrix3d M) const {
+    for (int refit = 0; refit < kMaxRefits; ++refit) {
+      const SelectedBearings selected = SelectPairs(pairs_, Inliers(M));
+      const std::optional<Matrix3d> fitted = kFit(selected.a, selected.b);
+      if (!fitted) break;
+      M = *fitted;
+    }
+    return M;
+  }
+
+  [[nodiscard]] std::vector<uint32_t> Inliers(const Matrix3d& M) const {
+    std::vector<uint32_t> inliers;
+    for (uint32_t i = 0; i < Size(); ++i) {
+      if (SquaredChord(M, i) < max_squared_chord_) inliers.push_back(i);
+    }
+    return inliers;
+  }
+
+ private:
+  [[nodiscard]] double SquaredChord(const Matrix3d& M, size_t i) const {
+    return ((M * pairs_.A(i)).normalized() - pairs_.B(i)).squaredNorm();
+  }
+
+  const BearingPairs& pairs_;
+  double max_squared_chord_;
+};
+
+template <size_t kSize, FitRayMap kFit>
+absl::StatusOr<RayMap> Explain(const BearingPairs& pairs,
+                               double max_error_rad,
+                               double min_share,
+                               const StageContext& context) {
+  const RayMapEstimator<kSize, kFit> estimator(pairs, max_error_rad);
+  constexpr int kUnlimited = 1000;
+  const RansacOptions options = {
+      .confidence = kConfidence,
+      .max_trials = kTrialsFactor * RequiredTrials(min_share, kSize, kConfidence, kUnlimited)};
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto best, Ransac(estimator, options, context));
+  if (!best.model) return RayMap{};
+  return RayMap{.M = *best.model, .inliers = estimator.Inliers(*best.model)};
+}
+
+}  // namespace
+
+absl::StatusOr<RayMap> ExplainByRotation(const BearingPairs& pairs,
+                                         double max_error_rad,
+                                         double min_share,
+                                         const StageContext& context) {
+  return Explain<2, FitRayRotation>(pairs, max_error_rad, min_share, context);
+}
+
+absl::StatusOr<RayMap> ExplainByHomography(const BearingPairs& pairs,
+                                           double max_error_rad,
+                                           double min_share,
+                                           const StageContext& context) {
+  return Explain<4, FitRayHomography>(pairs, max_error_rad, min_share, context);
+}
+
+}  // namespace orbweave

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/estimators/two_view_ransac.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/estimators/refine_two_view.h"
+#include "core/estimators/resolve_cheirality.h"
+#include "core/geometry/eight_point.h"
+#include "core/geometry/essential.h"
+#include "core/geometry/five_point.h"
+#include "core/geometry/upright_three_point.h"
+#include "core/robust/ransac.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kLocalSteps = 4;
+constexpr int kMinTrials = 30;  // nearly planar scenes have two good models: both should be seen
+
+struct FivePointSolver {
+  static constexpr size_t kSampleSize = 5;
+  static void Solve(std::span<const Vector3d, 5> a, std::span<const Vector3d, 5> b, std::vector<Rigid3>& poses) {
+    for (const Eigen::Matrix3d& E : SolveFivePoint(a, b)) poses.push_back(PosesFromEssential(E)[0]);
+  }
+};
+
+struct EightPointSolver {
+  static constexpr size_t kSampleSize = 8;
+  static void Solve(std::span<const Vector3d, 8> a, std::span<const Vector3d, 8> b, std::vector<Rigid3>& poses) {
+    if (const auto E = SolveEightPoint(a, b)) poses.push_back(PosesFromEssential(*E)[0]);
+  }
+};
+
+struct UprightThreePointSolver {
+  static constexpr size_t kSampleSize = 3;
+  static void Solve(std::span<const Vector3d, 3> a, std::span<const Vector3d, 3> b, std::vector<Rigid3>& poses) {
+    for (const Rigid3& pose : SolveUprightThreePoint(a, b)) poses.push_back(pose);
+  }
+};
+
+template <typename Solver>
+class TwoViewEstimator {
+ public:
+  static constexpr size_t kSampleSize = Solver::kSampleSize;
+  using Model = Rigid3;
+
+  TwoViewEstimator(const BearingPairs& pairs, double max_error_rad) : pairs_(pairs), max_error_rad_(max_error_rad) {}
+
+  [[nodiscard]] size_t Size() const { return pairs_.Size(); }
+
+  void Generate(std::span<const uint32_t> sample, std::vector<Rigid3>& models) const {
+    std::array<Vector3d, kSampleSize> a;
+    std::array<Vector3d, kSampleSize> b;
+    for (size_t k = 0; k < kSampleSize; ++k) {
+      a[k] = pairs_.A(sample[k]);
+      b[k] = pairs_.B(sample[k]);
+    }
+    Solver::Solve(a, b, models);
+  }
+
+  /// Inliers on the wrong side count as outliers, for the best of the four poses. This is looked at in
+  /// the few models that reach the end, and tells the two poses apart that fit a plane.
+  [[nodiscard]] std::optional<RansacScore> Score(const Rigid3& pose, const EarlyRejection& gate) const {
+    std::optional<RansacScore> score = ScoreEpipolar(pairs_, pose, max_error_rad_, gate);
+    if (!score) return std::nullopt;
+    const auto num_in_front =
+        static_cast<uint32_t>(ResolveCheirality(pairs_, pose, max_error_rad_).inliers.size());
+    const double max_squared = std::sin(max_error_rad_) * std::sin(max_error_rad_);
+    score->cost += (score->num_inliers - num_in_front) * max_squared;
+    score->num_inliers = num_in_front;
+    return score;
+  }
+
+  [[nodiscard]] Rigid3 Refine(const Rigid3& pose) const {
+    const SelectedBearings inliers = SelectPairs(pairs_, EpipolarInliers(pairs_, pose, max_error_rad_));
+    return MinimiseEpipolarResiduals(pose, inliers.a, inliers.b, 0.5 * max_error_rad_, kLocalSteps);
+  }
+
+ private:
+  const BearingPairs& pairs_;
+  double max_error_rad_;
+};
+
+template <typename Solver>
+absl::StatusOr<std::optional<Rigid3>> Find(const BearingPairs& pairs,
+                                           double max_error_rad,
+                                           const TwoViewOptions& options,
+                                           const StageContext& context) {
+  const TwoViewEstimator<Solver> estimator(pairs, max_error_rad);
+  const RansacOptions ransac = {.confidence = options.confidence,
+                                .min_trials = kMinTrials,
+                                .max_trials = options.max_trials,
+                                .min_inlier_share = options.min_inlier_share};
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto best, Ransac(estimator, ransac, context));
+  return best.model;
+}
+
+}  // namespace
+
+absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
+                                                       double max_error_rad,
+                                                       const TwoViewOptions& options,
+                                                       const StageContext& context) {
+  switch (options.solver) {
+    case TwoViewSolver::kEightPoint:
+      return Find<EightPointSolver>(pairs, max_error_rad, options, context);
+    case TwoViewSolver::kUprightThreePoint:
+      return Find<UprightThreePointSolver>(pairs, max_error_rad, options, context);
+    case TwoViewSolver::kFivePoint:
+      break;
+  }
+  return Find<FivePointSolver>(pairs, max_error_rad, options, context);
+}
+
+}  // namespace orbweave

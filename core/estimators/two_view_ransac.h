@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "core/base/stage_context.h"
+#include "core/estimators/bearing_pairs.h"
+#include "core/estimators/estimate_two_view.h"
+#include "core/geometry/rigid3.h"
+
+namespace orbweave {
+
+/// RANSAC with local optimisation over the minimal solver of `options`: a pose, |T| = 1, of the
+/// essential matrix with the least truncated cost, any of its four (see ResolveCheirality). nullopt when there are fewer pairs than a sample or no sample has a solution. Cancelled when
+/// asked to stop.
+[[nodiscard]] absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
+                                                                     double max_error_rad,
+                                                                     const TwoViewOptions& options,
+                                                                     const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/features/decode_panorama.h"
+
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "core/base/status.h"
+#include "core/features/image_header.h"
+
+namespace orbweave {
+namespace {
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// The one call into the decoders. OpenCV reports failure as an empty image or an exception.
+absl::StatusOr<cv::Mat> Decode(std::string_view encoded, int flags) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageHeader header, ReadImageHeader(encoded));
+  if (!header.complete) return absl::InvalidArgumentError("the file is truncated");
+  cv::Mat image;
+  try {
+    const cv::Mat bytes(1,
+                        static_cast<int>(encoded.size()),
+                        CV_8UC1,
+                        const_cast<char*>(encoded.data()));  // read only: cv::Mat knows no const
+    image = cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& error) {
+    return absl::InvalidArgumentError(error.err);
+  }
+  if (image.empty()) return absl::InvalidArgumentError("the data are corrupt");
+  if (image.cols != header.width_px || image.rows != header.height_px) {
+    return absl::InvalidArgumentError("the data contradict the header");
+  }
+  return image;
+}
+
+absl::Status CheckPanoramaSize(const ImageHeader& header, int max_width_px) {
+  const std::string size = SizeText(header.width_px, header.height_px);
+  if (std::abs(header.width_px - 2L * header.height_px) > 1) {
+    return absl::InvalidArgumentError("not 2:1: " + size);
+  }
+  if (header.width_px > max_width_px) {
+    return absl::InvalidArgumentError("too large: " + size + ", at most " +
+                                      std::to_string(max_width_px) + " wide");
+  }
+  return absl::OkStatus();
+}
+
+/// Whether scaling the mask to the image's width gives the image's height within a pixel.
+bool HaveSameProportions(const ImageHeader& mask, cv::Size image) {
+  const double height = static_cast<double>(mask.height_px) * image.width / mask.width_px;
+  return std::abs(height - image.height) <= 1.0;
+}
+
+}  // namespace
+
+absl::StatusOr<cv::Mat> DecodePanorama(std::string_view encoded, int max_width_px) {
+  const absl::StatusOr<ImageHeader> header = ReadImageHeader(encoded);
+  if (!header.ok()) return Annotate(header.status(), "cannot decode");
+  ORBWEAVE_RETURN_IF_ERROR(CheckPanoramaSize(*header, max_width_px));
+  absl::StatusOr<cv::Mat> image = Decode(encoded, cv::IMREAD_COLOR);
+  if (!image.ok()) return Annotate(image.status(), "cannot decode");
+  return image;
+}
+
+absl::StatusOr<cv::Mat> DecodeMask(std::string_view encoded, cv::Size size, bool ignores_white) {
+  const absl::StatusOr<ImageHeader> header = ReadImageHeader(encoded);
+  if (!header.ok()) return Annotate(header.status(), "cannot decode the mask");
+  if (!HaveSameProportions(*header, size)) {
+    return absl::InvalidArgumentError(
+        "the mask is " + SizeText(header->width_px, header->height_px) +
+        ", which does not cover an image of " + SizeText(size.width, size.height));
+  }
+  absl::StatusOr<cv::Mat> mask = Decode(encoded, cv::IMREAD_GRAYSCALE);
+  if (!mask.ok()) return Annotate(mask.status(), "cannot decode the mask");
+  if (mask->size() != size) cv::resize(*mask, *mask, size, 0, 0, cv::INTER_NEAREST);
+  return ignores_white ? cv::Mat(*mask > 127) : cv::Mat(*mask <= 127);
+}
+
+}  // namespace orbweave

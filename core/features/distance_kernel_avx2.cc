@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/features/distance_kernels.h"
+
+#if defined(__x86_64__)
+
+#include <immintrin.h>
+
+#include <cstring>
+
+#define ORBWEAVE_AVX2 __attribute__((target("avx2")))
+#define ORBWEAVE_AVX2_INLINE ORBWEAVE_AVX2 __attribute__((always_inline)) inline
+
+namespace orbweave::internal {
+namespace {
+
+using WideRow = std::array<int16_t, kDescriptorSize>;
+
+ORBWEAVE_AVX2_INLINE __m256i Load(const int32_t* from) {
+  return _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+}
+ORBWEAVE_AVX2_INLINE void Store(int32_t* to, __m256i value) {
+  _mm256_store_si256(reinterpret_cast<__m256i*>(to), value);
+}
+
+ORBWEAVE_AVX2_INLINE void Update(LaneState& state, size_t lane, __m256i distance, int32_t index) {
+  const __m256i best = Load(&state.best[lane]);
+  const __m256i better = _mm256_cmpgt_epi32(best, distance);
+  const __m256i loser = _mm256_max_epi32(distance, best);
+  Store(&state.best[lane], _mm256_min_epi32(distance, best));
+  Store(&state.second[lane], _mm256_min_epi32(Load(&state.second[lane]), loser));
+  Store(&state.index[lane],
+        _mm256_blendv_epi8(Load(&state.index[lane]), _mm256_set1_epi32(index), better));
+}
+
+/// Eight lanes of dot products of one row: 16-bit products of four descriptors at a time, whose two
+/// half sums lie side by side until the end.
+ORBWEAVE_AVX2_INLINE __m256i DotProducts(const WideRow& row, const uint8_t* block_bytes) {
+  __m256i low = _mm256_setzero_si256();
+  __m256i high = _mm256_setzero_si256();
+  for (size_t g = 0; g < kGroups; ++g) {
+    int64_t a = 0;
+    std::memcpy(&a, &row[4 * g], 8);
+    const __m256i wide_a = _mm256_set1_epi64x(a);
+    const auto* const b = reinterpret_cast<const __m128i*>(block_bytes + 4 * kLanes * g);
+    low = _mm256_add_epi32(low, _mm256_madd_epi16(wide_a, _mm256_cvtepu8_epi16(_mm_load_si128(b))));
+    high = _mm256_add_epi32(high,
+                            _mm256_madd_epi16(wide_a, _mm256_cvtepu8_epi16(_mm_load_si128(b + 1))));
+  }
+  return _mm256_permute4x64_epi64(_mm256_hadd_epi32(low, high), 0xD8);
+}
+
+ORBWEAVE_AVX2_INLINE WideRow Widen(const uint8_t* row) {
+  WideRow wide;
+  for (size_t k = 0; k < wide.size(); ++k) wide[k] = row[k];
+  return wide;
+}
+
+}  // namespace
+
+ORBWEAVE_AVX2 void UpdateNearestAvx2(const DistanceJob& job) {
+  std::array<WideRow, kRowsAtOnce> rows;
+  for (size_t r = 0; r < job.num_rows; ++r) rows[r] = Widen(job.rows + r * kDescriptorSize);
+  for (size_t c = 0; c < job.blocks.size(); ++c) {
+    const DescriptorBlock& block = job.blocks[c];
+    for (size_t r = 0; r < job.num_rows; ++r) {
+      for (size_t lane = 0; lane < kLanes; lane += 8) {
+        const __m256i dots = DotProducts(rows[r], &block.bytes[4 * lane]);
+        const __m256i sum =
+            _mm256_add_epi32(Load(&block.norms[lane]), _mm256_set1_epi32(job.row_norms[r]));
+        const __m256i distance = _mm256_sub_epi32(sum, _mm256_slli_epi32(dots, 1));
+        Update(job.row_states[r], lane, distance, static_cast<int32_t>(c));
+        Update(job.block_states[c], lane, distance, job.first_row + static_cast<int32_t>(r));
+      }
+    }
+  }
+}
+
+}  // namespace orbweave::internal
+
+#endif

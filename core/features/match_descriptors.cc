@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/features/match_descriptors.h"
+
+#include "core/features/accept_matches.h"
+#include "core/features/nearest_two.h"
+
+namespace orbweave {
+
+std::vector<FeatureMatch> MatchDescriptors(const Features& a,
+                                           const Features& b,
+                                           const MatchOptions& options) {
+  if (a.descriptors.empty() || b.descriptors.empty()) return {};
+  const NearestTwoBothWays nearest = FindNearestTwo(a.descriptors, b.descriptors);
+  return AcceptMatches(nearest, {options.max_ratio, options.max_distance, options.cross_check});
+}
+
+}  // namespace orbweave

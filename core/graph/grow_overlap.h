@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/graph/adjacency.h"
+
+namespace orbweave {
+
+/// Images that two adjacent parts lend each other.
+struct SharedImages {
+  uint32_t part_a = 0;  ///< < part_b
+  uint32_t part_b = 0;
+  std::vector<uint32_t> lent_to_a{};  ///< interior of b, sorted
+  std::vector<uint32_t> lent_to_b{};  ///< interior of a, sorted
+};
+
+/// For every two parts joined by an edge the images to share, sorted by (part_a, part_b). Both
+/// sides lend in turn the image with the largest total edge weight into the other part and the
+/// images lent to it before (ties: smallest image), until `overlap` images are shared or neither
+/// side has a connected image left. `part_of`: per image; images without an edge may hold anything.
+/// Seams are independent of each other.
+[[nodiscard]] std::vector<SharedImages> GrowOverlap(const Adjacency& adjacency,
+                                                    std::span<const double> edge_weight,
+                                                    std::span<const uint32_t> part_of,
+                                                    size_t overlap);
+
+}  // namespace orbweave

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/graph/select_image_pairs.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/graph/find_near_positions.h"
+
+namespace orbweave {
+namespace {
+
+using Pairs = std::vector<ImagePair>;
+
+void AddEveryPair(const ImageManifest& manifest, Pairs& pairs) {
+  for (size_t i = 0; i < manifest.images.size(); ++i) {
+    for (size_t j = i + 1; j < manifest.images.size(); ++j) {
+      pairs.push_back({manifest.images[i].id, manifest.images[j].id});
+    }
+  }
+}
+
+void AddSequencePairs(const ImageManifest& manifest, size_t window, Pairs& pairs) {
+  std::map<uint32_t, std::vector<ImageId>> drives;
+  for (const ImageRecord& image : manifest.images) drives[image.drive].push_back(image.id);
+  for (const auto& [drive, sequence] : drives) {
+    for (size_t i = 0; i < sequence.size(); ++i) {
+      for (size_t j = i + 1; j < sequence.size() && j - i <= window; ++j) {
+        pairs.push_back(MakePair(sequence[i], sequence[j]));
+      }
+    }
+  }
+}
+
+void AddGnssPairs(const ImageManifest& manifest,
+                  double radius_m,
+                  size_t max_neighbours,
+                  Pairs& pairs) {
+  std::vector<ImageId> ids;
+  std::vector<Eigen::Vector2d> positions;
+  for (const ImageRecord& image : manifest.images) {
+    if (!image.prior.position_in_enu) continue;
+    ids.push_back(image.id);
+    positions.push_back(image.prior.position_in_enu->head<2>());
+  }
+  const auto near = FindNearPositions(positions, radius_m, max_neighbours);
+  for (size_t i = 0; i < near.size(); ++i) {
+    for (const uint32_t j : near[i]) pairs.push_back(MakePair(ids[i], ids[j]));
+  }
+}
+
+// False where GNSS says that the two images are too far apart to see the same.
+bool MayBeNear(const PosePrior& a, const PosePrior& b, const PairOptions& options) {
+  if (!a.position_in_enu || !b.position_in_enu) return true;
+  const double distance_m = (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
+  const double sigma_m = a.horizontal_sigma_m + b.horizontal_sigma_m;
+  return distance_m <= std::max(options.similar_gate_m, options.similar_gate_sigmas * sigma_m);
+}
+
+void AddSimilarPairs(const ImageManifest& manifest,
+                     const std::vector<std::vector<ImageId>>& similar,
+                     const PairOptions& options,
+                     Pairs& pairs) {
+  const size_t count = std::min(similar.size(), manifest.images.size());
+  for (size_t i = 0; i < count; ++i) {
+    const ImageRecord& image = manifest.images[i];
+    for (const ImageId other : similar[i]) {
+      if (other == image.id) continue;
+      if (!MayBeNear(image.prior, manifest.At(other).prior, options)) continue;
+      pairs.push_back(MakePair(image.id, other));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ImagePair> SelectImagePairs(const ImageManifest& manifest,
+                                        const std::vector<std::vector<ImageId>>& similar,
+                                        const PairOptions& options) {
+  Pairs pairs;
+  if (manifest.images.size() < static_cast<size_t>(options.exhaustive_below)) {
+    AddEveryPair(manifest, pairs);
+    return pairs;
+  }
+  AddSequencePairs(manifest, static_cast<size_t>(options.sequence_window), pairs);
+  AddGnssPairs(
+      manifest, options.gnss_radius_m, static_cast<size_t>(options.gnss_max_neighbours), pairs);
+  AddSimilarPairs(manifest, similar, options, pairs);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/cameras_csv.h"
+
+#include <charconv>
+
+#include "core/io/local_frame.h"
+#include "core/io/text_fields.h"
+
+namespace orbweave {
+namespace {
+
+/// "," and `value` with `digits` after the point.
+void AppendNumber(std::string& line, double value, int digits) {
+  char buffer[400];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::fixed, digits).ptr;
+  line += ',';
+  line.append(buffer, end);
+}
+
+void AppendPose(std::string& line, const Rigid3& cam_from_world) {
+  const Eigen::Vector3d centre_in_world = cam_from_world.Centre();
+  for (int axis = 0; axis < 3; ++axis) AppendNumber(line, centre_in_world[axis], 6);
+  Eigen::Quaterniond q = cam_from_world.rotation;
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  for (const double component : {q.w(), q.x(), q.y(), q.z()}) AppendNumber(line, component, 12);
+}
+
+void AppendGeodetic(std::string& line,
+                    const Rigid3& cam_from_world,
+                    const GeodeticPosition& origin) {
+  const GeodeticPosition position = GeodeticFromEnu(cam_from_world.Centre(), origin);
+  AppendNumber(line, position.latitude_deg, 9);
+  AppendNumber(line, position.longitude_deg, 9);
+  AppendNumber(line, position.altitude_m, 4);
+}
+
+}  // namespace
+
+std::string CamerasCsv(const Reconstruction& reconstruction,
+                       const ImageManifest& manifest,
+                       bool georeferenced) {
+  std::string csv = "name,x,y,z,qw,qx,qy,qz,latitude,longitude,altitude,state\n";
+  for (const ImageRecord& record : manifest.images) {
+    csv += CsvField(record.name);
+    const auto image = reconstruction.images.find(record.id);
+    if (image == reconstruction.images.end()) {
+      csv += ",,,,,,,,,,,not_registered\n";
+      continue;
+    }
+    AppendPose(csv, image->second.cam_from_world);
+    if (georeferenced && manifest.origin) {
+      AppendGeodetic(csv, image->second.cam_from_world, *manifest.origin);
+    } else {
+      csv += ",,,";
+    }
+    csv += image->second.loose ? ",loose\n" : ",registered\n";
+  }
+  return csv;
+}
+
+}  // namespace orbweave

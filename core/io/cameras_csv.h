@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "core/scene/image_manifest.h"
+#include "core/scene/reconstruction.h"
+
+namespace orbweave {
+
+/// One line per image of the manifest, with a header:
+/// name,x,y,z,qw,qx,qy,qz,latitude,longitude,altitude,state. x,y,z is the camera centre in the
+/// world frame, the quaternion is cam_from_world with qw >= 0, state is registered, loose or
+/// not_registered (then the other cells are empty). Latitude, longitude and altitude are filled
+/// when `georeferenced` and the manifest has an origin. Names with comma, quote or line break are
+/// quoted as RFC 4180 says.
+[[nodiscard]] std::string CamerasCsv(const Reconstruction& reconstruction,
+                                     const ImageManifest& manifest,
+                                     bool georeferenced);
+
+}  // namespace orbweave

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+
+namespace orbweave {
+
+/// The whole content of a file. NotFound: no such file; PermissionDenied: may not be read;
+/// InvalidArgument: not a regular file; Unavailable: reading failed. Messages name the file.
+[[nodiscard]] absl::StatusOr<std::string> ReadFile(const std::string& path);
+
+/// Replaces `path` by `bytes` so that a reader, or a crash at any moment, sees either the old
+/// content or the new one: writes a temporary file in the same folder, flushes it to the disk and
+/// renames it. ResourceExhausted: the disk is full; PermissionDenied or NotFound: the folder cannot
+/// be written; Unavailable otherwise. On failure the temporary file is removed and `path` is as
+/// before.
+[[nodiscard]] absl::Status WriteFileAtomically(const std::string& path, std::string_view bytes);
+
+/// Makes `folder` and its parents, and proves with a probe file that it can be written. Codes as
+/// for WriteFileAtomically; FailedPrecondition: something that is no folder is in the way.
+[[nodiscard]] absl::Status EnsureWritableFolder(const std::string& folder);
+
+}  // namespace orbweave

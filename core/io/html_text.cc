@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/html_text.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+
+namespace orbweave {
+namespace {
+
+constexpr std::string_view kReplacement = "\xef\xbf\xbd";
+
+/// Length of the well-formed UTF-8 sequence at the front of `text`; 0 when there is none.
+size_t SequenceLength(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return 1;
+  const size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  const bool overlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
+  const bool outside = (lead == 0xed && byte(1) > 0x9f) || (lead == 0xf4 && byte(1) > 0x8f);
+  return overlong || outside ? 0 : length;
+}
+
+/// The escaped form of one ASCII character.
+void AppendEscaped(char c, std::string& html) {
+  switch (c) {
+    case '&':
+      html += "&amp;";
+      break;
+    case '<':
+      html += "&lt;";
+      break;
+    case '>':
+      html += "&gt;";
+      break;
+    case '"':
+      html += "&quot;";
+      break;
+    case '\'':
+      html += "&#39;";
+      break;
+    default:
+      if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') {
+        html += kReplacement;
+      } else {
+        html += c;
+      }
+  }
+}
+
+}  // namespace
+
+std::string EscapeHtml(std::string_view text) {
+  std::string html;
+  while (!text.empty()) {
+    const size_t length = SequenceLength(text);
+    if (length == 0) {
+      html += kReplacement;
+    } else if (length == 1) {
+      AppendEscaped(text.front(), html);
+    } else {
+      html += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return html;
+}
+
+std::string CountText(uint64_t count) {
+  std::string text = absl::StrCat(count);
+  for (size_t place = text.size(); place > 3; place -= 3) text.insert(place - 3, ",");
+  return text;
+}
+
+std::string DecimalText(double value, int digits) {
+  if (!std::isfinite(value)) return "-";
+  char buffer[400];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::fixed, digits).ptr;
+  std::string text(buffer, end);
+  // "-0.00" says nothing that "0.00" does not.
+  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string ShortText(double value) {
+  const double size = std::abs(value);
+  if (!std::isfinite(value)) return "-";
+  if (size >= 1e9) return absl::StrCat(DecimalText(value / 1e9, 1), "e9");
+  if (size >= 100.0) {
+    return (value < 0.0 ? "-" : "") + CountText(static_cast<uint64_t>(std::llround(size)));
+  }
+  std::string text = DecimalText(value, size >= 10.0 ? 1 : size >= 1.0 ? 2 : 3);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string DurationText(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0.0) return "-";
+  if (seconds < 10.0) return DecimalText(seconds, 1) + " s";
+  const int64_t whole = std::llround(seconds);
+  const auto two = [](int64_t n) { return absl::StrCat(n < 10 ? "0" : "", n); };
+  if (whole < 60) return absl::StrCat(whole, " s");
+  if (whole < 3600) return absl::StrCat(whole / 60, " min ", two(whole % 60), " s");
+  return absl::StrCat(whole / 3600, " h ", two(whole / 60 % 60), " min");
+}
+
+std::string ClusterColor(int cluster) {
+  if (cluster < 0) return "hsl(0 0% 55%)";
+  // The golden angle spreads any number of hues; lightness alternates for those that come close.
+  const double hue = std::fmod(205.0 + 137.508 * cluster, 360.0);
+  return absl::StrCat("hsl(", DecimalText(hue, 0), " 56% ", cluster % 2 == 0 ? 50 : 42, "%)");
+}
+
+}  // namespace orbweave

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+/// What the header of an image says, before any pixel is decoded.
+struct ImageMetadata {
+  int width_px = 0;
+  int height_px = 0;
+  /// EXIF GPS, WGS84. Altitude as written there: above sea level or ellipsoid, cameras differ; 0
+  /// unless `altitude_known`.
+  std::optional<GeodeticPosition> position{};
+  bool altitude_known = false;
+  /// EXIF GPSHPositioningError, metres.
+  std::optional<double> position_error_m{};
+  /// Direction of the image centre in degrees: XMP-GPano PoseHeadingDegrees, else EXIF
+  /// GPSImgDirection (clockwise from north); pitch up positive; roll clockwise positive.
+  std::optional<double> heading_deg{};
+  std::optional<double> pitch_deg{};
+  std::optional<double> roll_deg{};
+  /// DateTimeOriginal with SubSec and offset, seconds since 1970; read as UTC where no offset is
+  /// given.
+  std::optional<double> capture_time_s{};
+};
+
+/// Reads the header, EXIF and XMP of an encoded image (JPEG, PNG, TIFF, BMP, WebP, PPM/PGM). Absurd
+/// values (latitude beyond 90 degrees, 0/0, NaN) are left out. InvalidArgument: no image of a known
+/// kind, a header that gives no dimensions, or data that end before the image does ("truncated").
+/// Thread-safe.
+[[nodiscard]] absl::StatusOr<ImageMetadata> ReadImageMetadata(std::string_view encoded);
+
+}  // namespace orbweave

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+/// One image as the report shows it.
+struct ReportImage {
+  std::string name{};
+  bool registered = false;
+  bool loose = false;       ///< placed by GNSS and neighbours only
+  uint32_t model = 0;       ///< index of the written model (sparse/0, sparse/1, ...)
+  int cluster = -1;         ///< cluster it is interior to; -1: none
+  bool in_overlap = false;  ///< shared by two or more clusters
+  uint32_t drive = 0;
+  Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d>
+      gnss_in_world{};  ///< GNSS position, when the model is georeferenced
+  bool gnss_outlier = false;
+  uint32_t observations = 0;
+  double residual_px_mean = 0.0;
+};
+
+struct ReportStage {
+  std::string name{};
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+  uint32_t tasks_computed = 0;
+  uint32_t tasks_reused = 0;
+  uint32_t retries = 0;
+};
+
+struct ReportCluster {
+  uint32_t images = 0;  ///< interior and overlap
+  uint32_t interior = 0;
+  uint32_t registered = 0;
+  uint32_t components = 0;
+  uint64_t points = 0;
+  double residual_px_rms = 0.0;
+};
+
+struct ReportSeam {
+  uint32_t cluster_a = 0;
+  uint32_t cluster_b = 0;
+  uint32_t common_images = 0;
+  uint32_t common_tracks = 0;
+  uint32_t inlier_tracks = 0;
+  double condition_number = 0.0;
+  double position_jump_m = 0.0;  ///< metres where georeferenced, model units otherwise
+  double rotation_jump_deg = 0.0;
+  bool used = true;
+  std::string reason{};  ///< why it is not used
+};
+
+struct ReportGnss {
+  bool used = false;
+  std::string reason{};  ///< why it is not used
+  uint32_t num_priors = 0;
+  uint32_t num_inliers = 0;
+  double residual_median_m = 0.0;
+  double residual_rms_inliers_m = 0.0;
+  std::vector<std::string> outliers{};  ///< names
+};
+
+struct ReportWorker {
+  std::string name{};
+  uint32_t slots = 1;
+  uint32_t tasks_done = 0;
+};
+
+/// counts[i]: values in [i, i + 1) * bin_width; the last bin also holds all that are larger.
+struct Histogram {
+  double bin_width = 0.1;
+  std::vector<uint64_t> counts{};
+};
+
+/// Everything report.json and report.html tell. Residuals are angles times W / 2pi: pixels at the
+/// equator.
+struct JobReport {
+  std::string version{};
+  std::string title{};  ///< of the page: the job's label
+  uint32_t images_total = 0;
+  uint32_t registered = 0;
+  std::vector<Exclusion>
+      not_registered{};  ///< excluded files and images without a pose, with reasons
+  uint32_t models = 0;   ///< sparse/0 ... sparse/(models - 1)
+  uint64_t points = 0;
+  uint64_t observations = 0;
+  double mean_track_length = 0.0;
+  double residual_px_mean = 0.0;
+  double residual_px_rms = 0.0;
+  Histogram residual_histogram{};
+  std::vector<uint64_t> track_lengths{};  ///< [n]: points seen by n images; the last: by n or more
+  std::vector<ReportCluster> clusters{};
+  std::vector<ReportSeam> seams{};
+  ReportGnss gnss{};
+  std::optional<GeodeticPosition>
+      origin{};                       ///< of the east-north-up frame; absent: the frame is free
+  std::vector<ReportStage> stages{};  ///< in order
+  std::vector<ReportWorker> workers{};
+  double elapsed_s = 0.0;
+  std::vector<std::string> warnings{};
+  std::string options_text{};
+  std::vector<ReportImage> images{};  ///< in id order
+};
+
+}  // namespace orbweave

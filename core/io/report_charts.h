@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <string>
+
+#include "core/io/job_report.h"
+
+namespace orbweave {
+
+/// Observations by residual, a mark at the mean, as an SVG element.
+[[nodiscard]] std::string ResidualHistogramSvg(const JobReport& report);
+/// Points by the number of images that see them.
+[[nodiscard]] std::string TrackLengthSvg(const JobReport& report);
+/// Tracks seen by each image in order, coloured by cluster; groups of images share a bar when there
+/// are many.
+[[nodiscard]] std::string TracksPerImageSvg(const JobReport& report);
+/// Rows of wall and CPU time per stage as an HTML table with bars.
+[[nodiscard]] std::string StageTimesHtml(const JobReport& report);
+
+}  // namespace orbweave

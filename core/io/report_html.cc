@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/report_html.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "core/io/html_text.h"
+#include "core/io/report_charts.h"
+#include "core/io/report_map.h"
+#include "core/io/report_style.h"
+
+namespace orbweave {
+namespace {
+
+constexpr size_t kMaxRows = 200;  ///< of a table of names; report.json has all
+constexpr uint32_t kMaxMaps = 4;
+
+std::string Section(const std::string& heading,
+                    const std::string& subtitle,
+                    const std::string& body) {
+  return absl::StrCat(
+      "<section><h2>", heading, "</h2><p class=\"sub\">", subtitle, "</p>", body, "</section>\n");
+}
+
+std::string Card(const std::string& number, const std::string& unit, const std::string& what) {
+  return absl::StrCat("<div class=\"card\"><b>",
+                      number,
+                      unit.empty() ? "" : " <small>" + unit + "</small>",
+                      "</b><span>",
+                      what,
+                      "</span></div>");
+}
+
+std::string Header(const JobReport& report) {
+  return absl::StrCat("<header><h1>",
+                      EscapeHtml(report.title.empty() ? "Reconstruction" : report.title),
+                      "</h1><p>Orbweave ",
+                      EscapeHtml(report.version),
+                      " · ",
+                      DurationText(report.elapsed_s),
+                      " on ",
+                      report.workers.size(),
+                      report.workers.size() == 1 ? " worker" : " workers",
+                      "</p></header>\n");
+}
+
+std::string Cards(const JobReport& report) {
+  std::string cards =
+      absl::StrCat(Card(CountText(report.registered),
+                        "of " + CountText(report.images_total),
+                        "panoramas registered"),
+                   Card(CountText(report.points), "", "points"),
+                   Card(CountText(report.observations), "", "observations"),
+                   Card(DecimalText(report.mean_track_length, 2), "images", "mean track length"),
+                   Card(DecimalText(report.residual_px_mean, 3),
+                        "px",
+                        "mean residual (rms " + DecimalText(report.residual_px_rms, 3) + ")"),
+                   Card(CountText(report.clusters.size()),
+                        "",
+                        report.clusters.size() == 1 ? "cluster" : "clusters"));
+  if (report.models > 1) cards += Card(CountText(report.models), "", "separate models");
+  if (report.gnss.used) {
+    cards += Card(DecimalText(report.gnss.residual_median_m, 2),
+                  "m",
+                  absl::StrCat("median GNSS distance, ",
+                               CountText(report.gnss.num_inliers),
+                               " of ",
+                               CountText(report.gnss.num_priors),
+                               " agree"));
+  }
+  return "<div class=\"cards\">" + cards + "</div>\n";
+}
+
+std::string MapKey(const JobReport& report) {
+  const auto any = [&](bool (*test)(const ReportImage&)) {
+    return std::any_of(report.images.begin(), report.images.end(), test);
+  };
+  std::string key;
+  const size_t shown = std::min<size_t>(report.clusters.size(), 12);
+  for (size_t i = 0; i < shown; ++i) {
+    absl::StrAppend(&key,
+                    "<span><i style=\"background:",
+                    ClusterColor(static_cast<int>(i)),
+                    "\"></i>cluster ",
+                    i,
+                    "</span>");
+  }
+  if (report.clusters.size() > shown)
+    absl::StrAppend(&key, "<span>and ", report.clusters.size() - shown, " more</span>");
+  if (any([](const ReportImage& image) { return image.in_overlap; }))
+    key += "<span><i class=\"ring\"></i>in two clusters or more</span>";
+  if (any([](const ReportImage& image) { return image.loose; }))
+    key += "<span><i class=\"hollow\"></i>placed by GNSS only</span>";
+  if (!report.seams.empty()) key += "<span><i class=\"diamond\"></i>seam</span>";
+  if (any([](const ReportImage& image) { return image.gnss_outlier; }))
+    key += "<span><i class=\"dash\"></i>contradicted GNSS position</span>";
+  return "<div class=\"key\">" + key + "</div>";
+}
+
+std::string Maps(const JobReport& report) {
+  std::string maps;
+  const uint32_t models = std::min(std::max(report.models, 1U), kMaxMaps);
+  for (uint32_t model = 0; model < models; ++model) {
+    const std::string map = TrajectoryMapSvg(report, model);
+    if (map.empty()) continue;
+    if (report.models > 1) absl::StrAppend(&maps, "<p class=\"sub\">model ", model, "</p>");
+    maps += map;
+  }
+  if (maps.empty()) return Section("Trajectory", "No panorama could be placed.", "");
+  const std::string frame =
+      report.gnss.used
+          ? "From above, north up, metres."
+          : "From above, in a free frame and scale" +
+                (report.gnss.reason.empty() ? "." : ": " + EscapeHtml(report.gnss.reason) + ".");
+  return Section("Trajectory", frame, maps + MapKey(report));
+}
+
+std::string Charts(const JobReport& report) {
+  if (report.observations == 0) return "";
+  std::string charts = "<div class=\"pair\">";
+  charts += Section("Residuals",
+                    "Angle between bearing and point, in pixels at the equator.",
+                    ResidualHistogramSvg(report));
+  charts += Section(
+      "Track lengths", "Points by the number of panoramas that see them.", TrackLengthSvg(report));
+  charts += "</div>\n";
+  return charts + Section("Tracks per image",
+                          "Points that each panorama sees. A gap is a panorama without a place.",
+                          TracksPerImageSvg(report));
+}
+
+std::string Times(const JobReport& report) {
+  if (report.stages.empty()) return "";
+  double cpu_s = 0.0;
+  uint64_t reused = 0;
+  for (const ReportStage& stage : report.stages) {
+    cpu_s += stage.cpu_s;
+    reused += stage.tasks_reused;
+  }
+  const std::string subtitle =
+      absl::StrCat(DurationText(report.elapsed_s),
+                   " in all, ",
+                   DurationText(cpu_s),
+                   " of CPU; ",
+                   CountText(reused),
+                   reused == 1 ? " task was found finished." : " tasks were found finished.");
+  return Section("Time",
+                 subtitle,
+                 StageTimesHtml(report) +
+                     "<div class=\"key\"><span><i class=\"wall\"></i>wall clock</span><span><i "
+                     "class=\"cpu\"></i>CPU</span></div>");
+}
+
+std::string Clusters(const JobReport& report) {
+  if (report.clusters.empty()) return "";
+  std::string rows;
+  for (size_t i = 0; i < std::min(report.clusters.size(), kMaxRows); ++i) {
+    const ReportCluster& cluster = report.clusters[i];
+    absl::StrAppend(&rows,
+                    "<tr><td>",
+                    i,
+                    "</td><td>",
+                    CountText(cluster.images),
+                    "</td><td>",
+                    CountText(cluster.interior),
+                    "</td><td>",
+                    CountText(cluster.registered),
+                    "</td><td>",
+                    cluster.components,
+                    "</td><td>",
+                    CountText(cluster.points),
+                    "</td><td>",
+                    DecimalText(cluster.residual_px_rms, 3),
+                    "</td></tr>");
+  }
+  return Section(
+      "Clusters",
+      "Parts of the job that were reconstructed on their own before they were joined.",
+      "<table><thead><tr><th>cluster</th><th>images</th><th>interior</th><th>registered</"
+      "th><th>components</th><th>points</th><th>rms px</th></tr></thead><tbody>" +
+          rows + "</tbody></table>");
+}
+
+std::string Seams(const JobReport& report) {
+  if (report.seams.empty()) return "";
+  std::string rows;
+  for (size_t i = 0; i < std::min(report.seams.size(), kMaxRows); ++i) {
+    const ReportSeam& seam = report.seams[i];
+    absl::StrAppend(&rows,
+                    "<tr><td>",
+                    seam.cluster_a,
+                    " - ",
+                    seam.cluster_b,
+                    "</td><td>",
+                    CountText(seam.common_images),
+                    "</td><td>",
+                    CountText(seam.inlier_tracks),
+                    " of ",
+                    CountText(seam.common_tracks),
+                    "</td><td>",
+                    ShortText(seam.condition_number),
+                    "</td><td>",
+                    ShortText(seam.position_jump_m),
+                    "</td><td>",
+                    ShortText(seam.rotation_jump_deg),
+                    "</td><td class=\"text ",
+                    seam.used ? "good\">used" : "bad\">not used: " + EscapeHtml(seam.reason),
+                    "</td></tr>");
+  }
+  const std::string unit = report.gnss.used ? "m" : "units";
+  return Section("Seams",
+                 "Where two clusters share panoramas, and how well they agree there.",
+                 "<table><thead><tr><th>clusters</th><th>images</th><th>tracks that "
+                 "agree</th><th>condition</th><th>jump, " +
+                     unit + "</th><th>jump, °</th><th class=\"text\"></th></tr></thead><tbody>" +
+                     rows + "</tbody></table>");
+}
+
+std::string Gnss(const JobReport& report) {
+  const ReportGnss& gnss = report.gnss;
+  if (gnss.num_priors == 0) return "";
+  const std::string said =
+      gnss.used
+          ? absl::StrCat(CountText(gnss.num_inliers),
+                         " of ",
+                         CountText(gnss.num_priors),
+                         " positions agree with the model; median distance ",
+                         ShortText(gnss.residual_median_m),
+                         " m, rms of those that agree ",
+                         ShortText(gnss.residual_rms_inliers_m),
+                         " m.")
+          : absl::StrCat(
+                CountText(gnss.num_priors), " positions, not used: ", EscapeHtml(gnss.reason));
+  std::string names;
+  for (size_t i = 0; i < std::min(gnss.outliers.size(), kMaxRows); ++i)
+    absl::StrAppend(&names, i == 0 ? "" : ", ", EscapeHtml(gnss.outliers[i]));
+  return Section("GNSS",
+                 said,
+                 names.empty() ? ""
+                               : absl::StrCat("<p class=\"warn\">",
+                                              gnss.outliers.size(),
+                                              " contradicted</p><p class=\"sub\">",
+                                              names,
+                                              "</p>"));
+}
+
+std::string LeftOut(const JobReport& report) {
+  if (report.not_registered.empty()) return "";
+  std::string rows;
+  for (size_t i = 0; i < std::min(report.not_registered.size(), kMaxRows); ++i) {
+    absl::StrAppend(&rows,
+                    "<tr><td class=\"text\">",
+                    EscapeHtml(report.not_registered[i].name),
+                    "</td><td class=\"text\">",
+                    EscapeHtml(report.not_registered[i].reason),
+                    "</td></tr>");
+  }
+  const size_t more =
+      report.not_registered.size() - std::min(report.not_registered.size(), kMaxRows);
+  if (more > 0)
+    absl::StrAppend(&rows,
+                    "<tr><td class=\"text\" colspan=\"2\">and ",
+                    CountText(more),
+                    " more, all in report.json</td></tr>");
+  return Section(
+      "Left out",
+      absl::StrCat(CountText(report.not_registered.size()), " images take no part in the model."),
+      "<table><thead><tr><th>image</th><th class=\"text\">reason</th></tr></thead><tbody>" + rows +
+          "</tbody></table>");
+}
+
+std::string Warnings(const JobReport& report) {
+  if (report.warnings.empty()) return "";
+  std::string items;
+  for (size_t i = 0; i < std::min(report.warnings.size(), kMaxRows); ++i)
+    absl::StrAppend(&items, "<li>", EscapeHtml(report.warnings[i]), "</li>");
+  return Section("Warnings", "Worth knowing; the job went on.", "<ul>" + items + "</ul>");
+}
+
+std::string Workers(const JobReport& report) {
+  if (report.workers.empty()) return "";
+  std::string rows;
+  for (const ReportWorker& worker : report.workers) {
+    absl::StrAppend(&rows,
+                    "<tr><td class=\"text\">",
+                    EscapeHtml(worker.name),
+                    "</td><td>",
+                    worker.slots,
+                    "</td><td>",
+                    CountText(worker.tasks_done),
+                    "</td></tr>");
+  }
+  return Section(
+      "Workers",
+      "Processes that took part.",
+      "<table><thead><tr><th>worker</th><th>slots</th><th>tasks done</th></tr></thead><tbody>" +
+          rows + "</tbody></table>");
+}
+
+std::string Options(const JobReport& report) {
+  if (report.options_text.empty()) return "";
+  return absl::StrCat("<section><details><summary>Options</summary><pre>",
+                      EscapeHtml(report.options_text),
+                      "</pre></details></section>\n");
+}
+
+}  // namespace
+
+std::string ReportHtml(const JobReport& report) {
+  return absl::StrCat(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\"><title>",
+      EscapeHtml(report.title.empty() ? "Orbweave report" : report.title + " - Orbweave"),
+      "</title><style>",
+      kReportStyle,
+      "</style></head><body><main>\n",
+      Header(report),
+      Cards(report),
+      Maps(report),
+      Charts(report),
+      Times(report),
+      Clusters(report),
+      Seams(report),
+      Gnss(report),
+      LeftOut(report),
+      Warnings(report),
+      Workers(report),
+      Options(report),
+      "<footer>Residuals are angles times width over 2π. All numbers of this page are in "
+      "report.json.</footer></main></body></html>\n");
+}
+
+}  // namespace orbweave

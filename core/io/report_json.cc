@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/report_json.h"
+
+#include "core/io/json_text.h"
+
+namespace orbweave {
+namespace {
+
+Json NotRegistered(const JobReport& report) {
+  Json list = Json::array();
+  for (const Exclusion& image : report.not_registered)
+    list.push_back({{"name", image.name}, {"reason", image.reason}});
+  return list;
+}
+
+Json Clusters(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportCluster& cluster : report.clusters) {
+    list.push_back({{"images", cluster.images},
+                    {"interior", cluster.interior},
+                    {"registered", cluster.registered},
+                    {"components", cluster.components},
+                    {"points", cluster.points},
+                    {"residual_px_rms", cluster.residual_px_rms}});
+  }
+  return list;
+}
+
+Json Seams(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportSeam& seam : report.seams) {
+    list.push_back({{"clusters", {seam.cluster_a, seam.cluster_b}},
+                    {"common_images", seam.common_images},
+                    {"common_tracks", seam.common_tracks},
+                    {"inlier_tracks", seam.inlier_tracks},
+                    {"condition_number", seam.condition_number},
+                    {"position_jump_m", seam.position_jump_m},
+                    {"rotation_jump_deg", seam.rotation_jump_deg},
+                    {"used", seam.used},
+                    {"reason", seam.reason}});
+  }
+  return list;
+}
+
+Json Gnss(const ReportGnss& gnss) {
+  return {{"used", gnss.used},
+          {"reason", gnss.reason},
+          {"priors", gnss.num_priors},
+          {"inliers", gnss.num_inliers},
+          {"residual_median_m", gnss.residual_median_m},
+          {"residual_rms_inliers_m", gnss.residual_rms_inliers_m},
+          {"outliers", gnss.outliers}};
+}
+
+Json Stages(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportStage& stage : report.stages) {
+    list.push_back({{"name", stage.name},
+                    {"wall_s", stage.wall_s},
+                    {"cpu_s", stage.cpu_s},
+                    {"tasks_computed", stage.tasks_computed},
+                    {"tasks_reused", stage.tasks_reused},
+                    {"retries", stage.retries}});
+  }
+  return list;
+}
+
+Json Workers(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportWorker& worker : report.workers) {
+    list.push_back(
+        {{"name", worker.name}, {"slots", worker.slots}, {"tasks_done", worker.tasks_done}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string ReportJson(const JobReport& report) {
+  Json json;
+  json["version"] = report.version;
+  json["title"] = report.title;
+  json["images_total"] = report.images_total;
+  json["registered"] = report.registered;
+  json["not_registered"] = NotRegistered(report);
+  json["models"] = report.models;
+  json["points"] = report.points;
+  json["observations"] = report.observations;
+  json["mean_track_length"] = report.mean_track_length;
+  json["residual_px_mean"] = report.residual_px_mean;
+  json["residual_px_rms"] = report.residual_px_rms;
+  json["residual_histogram"] = {{"bin_width_px", report.residual_histogram.bin_width},
+                                {"counts", report.residual_histogram.counts}};
+  json["track_lengths"] = report.track_lengths;
+  json["clusters"] = Clusters(report);
+  json["seams"] = Seams(report);
+  json["gnss"] = Gnss(report.gnss);
+  json["stages"] = Stages(report);
+  json["workers"] = Workers(report);
+  json["elapsed_s"] = report.elapsed_s;
+  json["warnings"] = report.warnings;
+  json["options"] = report.options_text;
+  return JsonText(json);
+}
+
+}  // namespace orbweave

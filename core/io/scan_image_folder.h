@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/base/stage_context.h"
+#include "core/io/image_sources.h"
+
+namespace orbweave {
+
+struct ScanRequest {
+  std::string image_folder{};
+  /// Empty: no masks. The mask of `a/b.jpg` is `a/b.jpg.png`, else `a/b.png`, else `a/b.jpg` in
+  /// this folder, upper and lower case alike.
+  std::string mask_folder{};
+  bool mask_ignores_white = true;
+  std::string gnss_table{};  ///< path of the GNSS table; empty: none
+};
+
+/// Lists the image files (jpg jpeg png tif tiff bmp webp ppm, in any case) below a folder,
+/// following symbolic links, in natural name order, and reads each once: digest, dimensions,
+/// metadata, mask. A file that cannot be used is listed with its `problem`. NotFound: the folder is
+/// missing or holds no image, or the mask folder or GNSS table is missing; each message says what
+/// to do. Cancelled when asked to stop.
+[[nodiscard]] absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
+                                                           const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/scene/image_manifest.h"
+#include "core/scene/reconstruction.h"
+
+namespace orbweave {
+
+/// RFC 7946 FeatureCollection in WGS84: one LineString per drive through its registered images in
+/// id order, then one Point per registered image with its name. FailedPrecondition: the manifest
+/// has no origin.
+[[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(const Reconstruction& reconstruction,
+                                                            const ImageManifest& manifest);
+
+}  // namespace orbweave

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/mapping/mapping_state.h"
+
+namespace orbweave {
+
+/// Re-triangulates, completes and merges tracks, adjusts everything under a Cauchy loss and
+/// filters; again while much is filtered, a few rounds at most. For the model while it grows.
+[[nodiscard]] absl::Status AdjustGrowingModel(MappingState& state,
+                                              const MappingOptions& options,
+                                              const StageContext& context);
+
+/// The same until hardly anything changes, then least squares over what is left: the final model.
+[[nodiscard]] absl::Status AdjustFinalModel(MappingState& state,
+                                            const MappingOptions& options,
+                                            const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/find_seed_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "core/mapping/mapping_schedule.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kPlanarLevels = 4;
+
+/// Halvings of `wanted` until `value` suffices.
+int Halvings(double wanted, double value) {
+  int halvings = 0;
+  for (; value < wanted; wanted /= 2.0) ++halvings;
+  return halvings;
+}
+
+struct Candidate {
+  uint32_t pair = 0;
+  int level = 0;
+  uint64_t image_matches = 0;  ///< of its better connected image; 0 where that does not rank
+  size_t matches = 0;
+};
+
+bool IsBetter(const Candidate& x, const Candidate& y) {
+  return std::tuple(x.level, y.image_matches, y.matches, x.pair) <
+         std::tuple(y.level, x.image_matches, x.matches, y.pair);
+}
+
+std::vector<uint64_t> MatchesPerImage(const ClusterProblem& problem,
+                                      const CorrespondenceGraph& graph) {
+  std::vector<uint64_t> matches(graph.NumImages(), 0);
+  for (const LinkedPair& pair : graph.pairs) {
+    matches[pair.a] += problem.pairs[pair.index].inliers.size();
+    matches[pair.b] += problem.pairs[pair.index].inliers.size();
+  }
+  return matches;
+}
+
+}  // namespace
+
+std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
+                                    const CorrespondenceGraph& graph,
+                                    std::span<const uint8_t> available,
+                                    const MappingOptions& options) {
+  const std::vector<uint64_t> image_matches = MatchesPerImage(problem, graph);
+  const bool by_image = ScheduleOf(options).seeds_by_image;
+  std::vector<Candidate> candidates;
+  for (uint32_t p = 0; p < graph.pairs.size(); ++p) {
+    const LinkedPair& pair = graph.pairs[p];
+    const TwoViewGeometry& geometry = problem.pairs[pair.index];
+    const double angle_deg = geometry.median_angle_rad * 180.0 / std::numbers::pi;
+    if (available[pair.a] == 0 || available[pair.b] == 0 ||
+        geometry.kind == TwoViewKind::kPureRotation || !(angle_deg >= options.min_angle_deg) ||
+        geometry.inliers.size() < static_cast<size_t>(options.min_inliers)) {
+      continue;
+    }
+    const int level =
+        Halvings(options.seed_min_inliers, static_cast<double>(geometry.inliers.size())) +
+        Halvings(options.seed_min_angle_deg, angle_deg) +
+        (geometry.kind == TwoViewKind::kPlanar ? kPlanarLevels : 0);
+    const uint64_t ranking_matches =
+        by_image ? std::max(image_matches[pair.a], image_matches[pair.b]) : 0;
+    candidates.push_back({p, level, ranking_matches, geometry.inliers.size()});
+  }
+  std::sort(candidates.begin(), candidates.end(), IsBetter);
+  std::vector<uint32_t> pairs;
+  pairs.reserve(candidates.size());
+  for (const Candidate& candidate : candidates) pairs.push_back(candidate.pair);
+  return pairs;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/mapping/correspondence_graph.h"
+
+namespace orbweave {
+
+/// Pairs to start from, best first, as indices into graph.pairs: the paper's section 4 relaxed step
+/// by step. A pair of at least options.seed_min_inliers matches under options.seed_min_angle_deg is
+/// of level 0; every halving of either that it needs costs a level, being nearly planar costs four.
+/// Lower levels come first, within a level more matches. Left out: pure rotations, pairs under
+/// options.min_angle_deg (their points would not be kept) or with fewer than options.min_inliers
+/// matches, and pairs with an image that is not `available`.
+[[nodiscard]] std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
+                                                  const CorrespondenceGraph& graph,
+                                                  std::span<const uint8_t> available,
+                                                  const MappingOptions& options);
+
+}  // namespace orbweave

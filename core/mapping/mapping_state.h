@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/mapping/correspondence_graph.h"
+#include "core/mapping/visibility_pyramid.h"
+
+namespace orbweave {
+
+using PointIndex = uint32_t;
+constexpr PointIndex kNoPoint = std::numeric_limits<PointIndex>::max();
+
+/// A scene point and the nodes it explains, one per image at most; no nodes: removed.
+struct MappedPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the world
+  std::vector<Node> nodes{};
+};
+
+/// The model while it grows. Keeps four things true at all times: a node links to the point that
+/// lists it; listed nodes belong to registered images; a point lists at most one node per image
+/// and two nodes at least; and every image knows which of its features correspond to a point.
+/// All containers are indexed, every loop over them runs in index order.
+class MappingState {
+ public:
+  /// Both arguments must outlive the state.
+  MappingState(const ClusterProblem& problem, const CorrespondenceGraph& graph);
+
+  [[nodiscard]] const ClusterProblem& Problem() const { return *problem_; }
+  [[nodiscard]] const CorrespondenceGraph& Graph() const { return *graph_; }
+
+  /// Registered images in order of registration.
+  [[nodiscard]] const std::vector<ImageSlot>& Registered() const { return registered_; }
+  [[nodiscard]] bool IsRegistered(ImageSlot image) const { return is_registered_[image] != 0; }
+  [[nodiscard]] const Rigid3& CamFromWorld(ImageSlot image) const { return poses_[image]; }
+  [[nodiscard]] const Eigen::Vector3d& Centre(ImageSlot image) const { return centres_[image]; }
+  void Register(ImageSlot image, const Rigid3& cam_from_world);
+  /// Removes the image with its observations, and points that lose their second observation.
+  void Deregister(ImageSlot image);
+  void SetPose(ImageSlot image, const Rigid3& cam_from_world);
+
+  /// Indices of points ever made; those removed list no node.
+  [[nodiscard]] PointIndex EndOfPoints() const { return static_cast<PointIndex>(points_.size()); }
+  [[nodiscard]] const MappedPoint& Point(PointIndex point) const { return points_[point]; }
+  [[nodiscard]] bool Exists(PointIndex point) const { return !points_[point].nodes.empty(); }
+  [[nodiscard]] PointIndex PointOf(Node node) const { return point_of_node_[node]; }
+  [[nodiscard]] uint32_t NumPoints() const { return num_points_; }
+  [[nodiscard]] uint32_t NumObservations() const { return num_observations_; }
+  /// Observations in one image.
+  [[nodiscard]] uint32_t NumObservations(ImageSlot image) const { return observed_[image]; }
+  /// Whether the point is seen by the image.
+  [[nodiscard]] bool IsSeenBy(PointIndex point, ImageSlot image) const;
+
+  /// `nodes`: free, in different registered images, two at least.
+  PointIndex AddPoint(const Eigen::Vector3d& position, std::span<const Node> nodes);
+  void SetPosition(PointIndex point, const Eigen::Vector3d& position);
+  /// `node`: free, in a registered image that does not see the point yet.
+  void AddObservation(PointIndex point, Node node);
+  /// Removes the point too when one observation would remain; returns how many went.
+  uint32_t RemoveObservation(PointIndex point, Node node);
+  /// Returns how many observations went.
+  uint32_t RemovePoint(PointIndex point);
+
+  /// Features of the image that correspond to a node with a point, and how they spread.
+  [[nodiscard]] const VisibilityPyramid& Visible(ImageSlot image) const { return visible_[image]; }
+
+ private:
+  void Link(PointIndex point, Node node);
+  void Unlink(Node node);
+
+  const ClusterProblem* problem_;
+  const CorrespondenceGraph* graph_;
+  std::vector<ImageSlot> registered_{};
+  std::vector<uint8_t> is_registered_{};
+  std::vector<Rigid3> poses_{};
+  std::vector<Eigen::Vector3d> centres_{};
+  std::vector<uint32_t> observed_{};
+  std::vector<MappedPoint> points_{};
+  std::vector<PointIndex> point_of_node_{};
+  std::vector<uint32_t> visible_neighbours_{};  ///< per node: neighbours with a point
+  std::vector<uint8_t> cell_of_node_{};
+  std::vector<VisibilityPyramid> visible_{};
+  uint32_t num_points_ = 0;
+  uint32_t num_observations_ = 0;
+};
+
+/// Angle between the bearing of `node` and the direction to `position`, radians.
+[[nodiscard]] double NodeError(const MappingState& state,
+                               const Eigen::Vector3d& position,
+                               Node node);
+
+/// Whether some two of the nodes' cameras see `position` under an angle in
+/// [min_angle_rad, pi - min_angle_rad]: on a sphere a point between two cameras is as ill
+/// determined along their baseline as one far away.
+[[nodiscard]] bool IsWellSeen(const MappingState& state,
+                              const Eigen::Vector3d& position,
+                              std::span<const Node> nodes,
+                              double min_angle_rad);
+
+/// `pixels` at the equator of the node's panorama as an angle, equation (8).
+[[nodiscard]] double AngleFromPixels(const MappingState& state, Node node, double pixels);
+
+}  // namespace orbweave

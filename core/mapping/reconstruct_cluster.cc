@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/reconstruct_cluster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/mapping/export_component.h"
+#include "core/mapping/mapping_schedule.h"
+#include "core/mapping/reconstruct_component.h"
+
+namespace orbweave {
+namespace {
+
+/// Squared angles of all observations in pixels at the equator of their panoramas.
+struct ResidualSum {
+  double sum_px2 = 0.0;
+  size_t count = 0;
+
+  void Add(const ClusterProblem& problem, const Reconstruction& reconstruction) {
+    for (const Track& track : reconstruction.tracks) {
+      for (const Observation& seen : track.observations) {
+        const auto image =
+            std::lower_bound(problem.images.begin(),
+                             problem.images.end(),
+                             seen.ref.image,
+                             [](const ClusterImage& each, ImageId id) { return each.id < id; });
+        const double error_px = image->camera.PixelsFromAngle(
+            BearingError(reconstruction.images.at(seen.ref.image).cam_from_world,
+                         track.point_in_world,
+                         seen.bearing));
+        sum_px2 += error_px * error_px;
+        ++count;
+      }
+    }
+  }
+  [[nodiscard]] double Rms() const {
+    return count == 0 ? 0.0 : std::sqrt(sum_px2 / static_cast<double>(count));
+  }
+};
+
+uint32_t CountAvailable(const std::vector<uint8_t>& available) {
+  return static_cast<uint32_t>(std::count(available.begin(), available.end(), 1));
+}
+
+std::string ReasonOf(const CorrespondenceGraph& graph,
+                     ImageSlot image,
+                     const RegistrationLog& log,
+                     const MappingOptions& options) {
+  if (graph.pairs_of_image[image].empty()) return "no verified matches";
+  return ReasonOf(log[image], static_cast<uint32_t>(ScheduleOf(options).min_visible));
+}
+
+void SortLargestFirst(std::vector<Reconstruction>& components) {
+  std::stable_sort(
+      components.begin(), components.end(), [](const Reconstruction& x, const Reconstruction& y) {
+        return x.images.size() > y.images.size();
+      });
+}
+
+}  // namespace
+
+absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& problem,
+                                                         const MappingOptions& options,
+                                                         const StageContext& context) {
+  ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  ORBWEAVE_ASSIGN_OR_RETURN(const CorrespondenceGraph graph, BuildCorrespondenceGraph(problem));
+  std::vector<uint8_t> available(problem.images.size(), 1);
+  std::vector<std::string> reasons(problem.images.size());
+  RegistrationLog log(problem.images.size());
+  ClusterReconstruction result;
+  ResidualSum residuals;
+
+  while (CountAvailable(available) >= static_cast<uint32_t>(options.min_component_images)) {
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        const ComponentResult component,
+        ReconstructComponent(problem, graph, available, options, log, context));
+    result.num_global_adjustments += component.growth.num_global_adjustments;
+    result.num_local_adjustments += component.growth.num_local_adjustments;
+    if (!component.state) break;
+    const std::vector<ImageSlot>& registered = component.state->Registered();
+    const bool kept = registered.size() >= static_cast<size_t>(options.min_component_images);
+    for (const ImageSlot image : registered) {
+      available[image] = 0;
+      if (kept) continue;
+      reasons[image] = "its component of " + std::to_string(registered.size()) +
+                       " images is smaller than " + std::to_string(options.min_component_images);
+    }
+    if (registered.empty()) break;
+    if (!kept) continue;
+    result.components.push_back(ExportComponent(*component.state));
+    residuals.Add(problem, result.components.back());
+  }
+
+  SortLargestFirst(result.components);
+  result.residual_rms_px = residuals.Rms();
+  for (ImageSlot image = 0; image < problem.images.size(); ++image) {
+    const ImageId id = problem.images[image].id;
+    const bool registered = std::ranges::any_of(
+        result.components, [&](const Reconstruction& each) { return each.images.contains(id); });
+    if (registered) continue;
+    if (reasons[image].empty()) reasons[image] = ReasonOf(graph, image, log, options);
+    result.not_registered.push_back({id, reasons[image]});
+  }
+  return result;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/reconstruct_component.h"
+
+#include <algorithm>
+
+#include "core/mapping/find_seed_pairs.h"
+#include "core/mapping/initialise_from_pair.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kMaxFailuresPerImage = 2;
+constexpr int kMaxGrownModels = 3;
+/// A model of this share of the images that its seed's matches reach is taken for good.
+constexpr double kGoodShare = 0.5;
+
+/// Number of available images that matches connect with `start`.
+uint32_t CountReachable(const CorrespondenceGraph& graph,
+                        std::span<const uint8_t> available,
+                        ImageSlot start) {
+  std::vector<uint8_t> reached(graph.NumImages(), 0);
+  std::vector<ImageSlot> images = {start};
+  reached[start] = 1;
+  for (size_t i = 0; i < images.size(); ++i) {
+    for (const uint32_t p : graph.pairs_of_image[images[i]]) {
+      const LinkedPair& pair = graph.pairs[p];
+      const ImageSlot other = pair.a == images[i] ? pair.b : pair.a;
+      if (reached[other] != 0 || available[other] == 0) continue;
+      reached[other] = 1;
+      images.push_back(other);
+    }
+  }
+  return static_cast<uint32_t>(images.size());
+}
+
+/// Which images seeds failed in, or small models cover already.
+class SpentSeeds {
+ public:
+  explicit SpentSeeds(uint32_t num_images) : failures_(num_images, 0), covered_(num_images, 0) {}
+
+  [[nodiscard]] bool IsSpent(const LinkedPair& pair) const {
+    return failures_[pair.a] >= kMaxFailuresPerImage || failures_[pair.b] >= kMaxFailuresPerImage ||
+           (covered_[pair.a] != 0 && covered_[pair.b] != 0);
+  }
+  void NoteFailure(const LinkedPair& pair) {
+    ++failures_[pair.a];
+    ++failures_[pair.b];
+  }
+  void NoteModel(const MappingState& state) {
+    for (const ImageSlot image : state.Registered()) covered_[image] = 1;
+  }
+
+ private:
+  std::vector<int> failures_;
+  std::vector<uint8_t> covered_;
+};
+
+void ResetAttempts(RegistrationLog& log) {
+  for (RegistrationRecord& record : log) {
+    record.num_attempts = 0;
+    record.visible_at_failure = 0;
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<ComponentResult> ReconstructComponent(const ClusterProblem& problem,
+                                                     const CorrespondenceGraph& graph,
+                                                     std::span<const uint8_t> available,
+                                                     const MappingOptions& options,
+                                                     RegistrationLog& log,
+                                                     const StageContext& context) {
+  ComponentResult result;
+  SpentSeeds spent(graph.NumImages());
+  int tried = 0;
+  int grown = 0;
+  for (const uint32_t p : FindSeedPairs(problem, graph, available, options)) {
+    if (tried >= options.max_seeds || grown >= kMaxGrownModels) break;
+    const LinkedPair& pair = graph.pairs[p];
+    if (spent.IsSpent(pair)) continue;
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+    ++tried;
+    MappingState state(problem, graph);
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool started,
+                              InitialiseFromPair(state, pair, options, context));
+    if (!started) {
+      spent.NoteFailure(pair);
+      continue;
+    }
+    ++grown;
+    ResetAttempts(log);
+    ORBWEAVE_ASSIGN_OR_RETURN(const GrowthReport growth,
+                              GrowComponent(state, available, options, log, context));
+    result.growth.num_local_adjustments += growth.num_local_adjustments;
+    result.growth.num_global_adjustments += growth.num_global_adjustments;
+    spent.NoteFailure(pair);
+    spent.NoteModel(state);
+    const auto size = state.Registered().size();
+    if (!result.state || size > result.state->Registered().size())
+      result.state.emplace(std::move(state));
+    if (static_cast<double>(size) >= kGoodShare * CountReachable(graph, available, pair.a)) break;
+  }
+  return result;
+}
+
+}  // namespace orbweave

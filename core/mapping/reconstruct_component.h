@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/mapping/grow_component.h"
+
+namespace orbweave {
+
+struct ComponentResult {
+  std::optional<MappingState> state{};  ///< absent: nothing could be started
+  GrowthReport growth{};                ///< of all starts together
+};
+
+/// The largest model that can be grown among the available images: starts from the best seed pairs
+/// (FindSeedPairs), options.max_seeds at most, and starts again elsewhere when a seed does not hold
+/// or its model stays small against what its matches reach. Takes no image twice as a failed seed.
+[[nodiscard]] absl::StatusOr<ComponentResult> ReconstructComponent(
+    const ClusterProblem& problem,
+    const CorrespondenceGraph& graph,
+    std::span<const uint8_t> available,
+    const MappingOptions& options,
+    RegistrationLog& log,
+    const StageContext& context);
+
+}  // namespace orbweave

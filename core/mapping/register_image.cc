@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/register_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/random.h"
+#include "core/estimators/estimate_absolute_pose.h"
+#include "core/mapping/pose_from_pairs.h"
+#include "core/mapping/scene_correspondences.h"
+
+namespace orbweave {
+namespace {
+
+/// The stage's context with a seed of the image's own, so that the order of registration does not
+/// change what an image draws.
+StageContext ContextOf(const StageContext& context, ImageId image) {
+  StageContext own = context;
+  own.report = {};
+  own.seed = Random(context.seed ^ (uint64_t{image.value} << 20)).Next();
+  return own;
+}
+
+}  // namespace
+
+absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
+                                                  ImageSlot image,
+                                                  const RegistrationLimits& limits,
+                                                  const StageContext& context) {
+  const ClusterImage& problem_image = state.Problem().images[image];
+  const double max_error_rad = problem_image.camera.AngleFromPixels(limits.max_error_px);
+  const SceneCorrespondences correspondences = FindSceneCorrespondences(state, image);
+  RegistrationAttempt attempt{.num_visible = state.Visible(image).Count()};
+  const auto needed = static_cast<uint32_t>(std::max<double>(
+      limits.min_inliers,
+      std::ceil(limits.min_inlier_share * static_cast<double>(attempt.num_visible))));
+
+  const auto accept = [&](const Rigid3& cam_from_world) {
+    const PoseSupport support = SupportOf(cam_from_world, correspondences, max_error_rad);
+    attempt.num_inliers = std::max(attempt.num_inliers, support.count);
+    if (support.count < needed) return false;
+    state.Register(image, cam_from_world);
+    return true;
+  };
+
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<AbsolutePose> pose,
+                            EstimateAbsolutePose(correspondences.bearings,
+                                                 correspondences.positions,
+                                                 max_error_rad,
+                                                 {.min_inliers = 6},
+                                                 ContextOf(context, problem_image.id)));
+  attempt.registered = pose && accept(pose->cam_from_world);
+  if (!attempt.registered && limits.propose_from_pairs) {
+    const std::optional<Rigid3> proposed =
+        EstimatePoseFromPairs(state, image, correspondences, max_error_rad);
+    attempt.registered = proposed && accept(*proposed);
+  }
+  return attempt;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/mapping/mapping_state.h"
+
+namespace orbweave {
+
+struct RegistrationLimits {
+  double max_error_px = 4.0;
+  int min_inliers = 20;
+  double min_inlier_share = 0.25;   ///< of the features that correspond to a point
+  bool propose_from_pairs = false;  ///< try EstimatePoseFromPairs where P3P finds nothing
+};
+
+struct RegistrationAttempt {
+  bool registered = false;
+  uint32_t num_visible = 0;
+  uint32_t num_inliers = 0;
+};
+
+/// Absolute orientation of an unregistered image (paper 3.4): P3P with RANSAC over its scene
+/// correspondences, refined. Registers it when enough points agree. Cancelled when asked to stop.
+[[nodiscard]] absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
+                                                                ImageSlot image,
+                                                                const RegistrationLimits& limits,
+                                                                const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/mapping/register_image.h"
+
+namespace orbweave {
+
+/// What was tried for one image, and what came of it.
+struct RegistrationRecord {
+  int num_attempts = 0;
+  uint32_t visible_at_failure = 0;  ///< scene points it saw when it last failed
+  uint32_t best_inliers = 0;        ///< most points that ever agreed
+  uint32_t needed_inliers = 0;
+  uint32_t best_visible = 0;  ///< most points it ever saw
+  bool dropped = false;       ///< was registered, then lost its points
+};
+
+/// One record per image of the cluster.
+using RegistrationLog = std::vector<RegistrationRecord>;
+
+/// Why an image that has verified matches is in no component: one sentence for the report.
+[[nodiscard]] std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible);
+
+}  // namespace orbweave

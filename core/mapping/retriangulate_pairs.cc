@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/retriangulate_pairs.h"
+
+namespace orbweave {
+namespace {
+
+double ReconstructedShare(const MappingState& state, const LinkedPair& pair) {
+  const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
+  uint32_t common = 0;
+  for (const FeatureMatch& match : geometry.inliers) {
+    const PointIndex point = state.PointOf(state.Graph().node_of_feature[pair.a][match.a]);
+    if (point != kNoPoint &&
+        point == state.PointOf(state.Graph().node_of_feature[pair.b][match.b])) {
+      ++common;
+    }
+  }
+  return static_cast<double>(common) / static_cast<double>(geometry.inliers.size());
+}
+
+void RetriangulateMatch(MappingState& state, Node a, Node b, const TrackLimits& limits) {
+  const bool a_is_free = state.PointOf(a) == kNoPoint;
+  const bool b_is_free = state.PointOf(b) == kNoPoint;
+  if (a_is_free && b_is_free) {
+    CreatePoint(state, a, {&b, 1}, limits);
+  } else if (a_is_free) {
+    ContinueTrack(state, a, limits);
+  } else if (b_is_free) {
+    ContinueTrack(state, b, limits);
+  }
+}
+
+}  // namespace
+
+uint32_t RetriangulatePairs(MappingState& state, const TrackLimits& limits) {
+  const uint32_t before = state.NumObservations();
+  for (const LinkedPair& pair : state.Graph().pairs) {
+    if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b) ||
+        ReconstructedShare(state, pair) >= kUnderReconstructedShare) {
+      continue;
+    }
+    for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
+      RetriangulateMatch(state,
+                         state.Graph().node_of_feature[pair.a][match.a],
+                         state.Graph().node_of_feature[pair.b][match.b],
+                         limits);
+    }
+  }
+  return state.NumObservations() - before;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/georeference_reconstruction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/estimators/estimate_similarity.h"
+#include "core/geometry/rotation.h"
+#include "core/merging/find_gravity.h"
+#include "core/merging/quantile.h"
+
+namespace orbweave {
+namespace {
+
+constexpr size_t kMinPositions = 3;
+constexpr int kTrials = 500;
+constexpr int kReweightings = 20;
+constexpr double kMaxScaleUncertainty = 0.1;
+constexpr double kSigmaOfMad = 1.4826;
+
+// Camera centres and what GNSS says of them; sigma is that of one axis, for weights.
+struct Positions {
+  std::vector<Eigen::Vector3d> in_world{};
+  std::vector<Eigen::Vector3d> in_enu{};
+  std::vector<double> sigma_m{};
+
+  [[nodiscard]] size_t size() const { return in_world.size(); }
+};
+
+Positions Collect(const Reconstruction& reconstruction, const ImageManifest& manifest) {
+  Positions positions;
+  for (const auto& [id, image] : reconstruction.images) {
+    const PosePrior& prior = manifest.At(id).prior;
+    if (image.loose || !prior.position_in_enu) continue;
+    positions.in_world.push_back(image.cam_from_world.Centre());
+    positions.in_enu.push_back(*prior.position_in_enu);
+    positions.sigma_m.push_back(prior.horizontal_sigma_m);
+  }
+  return positions;
+}
+
+double SpreadOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  double sum = 0.0;
+  for (const Eigen::Vector3d& point : points) sum += (point - mean).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+// Yaw, scale and translation from two pairs of an upright model; nullopt when either is one point.
+std::optional<Sim3> UprightFromTwo(const Positions& upright, uint32_t i, uint32_t j) {
+  const Eigen::Vector2d a = (upright.in_world[j] - upright.in_world[i]).head<2>();
+  const Eigen::Vector2d b = (upright.in_enu[j] - upright.in_enu[i]).head<2>();
+  if (!(a.norm() > 0.0) || !(b.norm() > 0.0)) return std::nullopt;
+  const double yaw = std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x());
+  Sim3 enu_from_world;
+  enu_from_world.scale = b.norm() / a.norm();
+  enu_from_world.rotation = RotationFromVector({0.0, 0.0, yaw});
+  const Eigen::Vector3d middle = 0.5 * (upright.in_world[i] + upright.in_world[j]);
+  enu_from_world.translation =
+      0.5 * (upright.in_enu[i] + upright.in_enu[j]) - enu_from_world * middle;
+  return enu_from_world;
+}
+
+// Sum of squared residuals in sigmas, each 9 (three sigmas) at most.
+double TruncatedCost(const Positions& positions, const Sim3& enu_from_world) {
+  double cost = 0.0;
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
+    cost += std::min(9.0, residual.squaredNorm() / (positions.sigma_m[i] * positions.sigma_m[i]));
+  }
+  return cost;
+}
+
+absl::StatusOr<std::optional<Sim3>> EstimateUpright(const Positions& upright,
+                                                    const StageContext& context) {
+  Random random(context.seed);
+  std::optional<Sim3> best;
+  double best_cost = 0.0;
+  const auto n = static_cast<uint32_t>(upright.size());
+  for (int trial = 0; trial < kTrials; ++trial) {
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+    const uint32_t i = random.Index(n);
+    const uint32_t j = (i + 1 + random.Index(n - 1)) % n;
+    const std::optional<Sim3> candidate = UprightFromTwo(upright, i, j);
+    if (!candidate) continue;
+    const double cost = TruncatedCost(upright, *candidate);
+    if (best && cost >= best_cost) continue;
+    best = candidate;
+    best_cost = cost;
+  }
+  return best;
+}
+
+// Two further pairs, up and down from the middle by the extent, that tilt costs as much as
+// kGravitySigma_rad once.
+void AddGravity(const Eigen::Vector3d& down,
+                const Sim3& enu_from_world,
+                Positions& positions,
+                std::vector<double>& weights) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : positions.in_world) middle += point;
+  middle /= static_cast<double>(positions.size());
+  const Eigen::Vector3d middle_in_enu = enu_from_world * middle;
+  const double extent = SpreadOf(positions.in_world);
+  const double extent_m = enu_from_world.scale * extent;
+  for (const double side : {-1.0, 1.0}) {
+    positions.in_world.push_back(middle + side * extent * down);
+    positions.in_enu.push_back(middle_in_enu - side * extent_m * Eigen::Vector3d::UnitZ());
+    weights.push_back(0.5 / std::pow(extent_m * kGravitySigma_rad, 2));
+  }
+}
+
+// Seven parameters with Cauchy weights; the start when the fit is degenerate.
+Sim3 Refine(const Positions& positions,
+            const std::optional<Eigen::Vector3d>& down,
+            Sim3 enu_from_world) {
+  for (int iteration = 0; iteration < kReweightings; ++iteration) {
+    std::vector<double> weights;
+    for (size_t i = 0; i < positions.size(); ++i) {
+      const double squared_sigma = positions.sigma_m[i] * positions.sigma_m[i];
+      const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
+      weights.push_back(1.0 / (squared_sigma + residual.squaredNorm()));
+    }
+    Positions with_gravity = positions;
+    if (down) AddGravity(*down, enu_from_world, with_gravity, weights);
+    const std::optional<Sim3> fit =
+        FitSimilarity(with_gravity.in_world, with_gravity.in_enu, weights);
+    if (!fit) break;
+    enu_from_world = *fit;
+  }
+  return enu_from_world;
+}
+
+absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
+                                             const std::optional<Eigen::Vector3d>& down,
+                                             const StageContext& context) {
+  if (!down) {
+    const double max_error_m = 3.0 * Quantile(positions.sigma_m, 0.5);
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        const std::optional<RobustSimilarity> robust,
+        EstimateSimilarity(positions.in_world, positions.in_enu, max_error_m, context));
+    if (!robust) return std::optional<Sim3>();
+    return std::optional<Sim3>(Refine(positions, down, robust->b_from_a));
+  }
+  const Sim3 upright_from_world{1.0, UprightFromDown(*down), Eigen::Vector3d::Zero()};
+  Positions upright = positions;
+  for (Eigen::Vector3d& point : upright.in_world) point = upright_from_world * point;
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start, EstimateUpright(upright, context));
+  if (!start) return std::optional<Sim3>();
+  return std::optional<Sim3>(Refine(positions, down, *start * upright_from_world));
+}
+
+void MeasureScatter(const Positions& positions, Georeference& result) {
+  std::vector<double> horizontal;
+  std::vector<double> vertical;
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const Eigen::Vector3d residual =
+        *result.enu_from_world * positions.in_world[i] - positions.in_enu[i];
+    horizontal.push_back(std::abs(residual.x()));
+    horizontal.push_back(std::abs(residual.y()));
+    vertical.push_back(std::abs(residual.z()));
+  }
+  result.horizontal_scatter_m = kSigmaOfMad * Quantile(std::move(horizontal), 0.5);
+  result.vertical_scatter_m = kSigmaOfMad * Quantile(std::move(vertical), 0.5);
+}
+
+std::string Metres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f m", value_m);
+  return text;
+}
+
+// Drops the similarity when GNSS cannot carry its scale.
+void Judge(const Positions& positions, Georeference& result) {
+  const double extent_m = result.enu_from_world->scale * SpreadOf(positions.in_world);
+  const double scatter_m = result.horizontal_scatter_m;
+  result.scale_uncertainty =
+      scatter_m / (extent_m * std::sqrt(static_cast<double>(positions.size())));
+  if (scatter_m < extent_m && result.scale_uncertainty <= kMaxScaleUncertainty) return;
+  result.enu_from_world.reset();
+  result.reason = "GNSS scatters by " + Metres(scatter_m) +
+                  " about a model that would extend over " + Metres(extent_m) +
+                  ": too much to carry its scale";
+}
+
+}  // namespace
+
+absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& reconstruction,
+                                                        const ImageManifest& manifest,
+                                                        const StageContext& context) {
+  Georeference result;
+  const Positions positions = Collect(reconstruction, manifest);
+  if (positions.size() < kMinPositions) {
+    result.reason = std::to_string(positions.size()) + " images with a GNSS position are too few";
+    return result;
+  }
+  const std::optional<Eigen::Vector3d> down = FindGravity(reconstruction);
+  ORBWEAVE_ASSIGN_OR_RETURN(result.enu_from_world, Estimate(positions, down, context));
+  if (!result.enu_from_world) {
+    result.reason = "no similarity fits the GNSS positions to the model";
+    return result;
+  }
+  MeasureScatter(positions, result);
+  Judge(positions, result);
+  return result;
+}
+
+}  // namespace orbweave

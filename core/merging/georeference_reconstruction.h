@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "core/base/stage_context.h"
+#include "core/geometry/sim3.h"
+#include "core/scene/image_manifest.h"
+#include "core/scene/reconstruction.h"
+
+namespace orbweave {
+
+/// Where the model stands on earth.
+struct Georeference {
+  /// East-north-up metres; nullopt when GNSS cannot carry the scale.
+  std::optional<Sim3> enu_from_world{};
+  std::string reason{};  ///< why not
+  /// Robust standard deviation per axis of GNSS against the model (1.4826 median absolute
+  /// residual).
+  double horizontal_scatter_m = 0.0;
+  double vertical_scatter_m = 0.0;
+  /// Standard deviation of the scale over the scale, from scatter and extent.
+  double scale_uncertainty = 0.0;
+};
+
+/// Robust similarity from camera centres to their GNSS positions. Centres of a straight street
+/// leave the roll about the street open, so gravity takes part: first yaw, scale and translation of
+/// the upright model from random pairs of images (least squared residuals, truncated), then all
+/// seven parameters by reweighted least squares with gravity as one more observation. Without
+/// gravity the similarity comes from EstimateSimilarity. GNSS carries the scale when its scatter
+/// leaves the scale uncertain by 10 % at most and is smaller than the extent of the centres (rms
+/// distance from their mean); a phone indoors fails both. Loose images take no part. Cancelled when
+/// asked to stop.
+[[nodiscard]] absl::StatusOr<Georeference> GeoreferenceReconstruction(
+    const Reconstruction& reconstruction,
+    const ImageManifest& manifest,
+    const StageContext& context);
+
+}  // namespace orbweave

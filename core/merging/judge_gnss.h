@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/merging/adjust_globally.h"
+#include "core/merging/global_problem.h"
+
+namespace orbweave {
+
+/// What the adjusted model says of each GNSS position: an outlier lies further off than 99 % of the
+/// positions with the priors' sigmas would (whitened distance above 3.37, bias taken off).
+[[nodiscard]] GnssReport JudgeGnss(const GlobalProblem& problem,
+                                   const std::vector<Eigen::Vector3d>& biases_m,
+                                   const ImageManifest& manifest);
+
+}  // namespace orbweave

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/pipeline/coordinator_api.h"
+
+#include "core/pipeline/job_plan.h"
+
+namespace orbweave {
+
+Digest JobSpec::Id() const {
+  return DigestBuilder()
+      .AddField("orbweave job")
+      .AddField(kind)
+      .AddField(options_text)
+      .AddField(EncodeCollection(inputs))
+      .Finish();
+}
+
+}  // namespace orbweave

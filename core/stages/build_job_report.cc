@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stages/build_job_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/io/measure_reconstruction.h"
+
+namespace orbweave {
+namespace {
+
+/// Image rows as far as the partition knows them.
+std::vector<ReportImage> StartRows(const JobResults& results) {
+  std::vector<ReportImage> rows(results.manifest.images.size());
+  std::vector<int> times_used(rows.size(), 0);
+  for (const ImageRecord& image : results.manifest.images) {
+    rows[image.id.value].name = image.name;
+    rows[image.id.value].drive = image.drive;
+  }
+  const std::vector<Cluster>& clusters = results.view_graph.partition.clusters;
+  for (size_t c = 0; c < clusters.size(); ++c) {
+    for (const ImageId id : clusters[c].interior) rows[id.value].cluster = static_cast<int>(c);
+    for (const ImageId id : clusters[c].images) rows[id.value].in_overlap = ++times_used[id.value] > 1;
+  }
+  return rows;
+}
+
+void FillWorld(const JobResults& results, uint32_t model, const ReconstructionMeasures& measures, JobReport& report) {
+  const GloballyAdjusted& world = results.worlds[model];
+  const std::set<std::string> outliers(world.report.gnss.outliers.begin(), world.report.gnss.outliers.end());
+  for (const auto& [id, image] : world.reconstruction.images) {
+    ReportImage& row = report.images[id.value];
+    const ImageRecord& record = results.manifest.At(id);
+    row.registered = true;
+    row.loose = image.loose;
+    row.model = model;
+    row.centre_in_world = image.cam_from_world.Centre();
+    if (world.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
+    row.gnss_outlier = outliers.contains(record.name);
+    if (const auto found = measures.images.find(id); found != measures.images.end()) {
+      row.observations = found->second.observations;
+      row.residual_px_mean = found->second.residual_px_mean;
+    }
+  }
+}
+
+void AddCounts(const std::vector<uint64_t>& more, std::vector<uint64_t>& counts) {
+  if (counts.size() < more.size()) counts.resize(more.size());
+  for (size_t i = 0; i < more.size(); ++i) counts[i] += more[i];
+}
+
+/// Sums over worlds; means are weighted by observations.
+void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
+  const double before = static_cast<double>(report.observations);
+  const double added = static_cast<double>(measures.observations);
+  const double total = before + added;
+  if (total > 0.0) {
+    report.residual_px_mean = (report.residual_px_mean * before + measures.residual_px_mean * added) / total;
+    report.residual_px_rms = std::sqrt((report.residual_px_rms * report.residual_px_rms * before +
+                                        measures.residual_px_rms * measures.residual_px_rms * added) /
+                                       total);
+  }
+  report.points += measures.points;
+  report.observations += measures.observations;
+  report.residual_histogram.bin_width = measures.residual_histogram.bin_width;
+  AddCounts(measures.residual_histogram.counts, report.residual_histogram.counts);
+  AddCounts(measures.track_lengths, report.track_lengths);
+}
+
+/// Why each image that no world holds is missing, by what is known latest in the line.
+void ListNotRegistered(const JobResults& results, JobReport& report) {
+  std::vector<std::string> reasons(report.images.size(), "no verified matches with any other image");
+  for (const ClusterResult& cluster : results.clusters) {
+    for (const NotRegistered& image : cluster.reconstruction.not_registered) {
+      reasons[image.image.value] = image.reason;
+    }
+  }
+  for (size_t i = 0; i < results.image_problems.size(); ++i) {
+    if (!results.image_problems[i].empty()) reasons[i] = results.image_problems[i];
+  }
+  report.not_registered = results.manifest.excluded;
+  for (size_t i = 0; i < report.images.size(); ++i) {
+    if (!report.images[i].registered) report.not_registered.push_back({report.images[i].name, reasons[i]});
+  }
+}
+
+std::vector<ReportCluster> ClusterRows(const JobResults& results) {
+  std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
+  for (size_t c = 0; c < rows.size(); ++c) {
+    rows[c].images = static_cast<uint32_t>(results.view_graph.partition.clusters[c].images.size());
+    rows[c].interior = static_cast<uint32_t>(results.view_graph.partition.clusters[c].interior.size());
+  }
+  for (const ClusterResult& cluster : results.clusters) {
+    ReportCluster& row = rows[cluster.cluster];
+    row.components = static_cast<uint32_t>(cluster.reconstruction.components.size());
+    row.residual_px_rms = cluster.reconstruction.residual_rms_px;
+    for (const Reconstruction& component : cluster.reconstruction.components) {
+      row.registered += static_cast<uint32_t>(component.images.size());
+      row.points += component.tracks.size();
+    }
+  }
+  return rows;
+}
+
+/// Seams speak of submodels; the report names their clusters.
+std::vector<ReportSeam> SeamRows(const JobResults& results) {
+  std::vector<uint32_t> cluster_of_submodel;
+  for (const ClusterResult& cluster : results.clusters) {
+    cluster_of_submodel.insert(
+        cluster_of_submodel.end(), cluster.reconstruction.components.size(), cluster.cluster);
+  }
+  std::vector<ReportSeam> rows;
+  for (const SeamReport& seam : results.alignment.seams) {
+    rows.push_back({.cluster_a = cluster_of_submodel[seam.submodel_a],
+                    .cluster_b = cluster_of_submodel[seam.submodel_b],
+                    .common_images = seam.common_images,
+                    .common_tracks = seam.common_tracks,
+                    .inlier_tracks = seam.inlier_tracks,
+                    .condition_number = seam.condition_number,
+                    .position_jump_m = seam.position_jump_m,
+                    .rotation_jump_deg = seam.rotation_jump_deg,
+                    .used = seam.used,
+                    .reason = seam.reason});
+  }
+  return rows;
+}
+
+ReportGnss GnssRow(const GnssReport& gnss) {
+  return {.used = gnss.used,
+          .reason = gnss.reason,
+          .num_priors = gnss.num_priors,
+          .num_inliers = gnss.num_inliers,
+          .residual_median_m = gnss.residual_median_m,
+          .residual_rms_inliers_m = gnss.residual_rms_inliers_m,
+          .outliers = gnss.outliers};
+}
+
+}  // namespace
+
+JobReport BuildJobReport(const JobResults& results) {
+  JobReport report;
+  report.images = StartRows(results);
+  report.images_total = static_cast<uint32_t>(results.manifest.images.size() + results.manifest.excluded.size());
+  report.models = static_cast<uint32_t>(results.worlds.size());
+  for (uint32_t model = 0; model < report.models; ++model) {
+    const Reconstruction& reconstruction = results.worlds[model].reconstruction;
+    const ReconstructionMeasures measures = MeasureReconstruction(reconstruction, results.manifest);
+    report.registered += static_cast<uint32_t>(reconstruction.images.size());
+    AddMeasures(measures, report);
+    FillWorld(results, model, measures, report);
+  }
+  if (report.points > 0) {
+    report.mean_track_length = static_cast<double>(report.observations) / static_cast<double>(report.points);
+  }
+  ListNotRegistered(results, report);
+  report.clusters = ClusterRows(results);
+  report.seams = SeamRows(results);
+  report.warnings = results.manifest.warnings;
+  if (!results.worlds.empty()) {
+    report.gnss = GnssRow(results.worlds.front().report.gnss);
+    if (report.gnss.used) report.origin = results.manifest.origin;
+  }
+  return report;
+}
+
+}  // namespace orbweave

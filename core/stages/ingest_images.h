@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "core/base/options.h"
+#include "core/base/stage_context.h"
+#include "core/io/image_sources.h"
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+struct IngestOptions {
+  double gnss_sigma_m = 5.0;
+  double gnss_vertical_factor = 2.0;
+  double drive_gap_s = 600.0;
+
+  template <typename Self, typename Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("gnss_sigma_m",
+          self.gnss_sigma_m,
+          "horizontal standard deviation of positions that state none, metres",
+          Range{0.001, 10000});
+    visit("gnss_vertical_factor",
+          self.gnss_vertical_factor,
+          "vertical over horizontal standard deviation",
+          Range{0.1, 100});
+    visit("drive_gap_s",
+          self.drive_gap_s,
+          "a longer pause between two images begins a new drive",
+          Range{0.001, 1e9});
+  }
+};
+
+/// Decides which sources take part and what is known of each: drops files with a problem, images
+/// that are not 2:1 (within a pixel) and byte-for-byte duplicates, each with its reason; numbers
+/// the rest in natural name order; joins GNSS rows by full name, else base name, else stem (where
+/// unique), else EXIF; puts the origin of the east-north-up frame at the rounded median position.
+/// Mixed sizes are allowed. Drives change with the table's drive column or a pause. GNSS rows
+/// without an image, images without a position, and masks of another size (then not used) become
+/// warnings. InvalidArgument: nothing is left (with the first reasons), or the table is wrong.
+[[nodiscard]] absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
+                                                         const IngestOptions& options,
+                                                         const StageContext& context);
+
+}  // namespace orbweave

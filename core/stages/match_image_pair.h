@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/base/stage_context.h"
+#include "core/estimators/estimate_two_view.h"
+#include "core/features/match_descriptors.h"
+#include "core/scene/features.h"
+#include "core/scene/two_view_geometry.h"
+
+namespace orbweave {
+
+/// All bearings of an image, once, for the pairs it takes part in.
+[[nodiscard]] std::vector<Eigen::Vector3d> BearingsOf(const Features& features);
+
+/// One image of a pair: its features and their bearings.
+struct PairSide {
+  const Features& features;
+  const std::vector<Eigen::Vector3d>& bearings;
+};
+
+/// The verified matches of two panoramas: nearest descriptors, geometry on rays, then (matching.guided)
+/// a second matching along epipolar planes that recovers what the ratio test lost, verified again.
+/// `given`: putative matches from outside; when not empty, descriptors are not looked at.
+[[nodiscard]] absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
+                                                             const PairSide& a,
+                                                             const PairSide& b,
+                                                             const std::vector<FeatureMatch>& given,
+                                                             const MatchOptions& match_options,
+                                                             const TwoViewOptions& two_view_options,
+                                                             const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/digest.h"
+#include "core/scene/ids.h"
+
+/// A recipe names everything one part of a stage reads, by digest: it is the whole input of a task, so
+/// its own digest names the task, and an unchanged part of a changed job is not computed again.
+
+namespace orbweave {
+
+struct ExtractRecipe {
+  Digest image{};
+  Digest mask{};  ///< zero: none
+  bool mask_ignores_white = true;
+};
+
+/// What is needed to recognise a place, without opening its Features.
+struct PlaceSample {
+  uint32_t num_features = 0;
+  std::vector<uint8_t> descriptors{};  ///< n x kDescriptorSize
+  std::string problem{};               ///< of the Features
+};
+
+/// The Features blob of an image.
+struct FeatureFile {
+  ImageId image{};
+  Digest features{};
+};
+
+struct MatchRecipe {
+  struct Pair {
+    ImagePair pair{};
+    /// Putative matches given from outside (a database); empty: match descriptors.
+    std::vector<FeatureMatch> matches{};
+  };
+  std::vector<FeatureFile> images{};  ///< of all images in `pairs`, sorted
+  std::vector<Pair> pairs{};          ///< sorted
+};
+
+struct ClusterRecipe {
+  uint32_t cluster = 0;
+  std::vector<FeatureFile> images{};  ///< sorted
+  std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
+  std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others
+};
+
+}  // namespace orbweave

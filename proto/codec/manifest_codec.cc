@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "proto/codec/manifest_codec.h"
+
+#include "proto/codec/pack.h"
+
+namespace orbweave {
+namespace {
+
+void ToProto(const Eigen::Vector3d& value, v1::Vector3* proto) {
+  proto->set_x(value.x());
+  proto->set_y(value.y());
+  proto->set_z(value.z());
+}
+
+Eigen::Vector3d FromProto(const v1::Vector3& proto) { return {proto.x(), proto.y(), proto.z()}; }
+
+void ToProto(const GeodeticPosition& value, v1::GeodeticPosition* proto) {
+  proto->set_latitude_deg(value.latitude_deg);
+  proto->set_longitude_deg(value.longitude_deg);
+  proto->set_altitude_m(value.altitude_m);
+}
+
+GeodeticPosition FromProto(const v1::GeodeticPosition& proto) {
+  return {proto.latitude_deg(), proto.longitude_deg(), proto.altitude_m()};
+}
+
+/// Angles of view, the same three in metadata and priors.
+template <typename Value, typename Proto>
+void AnglesToProto(const Value& value, Proto* proto) {
+  if (value.heading_deg) proto->set_heading_deg(*value.heading_deg);
+  if (value.pitch_deg) proto->set_pitch_deg(*value.pitch_deg);
+  if (value.roll_deg) proto->set_roll_deg(*value.roll_deg);
+}
+
+template <typename Value, typename Proto>
+void AnglesFromProto(const Proto& proto, Value& value) {
+  if (proto.has_heading_deg()) value.heading_deg = proto.heading_deg();
+  if (proto.has_pitch_deg()) value.pitch_deg = proto.pitch_deg();
+  if (proto.has_roll_deg()) value.roll_deg = proto.roll_deg();
+}
+
+void ToProto(const ImageMetadata& value, v1::ImageMetadata* proto) {
+  proto->set_width_px(value.width_px);
+  proto->set_height_px(value.height_px);
+  if (value.position) ToProto(*value.position, proto->mutable_position());
+  proto->set_altitude_known(value.altitude_known);
+  if (value.position_error_m) proto->set_position_error_m(*value.position_error_m);
+  AnglesToProto(value, proto);
+  if (value.capture_time_s) proto->set_capture_time_s(*value.capture_time_s);
+}
+
+ImageMetadata FromProto(const v1::ImageMetadata& proto) {
+  ImageMetadata value{.width_px = proto.width_px(), .height_px = proto.height_px()};
+  if (proto.has_position()) value.position = FromProto(proto.position());
+  value.altitude_known = proto.altitude_known();
+  if (proto.has_position_error_m()) value.position_error_m = proto.position_error_m();
+  AnglesFromProto(proto, value);
+  if (proto.has_capture_time_s()) value.capture_time_s = proto.capture_time_s();
+  return value;
+}
+
+void ToProto(const SourceImage& value, v1::SourceImage* proto) {
+  proto->set_name(value.name);
+  proto->set_content(codec::PackDigest(value.content));
+  proto->set_size_bytes(value.size_bytes);
+  ToProto(value.metadata, proto->mutable_metadata());
+  proto->set_mask(codec::PackDigest(value.mask));
+  proto->set_mask_width_px(value.mask_width_px);
+  proto->set_mask_height_px(value.mask_height_px);
+  if (value.position_in_local) ToProto(*value.position_in_local, proto->mutable_position_in_local());
+  if (value.position_sigma_m) {
+    proto->set_horizontal_sigma_m(value.position_sigma_m->x());
+    proto->set_vertical_sigma_m(value.position_sigma_m->y());
+  }
+  proto->set_problem(value.problem);
+}
+
+absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
+  SourceImage value{.name = proto.name(), .size_bytes = proto.size_bytes(), .metadata = FromProto(proto.metadata())};
+  ORBWEAVE_ASSIGN_OR_RETURN(value.content, codec::UnpackDigest(proto.content()));
+  ORBWEAVE_ASSIGN_OR_RETURN(value.mask, codec::UnpackDigest(proto.mask()));
+  value.mask_width_px = proto.mask_width_px();
+  value.mask_height_px = proto.mask_height_px();
+  if (proto.has_position_in_local()) value.position_in_local = FromProto(proto.position_in_local());
+  if (proto.has_horizontal_sigma_m()) {
+    value.position_sigma_m = Eigen::Vector2d(proto.horizontal_sigma_m(), proto.vertical_sigma_m());
+  }
+  value.problem = proto.problem();
+  return value;
+}
+
+void ToProto(const PosePrior& value, v1::PosePrior* proto) {
+  if (value.geodetic) ToProto(*value.geodetic, proto->mutable_geodetic());
+  if (value.position_in_enu) ToProto(*value.position_in_enu, proto->mutable_position_in_enu());
+  proto->set_horizontal_sigma_m(value.horizontal_sigma_m);
+  proto->set_vertical_sigma_m(value.vertical_sigma_m);
+  AnglesToProto(value, proto);
+}
+
+PosePrior FromProto(const v1::PosePrior& proto) {
+  PosePrior value{.horizontal_sigma_m = proto.horizontal_sigma_m(), .vertical_sigma_m = proto.vertical_sigma_m()};
+  if (proto.has_geodetic()) value.geodetic = FromProto(proto.geodetic());
+  if (proto.has_position_in_enu()) value.position_in_enu = FromProto(proto.position_in_enu());
+  AnglesFromProto(proto, value);
+  return value;
+}
+
+void ToProto(const ImageRecord& value, v1::ImageRecord* proto) {
+  proto->set_name(value.name);
+  proto->set_content(codec::PackDigest(value.content));
+  proto->set_mask(codec::PackDigest(value.mask));
+  proto->mutable_camera()->set_width_px(value.camera.width_px);
+  proto->mutable_camera()->set_height_px(value.camera.height_px);
+  ToProto(value.prior, proto->mutable_prior());
+  if (value.capture_time_s) proto->set_capture_time_s(*value.capture_time_s);
+  proto->set_drive(value.drive);
+}
+
+absl::StatusOr<ImageRecord> FromProto(const v1::ImageRecord& proto) {
+  ImageRecord value{.name = proto.name(),
+                    .camera = {proto.camera().width_px(), proto.camera().height_px()},
+                    .prior = FromProto(proto.prior()),
+                    .drive = proto.drive()};
+  ORBWEAVE_ASSIGN_OR_RETURN(value.content, codec::UnpackDigest(proto.content()));
+  ORBWEAVE_ASSIGN_OR_RETURN(value.mask, codec::UnpackDigest(proto.mask()));
+  if (proto.has_capture_time_s()) value.capture_time_s = proto.capture_time_s();
+  if (value.camera.width_px <= 0 || value.camera.height_px <= 0) {
+    return absl::InvalidArgumentError("image manifest: a camera has no size");
+  }
+  return value;
+}
+
+}  // namespace
+
+std::string EncodeImageSources(const ImageSources& sources) {
+  v1::ImageSources proto;
+  for (const SourceImage& image : sources.images) ToProto(image, proto.add_images());
+  proto.set_mask_ignores_white(sources.mask_ignores_white);
+  proto.set_gnss_text(sources.gnss_text);
+  proto.set_gnss_name(sources.gnss_name);
+  for (const std::string& warning : sources.warnings) proto.add_warnings(warning);
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ImageSources proto, codec::Parse<v1::ImageSources>(bytes, "image sources"));
+  ImageSources sources;
+  for (const v1::SourceImage& image : proto.images()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(SourceImage decoded, FromProto(image));
+    sources.images.push_back(std::move(decoded));
+  }
+  sources.mask_ignores_white = proto.mask_ignores_white();
+  sources.gnss_text = proto.gnss_text();
+  sources.gnss_name = proto.gnss_name();
+  sources.warnings.assign(proto.warnings().begin(), proto.warnings().end());
+  return sources;
+}
+
+std::string EncodeImageManifest(const ImageManifest& manifest) {
+  v1::ImageManifest proto;
+  for (const ImageRecord& image : manifest.images) ToProto(image, proto.add_images());
+  for (const Exclusion& exclusion : manifest.excluded) {
+    v1::Exclusion* out = proto.add_excluded();
+    out->set_name(exclusion.name);
+    out->set_reason(exclusion.reason);
+  }
+  for (const std::string& warning : manifest.warnings) proto.add_warnings(warning);
+  if (manifest.origin) ToProto(*manifest.origin, proto.mutable_origin());
+  proto.set_mask_ignores_white(manifest.mask_ignores_white);
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ImageManifest proto, codec::Parse<v1::ImageManifest>(bytes, "image manifest"));
+  ImageManifest manifest;
+  for (const v1::ImageRecord& image : proto.images()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(ImageRecord record, FromProto(image));
+    record.id = ImageId(static_cast<uint32_t>(manifest.images.size()));
+    manifest.images.push_back(std::move(record));
+  }
+  for (const v1::Exclusion& exclusion : proto.excluded()) {
+    manifest.excluded.push_back({exclusion.name(), exclusion.reason()});
+  }
+  manifest.warnings.assign(proto.warnings().begin(), proto.warnings().end());
+  if (proto.has_origin()) manifest.origin = FromProto(proto.origin());
+  manifest.mask_ignores_white = proto.mask_ignores_white();
+  return manifest;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/status.h"
+#include "core/io/image_sources.h"
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+[[nodiscard]] std::string EncodeImageSources(const ImageSources& sources);
+[[nodiscard]] absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeImageManifest(const ImageManifest& manifest);
+[[nodiscard]] absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes);
+
+}  // namespace orbweave

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "proto/codec/recipes_codec.h"
+
+#include <algorithm>
+
+#include "proto/codec/pack.h"
+
+namespace orbweave {
+namespace {
+
+template <typename Repeated>
+absl::StatusOr<std::vector<FeatureFile>> FilesFromProto(const Repeated& proto) {
+  std::vector<FeatureFile> files;
+  for (const v1::FeatureFile& file : proto) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(file.features()));
+    files.push_back({ImageId(file.image()), digest});
+  }
+  return files;
+}
+
+template <typename Repeated>
+void FilesToProto(const std::vector<FeatureFile>& files, Repeated* proto) {
+  for (const FeatureFile& file : files) {
+    v1::FeatureFile* out = proto->Add();
+    out->set_image(file.image.value);
+    out->set_features(codec::PackDigest(file.features));
+  }
+}
+
+bool Lists(const std::vector<FeatureFile>& files, ImageId id) {
+  return std::any_of(files.begin(), files.end(), [&](const FeatureFile& file) { return file.image == id; });
+}
+
+}  // namespace
+
+std::string EncodeExtractRecipe(const ExtractRecipe& recipe) {
+  v1::ExtractRecipe proto;
+  proto.set_image(codec::PackDigest(recipe.image));
+  proto.set_mask(codec::PackDigest(recipe.mask));
+  proto.set_mask_ignores_white(recipe.mask_ignores_white);
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ExtractRecipe proto, codec::Parse<v1::ExtractRecipe>(bytes, "extract recipe"));
+  ExtractRecipe recipe{.mask_ignores_white = proto.mask_ignores_white()};
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.image, codec::UnpackDigest(proto.image()));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.mask, codec::UnpackDigest(proto.mask()));
+  return recipe;
+}
+
+std::string EncodeMatchRecipe(const MatchRecipe& recipe) {
+  v1::MatchRecipe proto;
+  FilesToProto(recipe.images, proto.mutable_images());
+  for (const MatchRecipe::Pair& pair : recipe.pairs) {
+    v1::MatchRecipe::Pair* out = proto.add_pairs();
+    out->set_a(pair.pair.a.value);
+    out->set_b(pair.pair.b.value);
+    out->set_matches(codec::Pack(pair.matches));
+  }
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::MatchRecipe proto, codec::Parse<v1::MatchRecipe>(bytes, "match recipe"));
+  MatchRecipe recipe;
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
+  for (const v1::MatchRecipe::Pair& in : proto.pairs()) {
+    MatchRecipe::Pair pair{.pair = {ImageId(in.a()), ImageId(in.b())}};
+    ORBWEAVE_ASSIGN_OR_RETURN(pair.matches, codec::Unpack<FeatureMatch>(in.matches(), "matches"));
+    if (!(pair.pair.a < pair.pair.b) || !Lists(recipe.images, pair.pair.a) || !Lists(recipe.images, pair.pair.b)) {
+      return absl::InvalidArgumentError("match recipe: a pair out of order or without its images");
+    }
+    recipe.pairs.push_back(std::move(pair));
+  }
+  return recipe;
+}
+
+std::string EncodeClusterRecipe(const ClusterRecipe& recipe) {
+  v1::ClusterRecipe proto;
+  FilesToProto(recipe.images, proto.mutable_images());
+  proto.set_pairs(codec::Pack(recipe.pairs));
+  for (const Digest& blob : recipe.matches) proto.add_matches(codec::PackDigest(blob));
+  proto.set_cluster(recipe.cluster);
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterRecipe proto, codec::Parse<v1::ClusterRecipe>(bytes, "cluster recipe"));
+  ClusterRecipe recipe{.cluster = proto.cluster()};
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.pairs, codec::Unpack<ImagePair>(proto.pairs(), "pairs"));
+  for (const std::string& blob : proto.matches()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(blob));
+    recipe.matches.push_back(digest);
+  }
+  return recipe;
+}
+
+}  // namespace orbweave

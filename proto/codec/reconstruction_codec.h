@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/status.h"
+#include "core/merging/adjust_globally.h"
+#include "core/merging/align_submodels.h"
+#include "core/merging/merge_submodels.h"
+#include "core/scene/reconstruction.h"
+#include "core/stages/stage_results.h"
+
+namespace orbweave {
+
+[[nodiscard]] std::string EncodeReconstruction(const Reconstruction& reconstruction);
+/// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a bearing that is no
+/// unit vector, an observation of an image that is not registered.
+[[nodiscard]] absl::StatusOr<Reconstruction> DecodeReconstruction(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeClusterResult(const ClusterResult& result);
+[[nodiscard]] absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeAlignment(const Alignment& alignment);
+[[nodiscard]] absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeMergedWorlds(const std::vector<MergedWorld>& worlds);
+[[nodiscard]] absl::StatusOr<std::vector<MergedWorld>> DecodeMergedWorlds(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeAdjustedWorlds(const std::vector<GloballyAdjusted>& worlds);
+[[nodiscard]] absl::StatusOr<std::vector<GloballyAdjusted>> DecodeAdjustedWorlds(std::string_view bytes);
+
+}  // namespace orbweave

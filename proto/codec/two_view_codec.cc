@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "proto/codec/two_view_codec.h"
+
+#include "proto/codec/pack.h"
+
+namespace orbweave {
+
+static_assert(sizeof(FeatureMatch) == 8 && sizeof(ImagePair) == 8 && sizeof(ImageId) == 4, "packed as written");
+
+namespace {
+
+absl::StatusOr<TwoViewGeometry> FromProto(const v1::TwoViewGeometry& proto) {
+  TwoViewGeometry geometry;
+  geometry.pair = {ImageId(proto.a()), ImageId(proto.b())};
+  if (!(geometry.pair.a < geometry.pair.b)) return absl::InvalidArgumentError("two-view geometry: pair out of order");
+  if (proto.kind() > static_cast<uint32_t>(TwoViewKind::kPlanar)) {
+    return absl::InvalidArgumentError("two-view geometry: unknown kind");
+  }
+  geometry.kind = static_cast<TwoViewKind>(proto.kind());
+  ORBWEAVE_ASSIGN_OR_RETURN(geometry.b_from_a, codec::FromProto(proto.b_from_a()));
+  ORBWEAVE_ASSIGN_OR_RETURN(geometry.inliers, codec::Unpack<FeatureMatch>(proto.inliers(), "matches"));
+  geometry.num_putative = proto.num_putative();
+  geometry.median_angle_rad = proto.median_angle_rad();
+  geometry.spread = proto.spread();
+  return geometry;
+}
+
+}  // namespace
+
+std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs) {
+  v1::TwoViewGeometries proto;
+  for (const TwoViewGeometry& geometry : pairs) {
+    v1::TwoViewGeometry* pair = proto.add_pairs();
+    pair->set_a(geometry.pair.a.value);
+    pair->set_b(geometry.pair.b.value);
+    pair->set_kind(static_cast<uint32_t>(geometry.kind));
+    codec::ToProto(geometry.b_from_a, pair->mutable_b_from_a());
+    pair->set_inliers(codec::Pack(geometry.inliers));
+    pair->set_num_putative(geometry.num_putative);
+    pair->set_median_angle_rad(geometry.median_angle_rad);
+    pair->set_spread(geometry.spread);
+  }
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::TwoViewGeometries proto,
+                            codec::Parse<v1::TwoViewGeometries>(bytes, "two-view geometries"));
+  std::vector<TwoViewGeometry> pairs;
+  pairs.reserve(static_cast<size_t>(proto.pairs_size()));
+  for (const v1::TwoViewGeometry& pair : proto.pairs()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, FromProto(pair));
+    pairs.push_back(std::move(geometry));
+  }
+  return pairs;
+}
+
+std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
+  v1::Partition proto;
+  for (const Cluster& cluster : divided.partition.clusters) {
+    v1::Cluster* out = proto.add_clusters();
+    out->set_images(codec::Pack(cluster.images));
+    out->set_interior(codec::Pack(cluster.interior));
+  }
+  for (const Seam& seam : divided.partition.seams) {
+    v1::Seam* out = proto.add_seams();
+    out->set_cluster_a(seam.cluster_a);
+    out->set_cluster_b(seam.cluster_b);
+    out->set_shared(codec::Pack(seam.shared));
+  }
+  for (const DroppedEdge& edge : divided.dropped) {
+    v1::DroppedEdge* out = proto.add_dropped();
+    out->set_a(edge.pair.a.value);
+    out->set_b(edge.pair.b.value);
+    out->set_reason(edge.reason);
+  }
+  proto.set_edges(codec::Pack(divided.edges));
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Partition proto, codec::Parse<v1::Partition>(bytes, "partition"));
+  DividedViewGraph divided;
+  for (const v1::Cluster& in : proto.clusters()) {
+    Cluster cluster;
+    ORBWEAVE_ASSIGN_OR_RETURN(cluster.images, codec::Unpack<ImageId>(in.images(), "cluster"));
+    ORBWEAVE_ASSIGN_OR_RETURN(cluster.interior, codec::Unpack<ImageId>(in.interior(), "cluster"));
+    divided.partition.clusters.push_back(std::move(cluster));
+  }
+  for (const v1::Seam& in : proto.seams()) {
+    Seam seam{.cluster_a = in.cluster_a(), .cluster_b = in.cluster_b()};
+    ORBWEAVE_ASSIGN_OR_RETURN(seam.shared, codec::Unpack<ImageId>(in.shared(), "seam"));
+    divided.partition.seams.push_back(std::move(seam));
+  }
+  for (const v1::DroppedEdge& in : proto.dropped()) {
+    divided.dropped.push_back({{ImageId(in.a()), ImageId(in.b())}, in.reason()});
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(divided.edges, codec::Unpack<ImagePair>(proto.edges(), "edges"));
+  return divided;
+}
+
+}  // namespace orbweave

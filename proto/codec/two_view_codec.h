@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/status.h"
+#include "core/scene/two_view_geometry.h"
+#include "core/stages/stage_results.h"
+
+namespace orbweave {
+
+[[nodiscard]] std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs);
+/// InvalidArgument or DataLoss: not a list of ordered pairs with proper poses.
+[[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeDividedViewGraph(const DividedViewGraph& divided);
+[[nodiscard]] absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes);
+
+}  // namespace orbweave

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/architecture/source_tree.h"
+
+namespace orbweave::architecture {
+namespace {
+
+const std::vector<std::string> kSourceRoots = {
+    "core", "proto", "coordinator", "worker", "cli", "tests", "bench"};
+
+// All that is under version control, apart from hidden folders.
+const std::vector<std::string> kAllRoots = {"core",
+                                            "proto",
+                                            "coordinator",
+                                            "worker",
+                                            "cli",
+                                            "tests",
+                                            "bench",
+                                            "cmake",
+                                            "deploy",
+                                            "docs",
+                                            ".ci",
+                                            "CMakeLists.txt",
+                                            "CMakePresets.json",
+                                            "LAYERS",
+                                            "README.md",
+                                            "CONTRIBUTING.md"};
+
+// Absolute paths that exist on one machine only. Written in pieces, so that this file has none.
+std::vector<int> LinesWithMachinePaths(const std::string& text) {
+  static const std::regex kPath(std::string("(^|[^A-Za-z0-9_.}/*-])/(wo") + "rk|ho" + "me|ro" +
+                                "ot|Us" + "ers|data|mnt)/[A-Za-z0-9_.]");
+  std::vector<int> lines;
+  std::istringstream stream(text);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    if (std::regex_search(line, kPath)) lines.push_back(number);
+  }
+  return lines;
+}
+
+bool SaysLicence(const std::string& text) {
+  const std::string head = text.substr(0, 400);
+  return head.find("SPDX-FileCopyrightText: The Orbweave authors") != std::string::npos &&
+         head.find("SPDX-License-Identifier: BSD-3-Clause") != std::string::npos;
+}
+
+TEST(LinesWithMachinePaths, SeesAbsolutePathsOnly) {
+  const std::string folder = std::string("/ho") + "me/somebody";
+  EXPECT_EQ(LinesWithMachinePaths("fine\nopen(\"" + folder + "/a.jpg\")\n"), (std::vector<int>{2}));
+  EXPECT_TRUE(LinesWithMachinePaths("core" + folder + "\n${ROOT}" + folder + "\n").empty());
+}
+
+TEST(HouseStyle, EveryHeaderIsIncludedOnce) {
+  for (const SourceFile& file : ReadTree(kSourceRoots)) {
+    if (!file.path.ends_with(".h")) continue;
+    EXPECT_NE(file.text.find("#pragma once\n"), std::string::npos) << file.path;
+  }
+}
+
+TEST(HouseStyle, EverySourceStatesItsLicence) {
+  for (const SourceFile& file : ReadTree(kSourceRoots)) {
+    if (!IsCpp(file.path) && !file.path.ends_with(".proto")) continue;
+    EXPECT_TRUE(SaysLicence(file.text)) << file.path;
+  }
+}
+
+TEST(HouseStyle, NoFileKnowsOneMachine) {
+  for (const SourceFile& file : ReadTree(kAllRoots)) {
+    for (const int line : LinesWithMachinePaths(file.text))
+      ADD_FAILURE() << file.path << ":" << line;
+  }
+}
+
+TEST(HouseStyle, NoSourceIsIndentedByTabsOrEndsInCarriageReturns) {
+  for (const SourceFile& file : ReadTree(kSourceRoots)) {
+    if (!IsCpp(file.path)) continue;
+    EXPECT_EQ(file.text.find('\t'), std::string::npos) << file.path;
+    EXPECT_EQ(file.text.find('\r'), std::string::npos) << file.path;
+  }
+}
+
+}  // namespace
+}  // namespace orbweave::architecture

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Real worker processes: this very executable, called with `work` by the fleet, does the stages of
+// the toy job.
+
+#include "cli/local_fleet.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/exit_code.h"
+#include "cli/work_command.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/toy_job.h"
+#include "tests/support/wait_until.h"
+
+namespace orbweave {
+namespace {
+
+using testing::FindToyPlan;
+using testing::PrepareToyJob;
+using testing::ScratchFolder;
+using testing::Square;
+using testing::ToyAnswer;
+using testing::ToyStages;
+
+/// The toy stages; squaring 13 for the first time kills the process that does it. A file next to
+/// the worker's socket remembers that it happened.
+testing::StageMap DeadlyStages() {
+  testing::StageMap stages = ToyStages();
+  stages["square"] = [](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    const char* marker = std::getenv("ORBWEAVE_TEST_MARKER");
+    const auto number = blobs.Get(spec.inputs.at(0));
+    if (marker != nullptr && number.ok() && *number == "13" && !std::filesystem::exists(marker)) {
+      std::ofstream(marker) << "killed";
+      ::kill(::getpid(), SIGKILL);
+    }
+    return Square(spec, blobs, context);
+  };
+  return stages;
+}
+
+LocalFleetOptions FleetOptions(const std::string& state, uint32_t workers) {
+  return {.coordinator = {.state_dir = state,
+                          .retry = {.first_wait_s = 0.05},
+                          .find_plan = FindToyPlan},
+          .workers = workers};
+}
+
+TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
+  const ScratchFolder folder;
+  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), "1 2 3 4 5 6 7 8", "toy.pause=true\n");
+  int updates = 0;
+  const auto status = (*fleet)->RunJob(*job, [&updates](const JobStatus&) { ++updates; }, {});
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(status->state, JobState::kDone) << status->error;
+  EXPECT_GT(updates, 0);
+  EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "204");
+  ASSERT_EQ(status->workers.size(), 2U);
+  for (const WorkerStatus& worker : status->workers)
+    EXPECT_GT(worker.tasks_done, 0U) << worker.name;
+  EXPECT_EQ((*fleet)->restarts(), 0U);
+}
+
+TEST(LocalFleet, AWorkerKilledInTheMiddleOfATaskCostsNothingButTime) {
+  const ScratchFolder folder;
+  ::setenv("ORBWEAVE_TEST_MARKER", (folder / "killed").c_str(), 1);
+  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), "12 13 14");
+  const auto status = (*fleet)->RunJob(*job, {}, {});
+  ::unsetenv("ORBWEAVE_TEST_MARKER");
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(status->state, JobState::kDone) << status->error;
+  EXPECT_TRUE(std::filesystem::exists(folder / "killed"));
+  EXPECT_EQ(status->stages[1].retries, 1U);
+  EXPECT_EQ((*fleet)->restarts(), 1U);
+  EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "509");
+}
+
+TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
+  const ScratchFolder folder;
+  const std::string numbers = "1 2 3 4 5 6";
+  std::stop_source stop;
+  {
+    const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 1));
+    ASSERT_TRUE(fleet.ok()) << fleet.status();
+    const auto job = PrepareToyJob((*fleet)->coordinator(), numbers, "toy.pause=true\n");
+    const auto stop_after_two = [&stop](const JobStatus& status) {
+      if (status.stages[1].tasks_done >= 2) stop.request_stop();
+    };
+    EXPECT_TRUE(
+        absl::IsCancelled((*fleet)->RunJob(*job, stop_after_two, stop.get_token()).status()));
+  }
+  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 1));
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), numbers, "toy.pause=true\n");
+  const auto status = (*fleet)->RunJob(*job, {}, {});
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(status->state, JobState::kDone);
+  EXPECT_GE(status->stages[1].tasks_reused, 2U);
+  EXPECT_LT(status->stages[1].tasks_reused, 6U);
+  EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "91");
+}
+
+TEST(LocalFleet, WorksInAFolderWhosePathIsTooLongForASocket) {
+  const ScratchFolder folder;
+  const auto fleet =
+      LocalFleet::Start(FleetOptions(folder / (std::string(120, 'x') + "/state"), 1));
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), "3");
+  const auto status = (*fleet)->RunJob(*job, {}, {});
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "9");
+}
+
+TEST(LocalFleet, RefusesAStateFolderInUse) {
+  const ScratchFolder folder;
+  const auto first = LocalFleet::Start(FleetOptions(folder / "state", 0));
+  ASSERT_TRUE(first.ok());
+  EXPECT_TRUE(
+      absl::IsFailedPrecondition(LocalFleet::Start(FleetOptions(folder / "state", 0)).status()));
+}
+
+/// What the fleet starts.
+int BeAWorker(int argc, char** argv) {
+  const testing::StageMap stages = DeadlyStages();
+  const StageLookup lookup = testing::LookupIn(stages);
+  CLI::App app;
+  SelectedCommand selected;
+  AddWorkCommand(app, selected, lookup);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError&) {
+    return kExitUsage;
+  }
+  return selected.run();
+}
+
+}  // namespace
+}  // namespace orbweave
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "work") return orbweave::BeAWorker(argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/progress_bar.h"
+
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+JobStatus TwoStages() {
+  JobStatus status{.elapsed_s = 30.0};
+  status.stages = {{.stage = "first", .tasks_total = 4, .tasks_done = 4, .wall_s = 20.0},
+                   {.stage = "second",
+                    .tasks_total = 10,
+                    .tasks_done = 4,
+                    .tasks_running = 2,
+                    .wall_s = 8.0,
+                    .fraction_running = 1.0}};
+  return status;
+}
+
+TEST(ViewProgress, CountsDoneStagesAndRunningTasks) {
+  const ProgressView view = ViewProgress(TwoStages());
+  EXPECT_EQ(view.stage, "second");
+  EXPECT_DOUBLE_EQ(view.tasks_done, 5.0);
+  EXPECT_EQ(view.tasks_total, 10U);
+  EXPECT_DOUBLE_EQ(view.fraction, 0.75);
+  EXPECT_DOUBLE_EQ(view.tasks_per_s, 0.5);
+  EXPECT_DOUBLE_EQ(view.eta_s, 10.0);
+}
+
+TEST(ViewProgress, DoesNotLetReusedTasksPromiseSpeed) {
+  JobStatus status = TwoStages();
+  status.stages[0].tasks_reused = 4;
+  EXPECT_DOUBLE_EQ(ViewProgress(status).eta_s, 30.0);
+}
+
+TEST(ViewProgress, PassesAStageWithoutTasks) {
+  JobStatus status = TwoStages();
+  status.stages.insert(status.stages.begin(), StageStatus{.stage = "empty"});
+  EXPECT_EQ(ViewProgress(status).stage, "second");
+}
+
+TEST(ViewProgress, KnowsNoEtaAtTheBeginningAndNoStageAtTheEnd) {
+  JobStatus status{.stages = {{.stage = "first"}}};
+  EXPECT_EQ(ViewProgress(status).stage, "first");
+  EXPECT_LT(ViewProgress(status).eta_s, 0.0);
+  status.state = JobState::kDone;
+  EXPECT_EQ(ViewProgress(status).stage, "");
+  EXPECT_DOUBLE_EQ(ViewProgress(status).fraction, 1.0);
+}
+
+TEST(FormatDuration, ReadsLikeAClock) {
+  EXPECT_EQ(FormatDuration(0.2), "0 s");
+  EXPECT_EQ(FormatDuration(59.4), "59 s");
+  EXPECT_EQ(FormatDuration(65.0), "1 min 05 s");
+  EXPECT_EQ(FormatDuration(7805.0), "2 h 10 min");
+}
+
+TEST(ProgressBar, WritesPlainLinesWhereNobodyLooks) {
+  std::FILE* file = std::tmpfile();
+  ASSERT_NE(file, nullptr);
+  {
+    ProgressBar bar(file);
+    for (int i = 0; i < 10; ++i) bar.Update(TwoStages());
+  }
+  std::rewind(file);
+  std::string text(1000, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), file));
+  std::fclose(file);
+  EXPECT_EQ(text, " 75 %  second 5/10  0.5 tasks/s  about 10 s left  after 30 s\n");
+}
+
+}  // namespace
+}  // namespace orbweave

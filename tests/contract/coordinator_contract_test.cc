@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What every way to a coordinator promises: the object itself, and a client and a server with a
+// unix socket or a TCP port between them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+
+#include "coordinator/coordinator.h"
+#include "coordinator/grpc_server.h"
+#include "core/pipeline/build_version.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/toy_job.h"
+#include "tests/support/wait_until.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::FindToyPlan;
+using ::testing::HasSubstr;
+using testing::PrepareToyJob;
+using testing::ScratchFolder;
+using testing::ToyAnswer;
+using testing::ToyStages;
+using testing::WaitForEnd;
+
+enum class Way { kDirect, kUnixSocket, kLoopback };
+
+class CoordinatorContract : public ::testing::TestWithParam<Way> {
+ protected:
+  void SetUp() override {
+    auto opened =
+        Coordinator::Open({.state_dir = folder_ / "state", .find_plan = FindToyPlan}, clock_);
+    ASSERT_TRUE(opened.ok()) << opened.status();
+    coordinator_ = *std::move(opened);
+    if (GetParam() == Way::kDirect) return;
+    const std::string address =
+        GetParam() == Way::kUnixSocket ? "unix:" + (folder_ / "s") : "127.0.0.1:0";
+    auto server = GrpcServer::Start(*coordinator_, address);
+    ASSERT_TRUE(server.ok()) << server.status();
+    server_ = *std::move(server);
+    client_ = std::make_unique<GrpcCoordinatorClient>(server_->address());
+  }
+
+  void TearDown() override {
+    if (coordinator_) coordinator_->BeginShutdown();
+  }
+
+  CoordinatorApi& Api() { return client_ ? static_cast<CoordinatorApi&>(*client_) : *coordinator_; }
+
+  static WorkerInfo Worker(const std::string& name) {
+    return {.name = name, .version = std::string(BuildVersion()), .slots = 2};
+  }
+
+  Digest Submit(const std::string& numbers) {
+    const auto job = PrepareToyJob(Api(), numbers);
+    ORBWEAVE_CHECK(job.ok());
+    const auto id = Api().SubmitJob(*job);
+    ORBWEAVE_CHECK(id.ok());
+    return *id;
+  }
+
+  Lease MustLease(uint64_t session) {
+    const auto lease = Api().LeaseTask(session, 1, 10.0);
+    ORBWEAVE_CHECK(lease.ok() && lease->has_value());
+    return **lease;
+  }
+
+  absl::Status Do(uint64_t session, const Lease& lease) {
+    const auto result = stages_.at(lease.spec.stage)(lease.spec, Api(), {});
+    ORBWEAVE_CHECK(result.ok());
+    return Api().CompleteTask(session, lease, *result);
+  }
+
+  ScratchFolder folder_;
+  SteadyClock clock_;
+  testing::StageMap stages_ = ToyStages();
+  std::unique_ptr<Coordinator> coordinator_;
+  std::unique_ptr<GrpcServer> server_;
+  std::unique_ptr<GrpcCoordinatorClient> client_;
+};
+
+TEST_P(CoordinatorContract, RunsAJobFromSubmissionToAnswer) {
+  const Digest job = Submit("1 2 3");
+  const auto joined = Api().Join(Worker("w"));
+  ASSERT_TRUE(joined.ok());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(Do(joined->session, MustLease(joined->session)).ok());
+  const auto status = WaitForEnd(Api(), job);
+  ASSERT_TRUE(status.ok());
+  EXPECT_EQ(status->state, JobState::kDone);
+  EXPECT_EQ(status->spec.label, "squares of 1 2 3");
+  ASSERT_EQ(status->stages.size(), 3U);
+  EXPECT_EQ(status->stages[1].stage, "square");
+  EXPECT_EQ(status->stages[1].tasks_done, 3U);
+  ASSERT_EQ(status->workers.size(), 1U);
+  EXPECT_EQ(status->workers[0].tasks_done, 5U);
+  EXPECT_EQ(status->workers[0].slots, 2U);
+  EXPECT_TRUE(status->workers[0].alive);
+  EXPECT_EQ(*ToyAnswer(Api(), job), "14");
+}
+
+TEST_P(CoordinatorContract, ListsOutcomesByStageAndPartAndTimings) {
+  const Digest job = Submit("4 5");
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const auto outcomes = Api().GetOutcomes(job);
+  ASSERT_TRUE(outcomes.ok());
+  std::vector<std::string> names;
+  for (const TaskOutcome& outcome : *outcomes)
+    names.push_back(outcome.stage + std::to_string(outcome.part));
+  EXPECT_THAT(names, ElementsAre("split0", "square0", "square1", "sum0"));
+  EXPECT_THAT(outcomes->at(1).result.outputs, ElementsAre(DigestOf("16")));
+  const auto timings = Api().GetTimings(job);
+  ASSERT_TRUE(timings.ok());
+  ASSERT_EQ(timings->size(), 4U);
+  EXPECT_EQ(timings->at(0).worker, "w");
+  EXPECT_EQ(timings->at(0).slot, 1U);
+  EXPECT_TRUE(timings->at(0).ok);
+  EXPECT_LE(timings->at(0).start_s, timings->at(0).end_s);
+}
+
+TEST_P(CoordinatorContract, KeepsBlobsOfEverySize) {
+  for (const size_t size : {0UL, 1UL, 524'288UL, 524'289UL, 3'000'001UL}) {
+    std::string bytes(size, 'x');
+    for (size_t i = 0; i < size; i += 97) bytes[i] = static_cast<char>(i);
+    const auto digest = Api().Put(bytes);
+    ASSERT_TRUE(digest.ok()) << digest.status();
+    EXPECT_EQ(*digest, DigestOf(bytes));
+    const auto back = Api().Get(*digest);
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_TRUE(*back == bytes) << size;
+  }
+}
+
+TEST_P(CoordinatorContract, SaysWhichBlobsAreStored) {
+  const Digest stored = *Api().Put("stored");
+  const auto answer = Api().StatBlobs({DigestOf("missing"), stored, DigestOf("absent")});
+  ASSERT_TRUE(answer.ok());
+  EXPECT_THAT(*answer, ElementsAre(false, true, false));
+  EXPECT_TRUE(Api().StatBlobs({})->empty());
+  EXPECT_TRUE(absl::IsNotFound(Api().Get(DigestOf("missing")).status()));
+}
+
+TEST_P(CoordinatorContract, LinksAFileWithoutCopyingIt) {
+  const std::string path = folder_ / "image.jpg";
+  std::ofstream(path) << "pixels";
+  ASSERT_TRUE(Api().LinkFile(DigestOf("pixels"), path).ok());
+  EXPECT_EQ(*Api().Get(DigestOf("pixels")), "pixels");
+  EXPECT_TRUE(absl::IsDataLoss(Api().LinkFile(DigestOf("others"), path)));
+  EXPECT_TRUE(absl::IsNotFound(Api().LinkFile(DigestOf("pixels"), path + ".gone")));
+}
+
+TEST_P(CoordinatorContract, ADamagedBlobIsDataLoss) {
+  const Digest digest = *Api().Put("precious");
+  const std::string hex = digest.ToHex();
+  std::ofstream(folder_ / ("state/blobs/" + hex.substr(0, 2) + "/" + hex)) << "other";
+  EXPECT_TRUE(absl::IsDataLoss(Api().Get(digest).status()));
+}
+
+TEST_P(CoordinatorContract, RefusesAWorkerOfAnotherVersionAndNamesBoth) {
+  WorkerInfo old = Worker("veteran");
+  old.version = "0.0.1";
+  const auto joined = Api().Join(old);
+  EXPECT_TRUE(absl::IsFailedPrecondition(joined.status()));
+  const std::string message(joined.status().message());
+  EXPECT_THAT(message, HasSubstr("veteran"));
+  EXPECT_THAT(message, HasSubstr("0.0.1"));
+  EXPECT_THAT(message, HasSubstr(std::string(BuildVersion())));
+}
+
+TEST_P(CoordinatorContract, KnowsOnlyItsSessionsAndJobs) {
+  const uint64_t stranger = 12345;
+  EXPECT_TRUE(absl::IsNotFound(Api().LeaseTask(stranger, 0, 0.0).status()));
+  EXPECT_TRUE(absl::IsNotFound(Api().Heartbeat(stranger, {}).status()));
+  EXPECT_TRUE(absl::IsNotFound(Api().GetJob(DigestOf("job")).status()));
+  EXPECT_TRUE(absl::IsNotFound(Api().CancelJob(DigestOf("job"))));
+  EXPECT_TRUE(absl::IsNotFound(Api().GetOutcomes(DigestOf("job")).status()));
+  EXPECT_TRUE(absl::IsNotFound(Api().GetTimings(DigestOf("job")).status()));
+  EXPECT_TRUE(Api().ListJobs()->empty());
+}
+
+TEST_P(CoordinatorContract, RefusesAJobOfUnknownKindOrWithoutItsInput) {
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().SubmitJob({.kind = "dense"}).status()));
+  EXPECT_TRUE(absl::IsNotFound(
+      Api().SubmitJob({.kind = "toy", .inputs = {DigestOf("never put")}}).status()));
+}
+
+TEST_P(CoordinatorContract, WaitsForWorkNoLongerThanAsked) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const double start_s = clock_.NowSeconds();
+  const auto lease = Api().LeaseTask(session, 0, 0.2);
+  ASSERT_TRUE(lease.ok());
+  EXPECT_FALSE(lease->has_value());
+  EXPECT_GE(clock_.NowSeconds() - start_s, 0.19);
+}
+
+TEST_P(CoordinatorContract, CompletingTwiceIsHarmless) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  Submit("1");
+  const Lease lease = MustLease(session);
+  EXPECT_TRUE(Do(session, lease).ok());
+  EXPECT_TRUE(Do(session, lease).ok());
+}
+
+TEST_P(CoordinatorContract, RefusesAResultUnderAStaleEpoch) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  Submit("1");
+  const Lease lease = MustLease(session);
+  Lease stale = lease;
+  stale.epoch -= 1;
+  EXPECT_TRUE(absl::IsFailedPrecondition(Do(session, stale)));
+  EXPECT_TRUE(
+      absl::IsFailedPrecondition(Api().FailTask(session, stale, absl::InternalError("late"))));
+  EXPECT_TRUE(Do(session, lease).ok());
+}
+
+TEST_P(CoordinatorContract, AReturnedTaskIsGivenOutAgainUnderANewEpoch) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  Submit("1");
+  const Lease first = MustLease(session);
+  ASSERT_TRUE(Api().FailTask(session, first, absl::CancelledError("going down")).ok());
+  const Lease second = MustLease(session);
+  EXPECT_EQ(second.task, first.task);
+  EXPECT_GT(second.epoch, first.epoch);
+}
+
+TEST_P(CoordinatorContract, LeavingGivesTasksBack) {
+  const uint64_t leaver = Api().Join(Worker("leaver"))->session;
+  Submit("1");
+  const Lease lease = MustLease(leaver);
+  ASSERT_TRUE(Api().Leave(leaver).ok());
+  EXPECT_TRUE(absl::IsNotFound(Api().LeaseTask(leaver, 0, 0.0).status()));
+  EXPECT_EQ(MustLease(Api().Join(Worker("stayer"))->session).task, lease.task);
+}
+
+TEST_P(CoordinatorContract, APermanentErrorFailsTheJobWithItsText) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const Digest job = Submit("1");
+  ASSERT_TRUE(
+      Api().FailTask(session, MustLease(session), absl::InvalidArgumentError("not a number")).ok());
+  const auto status = Api().GetJob(job);
+  EXPECT_EQ(status->state, JobState::kFailed);
+  EXPECT_THAT(status->error, HasSubstr("stage split, part 0"));
+  EXPECT_THAT(status->error, HasSubstr("not a number"));
+}
+
+TEST_P(CoordinatorContract, ProgressOfRunningTasksIsSeen) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const Digest job = Submit("1");
+  const Lease lease = MustLease(session);
+  ASSERT_TRUE(Api().Heartbeat(session, {{lease.task, lease.epoch, {1, 4, "numbers"}}}).ok());
+  EXPECT_EQ(Api().GetJob(job)->stages[0].tasks_running, 1U);
+  EXPECT_DOUBLE_EQ(Api().GetJob(job)->stages[0].fraction_running, 0.25);
+}
+
+TEST_P(CoordinatorContract, CancellingTakesTheTasksBack) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const Digest job = Submit("1");
+  const Lease lease = MustLease(session);
+  ASSERT_TRUE(Api().CancelJob(job).ok());
+  EXPECT_EQ(Api().GetJob(job)->state, JobState::kCancelled);
+  EXPECT_THAT(Api().Heartbeat(session, {{lease.task, lease.epoch, {}}})->cancelled,
+              ElementsAre(lease.task));
+}
+
+TEST_P(CoordinatorContract, SubmittingTheSameJobJoinsIt) {
+  const Digest job = Submit("1 2");
+  EXPECT_EQ(Submit("1 2"), job);
+  EXPECT_NE(Submit("1 2 3"), job);
+  EXPECT_EQ(Api().ListJobs()->size(), 2U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways,
+                         CoordinatorContract,
+                         ::testing::Values(Way::kDirect, Way::kUnixSocket, Way::kLoopback),
+                         [](const auto& way) {
+                           switch (way.param) {
+                             case Way::kDirect:
+                               return "Direct";
+                             case Way::kUnixSocket:
+                               return "UnixSocket";
+                             case Way::kLoopback:
+                               break;
+                           }
+                           return "Loopback";
+                         });
+
+TEST(GrpcServer, RefusesAnAddressThatOthersCanReach) {
+  const ScratchFolder folder;
+  const SteadyClock clock;
+  const auto coordinator = Coordinator::Open({.state_dir = folder.path()}, clock);
+  ASSERT_TRUE(coordinator.ok());
+  EXPECT_TRUE(absl::IsInvalidArgument(GrpcServer::Start(**coordinator, "0.0.0.0:0").status()));
+}
+
+TEST(GrpcServer, SaysSoWhenAPortIsTaken) {
+  const ScratchFolder folder;
+  const SteadyClock clock;
+  const auto coordinator = Coordinator::Open({.state_dir = folder.path()}, clock);
+  ASSERT_TRUE(coordinator.ok());
+  const auto first = GrpcServer::Start(**coordinator, "127.0.0.1:0");
+  ASSERT_TRUE(first.ok());
+  EXPECT_TRUE(absl::IsUnavailable(GrpcServer::Start(**coordinator, (*first)->address()).status()));
+}
+
+TEST(GrpcCoordinatorClient, IsUnavailableWhileNobodyListens) {
+  const ScratchFolder folder;
+  GrpcCoordinatorClient client("unix:" + (folder / "nobody"));
+  EXPECT_TRUE(absl::IsUnavailable(client.ListJobs().status()));
+  EXPECT_TRUE(absl::IsUnavailable(client.Put("bytes").status()));
+  EXPECT_TRUE(absl::IsUnavailable(client.Get(DigestOf("bytes")).status()));
+}
+
+}  // namespace
+}  // namespace orbweave

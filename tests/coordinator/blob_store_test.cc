@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/blob_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/scratch_folder.h"
+
+namespace orbweave {
+namespace {
+
+using testing::ScratchFolder;
+
+void Overwrite(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string PathOf(const ScratchFolder& folder, const Digest& digest) {
+  return folder / (digest.ToHex().substr(0, 2) + "/" + digest.ToHex());
+}
+
+TEST(BlobStore, GivesBackWhatWasPut) {
+  const ScratchFolder folder;
+  auto store = BlobStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  for (const std::string& bytes :
+       {std::string("text"), std::string(), std::string(3'000'000, '\0')}) {
+    const auto digest = store->Put(bytes);
+    ASSERT_TRUE(digest.ok());
+    EXPECT_EQ(*digest, DigestOf(bytes));
+    EXPECT_EQ(*store->Get(*digest), bytes);
+    EXPECT_TRUE(store->Verify(*digest));
+    EXPECT_EQ(*store->Put(bytes), *digest);
+  }
+}
+
+TEST(BlobStore, SaysSoWhenABlobIsNotThere) {
+  const ScratchFolder folder;
+  auto store = BlobStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  EXPECT_TRUE(absl::IsNotFound(store->Get(DigestOf("nothing")).status()));
+  EXPECT_FALSE(store->Has(DigestOf("nothing")));
+}
+
+TEST(BlobStore, NoticesDamageAndTakesTheBlobAgain) {
+  const ScratchFolder folder;
+  auto store = BlobStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  const Digest digest = *store->Put("precious");
+  Overwrite(PathOf(folder, digest), "presious");
+  EXPECT_TRUE(absl::IsDataLoss(store->Get(digest).status()));
+  EXPECT_FALSE(store->Has(digest));
+  EXPECT_TRUE(store->Put("precious").ok());
+  EXPECT_EQ(*store->Get(digest), "precious");
+}
+
+TEST(BlobStore, VerifyNoticesATornFile) {
+  const ScratchFolder folder;
+  auto store = BlobStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  const Digest digest = *store->Put("precious");
+  std::filesystem::resize_file(PathOf(folder, digest), 3);
+  EXPECT_TRUE(store->Has(digest));
+  EXPECT_FALSE(store->Verify(digest));
+  EXPECT_FALSE(store->Has(digest));
+}
+
+TEST(BlobStore, ReadsALinkedFileAndNoticesWhenItChanged) {
+  const ScratchFolder folder;
+  auto store = BlobStore::Open(folder / "blobs");
+  ASSERT_TRUE(store.ok());
+  const std::string image = folder / "image.jpg";
+  Overwrite(image, "pixels");
+  const Digest digest = DigestOf("pixels");
+  ASSERT_TRUE(store->LinkFile(digest, image).ok());
+  EXPECT_EQ(*store->Get(digest), "pixels");
+  Overwrite(image, "others");
+  EXPECT_TRUE(absl::IsDataLoss(store->Get(digest).status()));
+}
+
+TEST(BlobStore, RefusesToLinkWhatIsNotTheFile) {
+  const ScratchFolder folder;
+  auto store = BlobStore::Open(folder / "blobs");
+  ASSERT_TRUE(store.ok());
+  Overwrite(folder / "image.jpg", "pixels");
+  EXPECT_TRUE(absl::IsDataLoss(store->LinkFile(DigestOf("other"), folder / "image.jpg")));
+  EXPECT_TRUE(absl::IsNotFound(store->LinkFile(DigestOf("pixels"), folder / "missing.jpg")));
+  EXPECT_TRUE(absl::IsInvalidArgument(store->LinkFile(DigestOf("pixels"), "image.jpg")));
+}
+
+TEST(BlobStore, LeavesNoScratchFilesBehind) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(BlobStore::Open(folder.path()).ok());
+  Overwrite(folder / "tmp/123.0", "half a blob of a process that was killed");
+  auto store = BlobStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  ASSERT_TRUE(store->Put("text").ok());
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
+}
+
+}  // namespace
+}  // namespace orbweave

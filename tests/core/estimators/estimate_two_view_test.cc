@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/estimators/estimate_two_view.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/random_world.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+using testing::BearingOf;
+using testing::MakeTwoViewWorld;
+using testing::RandomDirection;
+using testing::RandomPoint;
+using testing::RandomRotation;
+using testing::RotationError;
+using testing::TwoViewWorld;
+using testing::WithNoise;
+
+constexpr double kSigmaRad = 1e-3;
+constexpr double kMaxErrorRad = 4.7e-3;  // 4 px of a panorama 5376 px wide
+const ImagePair kPair = {ImageId(3), ImageId(7)};
+
+std::vector<FeatureMatch> MatchesInOrder(size_t count) {
+  std::vector<FeatureMatch> matches;
+  for (uint32_t i = 0; i < count; ++i) matches.push_back({i, i});
+  return matches;
+}
+
+TwoViewGeometry Estimate(const TwoViewWorld& world, const TwoViewOptions& options = {}) {
+  const auto matches = MatchesInOrder(world.bearings_a.size());
+  const auto geometry =
+      EstimateTwoView(kPair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, options, {.seed = 1});
+  EXPECT_TRUE(geometry.ok()) << geometry.status();
+  return *geometry;
+}
+
+double DirectionError(const TwoViewGeometry& geometry, const TwoViewWorld& world) {
+  return AngleBetween(geometry.b_from_a.translation, world.b_from_a.translation);
+}
+
+/// Image b sees the points from the same centre, turned.
+TwoViewWorld MakePureRotationWorld(uint64_t seed, size_t count, double outlier_share, double sigma_rad) {
+  TwoViewWorld world = MakeTwoViewWorld(seed, count, outlier_share, sigma_rad);
+  Random random(seed + 1000);
+  world.b_from_a.translation.setZero();
+  for (size_t i = world.num_outliers; i < count; ++i) {
+    world.bearings_b[i] = WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), sigma_rad);
+  }
+  return world;
+}
+
+/// Points on a facade 3 baselines away, the first `num_off_plane` before and behind it. From a plane alone
+/// two poses fit equally well; the few others decide.
+TwoViewWorld MakePlanarWorld(uint64_t seed, size_t count, size_t num_off_plane, double sigma_rad) {
+  Random random(seed);
+  TwoViewWorld world;
+  world.b_from_a = {RandomRotation(random), RandomDirection(random)};
+  const Eigen::Quaterniond facing = RandomRotation(random);
+  for (size_t i = 0; i < count; ++i) {
+    const double x = random.Uniform(-6.0, 6.0);
+    const double y = random.Uniform(-6.0, 6.0);
+    const double z = i < num_off_plane ? random.Uniform(-6.0, 6.0) : 3.0;
+    const Vector3d X = facing * Vector3d(x, y, z);
+    world.points_in_a.push_back(X);
+    world.bearings_a.push_back(WithNoise(random, X.normalized(), sigma_rad));
+    world.bearings_b.push_back(WithNoise(random, BearingOf(world.b_from_a, X), sigma_rad));
+  }
+  return world;
+}
+
+TEST(EstimateTwoView, IsExactOnCleanData) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewWorld world = MakeTwoViewWorld(seed, 60);
+    const TwoViewGeometry geometry = Estimate(world);
+    EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral) << seed;
+    EXPECT_EQ(geometry.inliers.size(), 60U) << seed;
+    EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 1e-6) << seed;
+    EXPECT_LT(DirectionError(geometry, world), 1e-6) << seed;
+    EXPECT_NEAR(geometry.b_from_a.translation.norm(), 1.0, 1e-12);
+  }
+}
+
+struct Case {
+  TwoViewSolver solver;
+  double outlier_share;
+};
+
+class EstimateTwoViewWithOutliers : public ::testing::TestWithParam<Case> {};
+
+TEST_P(EstimateTwoViewWithOutliers, IsRightForEverySeed) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewWorld world = MakeTwoViewWorld(seed, 400, GetParam().outlier_share, kSigmaRad);
+    const TwoViewGeometry geometry = Estimate(world, {.solver = GetParam().solver});
+    EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral) << seed;
+    EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 2e-3) << seed;
+    EXPECT_LT(DirectionError(geometry, world), 6e-3) << seed;
+    const auto num_right = static_cast<double>(400 - world.num_outliers);
+    EXPECT_GT(static_cast<double>(geometry.inliers.size()), 0.97 * num_right) << seed;
+    EXPECT_LT(static_cast<double>(geometry.inliers.size()), num_right + 10) << seed;
+    EXPECT_EQ(geometry.num_putative, 400U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shares,
+                         EstimateTwoViewWithOutliers,
+                         ::testing::Values(Case{TwoViewSolver::kFivePoint, 0.3},
+                                           Case{TwoViewSolver::kFivePoint, 0.5},
+                                           Case{TwoViewSolver::kFivePoint, 0.7},
+                                           Case{TwoViewSolver::kEightPoint, 0.3}));
+
+TEST(EstimateTwoView, UprightSolverNeedsFewTrialsAndBearsATilt) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    TwoViewWorld world = MakeTwoViewWorld(seed, 300, 0.7, kSigmaRad);
+    const Eigen::Quaterniond tilt = RotationFromVector(0.003 * RandomDirection(random));
+    const double heading_rad = random.Uniform(-3.2, 3.2);
+    world.b_from_a.rotation = tilt * Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Vector3d::UnitY()));
+    for (size_t i = world.num_outliers; i < 300; ++i) {
+      world.bearings_b[i] = WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), kSigmaRad);
+    }
+    const TwoViewGeometry geometry = Estimate(world, {.solver = TwoViewSolver::kUprightThreePoint, .max_trials = 400});
+    EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 2e-3) << seed;
+    EXPECT_LT(DirectionError(geometry, world), 1e-2) << seed;
+  }
+}
+
+TEST(EstimateTwoView, CommutesWithRotationsOfEitherCamera) {
+  const TwoViewWorld world = MakeTwoViewWorld(5, 200, 0.4, kSigmaRad);
+  const TwoViewGeometry before = Estimate(world);
+  Random random(9);
+  const Eigen::Quaterniond turn_a = RandomRotation(random);
+  const Eigen::Quaterniond turn_b = RandomRotation(random);
+  TwoViewWorld turned = world;
+  for (Vector3d& bearing : turned.bearings_a) bearing = turn_a * bearing;
+  for (Vector3d& bearing : turned.bearings_b) bearing = turn_b * bearing;
+  const TwoViewGeometry after = Estimate(turned);
+  EXPECT_EQ(after.inliers, before.inliers);
+  EXPECT_LT(RotationError(after.b_from_a.rotation, turn_b * before.b_from_a.rotation * turn_a.conjugate()), 1e-4);
+  EXPECT_LT(AngleBetween(after.b_from_a.translation, turn_b * before.b_from_a.translation), 1e-4);
+  EXPECT_NEAR(after.median_angle_rad, before.median_angle_rad, 1e-4);
+}
+
+TEST(EstimateTwoView, FlagsPureRotation) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewWorld world = MakePureRotationWorld(seed, 200, 0.3, kSigmaRad);
+    const TwoViewGeometry geometry = Estimate(world);
+    EXPECT_EQ(geometry.kind, TwoViewKind::kPureRotation) << seed;
+    EXPECT_EQ(geometry.b_from_a.translation, Vector3d::Zero());
+    EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 1e-3) << seed;
+    EXPECT_GT(geometry.inliers.size(), 135U) << seed;
+    EXPECT_LT(geometry.inliers.size(), 143U) << seed;
+    EXPECT_LT(geometry.median_angle_rad, 3e-3);
+  }
+}
+
+TEST(EstimateTwoView, FlagsPlanesAndStillFindsThePose) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewWorld world = MakePlanarWorld(seed, 300, 24, 0.3 * kSigmaRad);
+    const TwoViewGeometry geometry = Estimate(world);
+    EXPECT_EQ(geometry.kind, TwoViewKind::kPlanar) << seed;
+    EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 1e-2) << seed;
+    EXPECT_LT(DirectionError(geometry, world), 3e-2) << seed;
+  }
+}
+
+TEST(EstimateTwoView, FlagsScenesThatAreNothingButAPlane) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewGeometry geometry = Estimate(MakePlanarWorld(seed, 200, 0, 0.3 * kSigmaRad));
+    EXPECT_EQ(geometry.kind, TwoViewKind::kPlanar) << seed;
+    EXPECT_GT(geometry.inliers.size(), 195U) << seed;
+  }
+}
+
+TEST(EstimateTwoView, KeepsFarPointsWithoutParallax) {
+  TwoViewWorld world = MakeTwoViewWorld(8, 200, 0.0, kSigmaRad);
+  Random random(4);
+  for (size_t i = 0; i < 60; ++i) {
+    const Vector3d X = 1e4 * RandomDirection(random);
+    world.bearings_a[i] = WithNoise(random, X.normalized(), kSigmaRad);
+    world.bearings_b[i] = WithNoise(random, BearingOf(world.b_from_a, X), kSigmaRad);
+  }
+  EXPECT_GT(Estimate(world).inliers.size(), 190U);
+}
+
+TEST(EstimateTwoView, ReportsParallaxSpreadAndSortedInliers) {
+  const TwoViewWorld world = MakeTwoViewWorld(2, 500, 0.2, kSigmaRad);
+  auto matches = MatchesInOrder(500);
+  std::reverse(matches.begin(), matches.end());
+  const auto geometry =
+      EstimateTwoView(kPair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, {}, {.seed = 1});
+  ASSERT_TRUE(geometry.ok());
+  EXPECT_EQ(geometry->pair, kPair);
+  EXPECT_TRUE(std::is_sorted(geometry->inliers.begin(), geometry->inliers.end()));
+  EXPECT_GT(geometry->spread, 0.95);
+  EXPECT_NEAR(geometry->median_angle_rad, 0.13, 0.05);  // unit baseline, points at 2 ... 10
+}
+
+TEST(EstimateTwoView, IsDeterministic) {
+  const TwoViewWorld world = MakeTwoViewWorld(6, 300, 0.5, kSigmaRad);
+  const TwoViewGeometry once = Estimate(world);
+  const TwoViewGeometry again = Estimate(world);
+  EXPECT_EQ(once.inliers, again.inliers);
+  EXPECT_EQ(once.b_from_a.translation, again.b_from_a.translation);
+}
+
+TEST(EstimateTwoView, HasNoAnswerWithoutSupport) {
+  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 1.0)).kind, TwoViewKind::kNone);
+  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 14)).kind, TwoViewKind::kNone);
+  EXPECT_EQ(Estimate({}).kind, TwoViewKind::kNone);
+  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 0.6), {.min_inlier_share = 0.5}).kind, TwoViewKind::kNone);
+  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 1.0)).num_putative, 100U);
+}
+
+TEST(EstimateTwoView, SurvivesIdenticalBearings) {
+  for (const TwoViewSolver solver :
+       {TwoViewSolver::kFivePoint, TwoViewSolver::kEightPoint, TwoViewSolver::kUprightThreePoint}) {
+    TwoViewWorld world;
+    world.bearings_a.assign(30, Vector3d::UnitZ());
+    world.bearings_b.assign(30, Vector3d::UnitX());
+    const TwoViewGeometry geometry = Estimate(world, {.solver = solver, .max_trials = 200});
+    EXPECT_TRUE(geometry.b_from_a.translation.allFinite());
+    EXPECT_TRUE(geometry.b_from_a.rotation.coeffs().allFinite());
+    EXPECT_NE(geometry.kind, TwoViewKind::kGeneral);
+  }
+}
+
+TEST(EstimateTwoView, StopsOnRequest) {
+  std::stop_source source;
+  source.request_stop();
+  const TwoViewWorld world = MakeTwoViewWorld(1, 100);
+  const auto geometry = EstimateTwoView(kPair,
+                                        world.bearings_a,
+                                        world.bearings_b,
+                                        MatchesInOrder(100),
+                                        kMaxErrorRad,
+                                        {},
+                                        {.stop = source.get_token(), .seed = 1});
+  EXPECT_EQ(geometry.status().code(), absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace orbweave

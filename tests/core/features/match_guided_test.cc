@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/base/random.h"
+#include "core/features/match_descriptors.h"
+
+namespace orbweave {
+namespace {
+
+using std::numbers::pi;
+
+constexpr EquirectangularCamera kCamera{.width_px = 4000, .height_px = 2000};
+const double kMaxErrorRad = kCamera.AngleFromPixels(4.0);
+
+std::vector<uint8_t> RandomDescriptor(Random& random) {
+  std::vector<double> values(kDescriptorSize);
+  double squares = 0.0;
+  for (double& value : values) {
+    value = std::pow(random.Uniform(), 3.0);
+    squares += value * value;
+  }
+  std::vector<uint8_t> descriptor;
+  for (const double value : values) {
+    descriptor.push_back(static_cast<uint8_t>(std::lround(value * 512.0 / std::sqrt(squares))));
+  }
+  return descriptor;
+}
+
+void Append(Features& features,
+            const Eigen::Vector3d& point_in_cam,
+            const std::vector<uint8_t>& descriptor) {
+  const Eigen::Vector2d pixel = features.camera.PixelFromBearing(point_in_cam);
+  features.keypoints.push_back(
+      {.x_px = static_cast<float>(pixel.x()), .y_px = static_cast<float>(pixel.y())});
+  features.descriptors.insert(features.descriptors.end(), descriptor.begin(), descriptor.end());
+}
+
+struct Scene {
+  Features a{.camera = kCamera};
+  Features b{.camera = kCamera};
+  Rigid3 b_from_a{};
+};
+
+/// Points all round two cameras; feature i of both is the same point.
+Scene MakeScene(uint64_t seed, int count) {
+  Random random(seed);
+  Scene scene;
+  scene.b_from_a.rotation =
+      Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
+          .normalized();
+  scene.b_from_a.translation =
+      Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d direction =
+        Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+    const Eigen::Vector3d point = random.Uniform(1.0, 20.0) * direction;
+    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+    Append(scene.a, point, descriptor);
+    Append(scene.b, scene.b_from_a * point, descriptor);
+  }
+  return scene;
+}
+
+TEST(MatchGuided, FindsPlantedMatchesAllRoundTheSphere) {
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    const Scene scene = MakeScene(seed, 400);
+    const auto matches = MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {});
+    EXPECT_EQ(matches.size(), 400U) << seed;
+    for (const FeatureMatch& match : matches) EXPECT_EQ(match.a, match.b);
+  }
+}
+
+TEST(MatchGuided, FindsPointsOnTheBaselineItself) {
+  Scene scene = MakeScene(6, 0);
+  scene.b_from_a.rotation = Eigen::Quaterniond::Identity();
+  scene.b_from_a.translation = {0.0, 0.0, -1.0};  // b one step ahead of a
+  Random random(7);
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 5), Eigen::Vector3d(0, 0, -5)}) {
+    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+    Append(scene.a, point, descriptor);
+    Append(scene.b, scene.b_from_a * point, descriptor);
+  }
+  EXPECT_EQ(MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {}),
+            (std::vector<FeatureMatch>{{0, 0}, {1, 1}}));
+}
+
+TEST(MatchGuided, TellsEqualDescriptorsApartByGeometry) {
+  Scene scene = MakeScene(8, 40);
+  for (Features* features : {&scene.a, &scene.b}) {  // repeated windows: five kinds of descriptor
+    for (size_t i = 5; i < 40; ++i) {
+      std::copy_n(features->descriptors.begin() + static_cast<ptrdiff_t>(i % 5) * kDescriptorSize,
+                  kDescriptorSize,
+                  features->descriptors.begin() + static_cast<ptrdiff_t>(i) * kDescriptorSize);
+    }
+  }
+  EXPECT_LT(MatchDescriptors(scene.a, scene.b, {}).size(), 5U);
+  const auto matches = MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {});
+  EXPECT_GT(matches.size(), 30U);
+  for (const FeatureMatch& match : matches) EXPECT_EQ(match.a, match.b);
+}
+
+TEST(MatchGuided, RejectsPointsOffTheEpipolarPlane) {
+  const Scene scene = MakeScene(9, 300);
+  const Eigen::Vector3d axis = scene.b_from_a.translation;
+  for (const double error_px : {3.0, 6.0}) {
+    Scene moved = scene;
+    for (FeatureIndex i = 0; i < moved.b.size(); ++i) {
+      const Eigen::Vector3d bearing = moved.b.Bearing(i);
+      const Eigen::Vector3d normal = axis.cross(bearing).normalized();
+      const Eigen::Vector3d off = bearing + std::tan(kCamera.AngleFromPixels(error_px)) * normal;
+      const Eigen::Vector2d pixel = kCamera.PixelFromBearing(off);
+      moved.b.keypoints[i].x_px = static_cast<float>(pixel.x());
+      moved.b.keypoints[i].y_px = static_cast<float>(pixel.y());
+    }
+    const size_t found = MatchGuided(moved.a, moved.b, moved.b_from_a, kMaxErrorRad, {}).size();
+    if (error_px < 4.0) {
+      EXPECT_GT(found, 290U);
+    } else {
+      EXPECT_LT(found, 10U);
+    }
+  }
+}
+
+TEST(MatchGuided, RejectsPointsBehindASphere) {
+  Scene scene = MakeScene(10, 200);
+  for (FeatureIndex i = 0; i < scene.b.size(); ++i) {  // the antipode lies on the same great circle
+    const Eigen::Vector2d pixel = kCamera.PixelFromBearing(-scene.b.Bearing(i));
+    scene.b.keypoints[i].x_px = static_cast<float>(pixel.x());
+    scene.b.keypoints[i].y_px = static_cast<float>(pixel.y());
+  }
+  EXPECT_LT(MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {}).size(), 4U);
+}
+
+TEST(MatchGuided, RejectsBearingsThatMeetBehindTheCameras) {
+  // In b the point must appear further from the direction of motion than in a; exchanged, the
+  // rays part and meet behind.
+  Scene scene = MakeScene(11, 200);
+  const Rigid3 backwards{scene.b_from_a.rotation, -scene.b_from_a.translation};
+  EXPECT_LT(MatchGuided(scene.a, scene.b, backwards, kMaxErrorRad, {}).size(), 20U);
+}
+
+TEST(MatchGuided, IsSymmetric) {
+  Scene scene = MakeScene(12, 300);
+  const Scene noise = MakeScene(13, 300);
+  scene.b.keypoints.insert(
+      scene.b.keypoints.end(), noise.b.keypoints.begin(), noise.b.keypoints.end());
+  scene.b.descriptors.insert(
+      scene.b.descriptors.end(), noise.a.descriptors.begin(), noise.a.descriptors.end());
+  MatchOptions loose;
+  loose.max_distance = 2.0;
+  loose.guided_max_ratio = 1.0;
+  const auto ab = MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, loose);
+  std::vector<FeatureMatch> ba;
+  for (const FeatureMatch& match :
+       MatchGuided(scene.b, scene.a, scene.b_from_a.Inverse(), kMaxErrorRad, loose)) {
+    ba.push_back({match.b, match.a});
+  }
+  std::sort(ba.begin(), ba.end());
+  EXPECT_EQ(ab, ba);
+}
+
+TEST(MatchGuided, IsOneToOne) {
+  const Scene scene = MakeScene(14, 50);
+  Features twice = scene.b;
+  twice.keypoints.insert(twice.keypoints.end(), scene.b.keypoints.begin(), scene.b.keypoints.end());
+  twice.descriptors.insert(
+      twice.descriptors.end(), scene.b.descriptors.begin(), scene.b.descriptors.end());
+  MatchOptions options;
+  options.guided_max_ratio = 1.0;
+  std::set<FeatureIndex> used;
+  for (const FeatureMatch& match :
+       MatchGuided(twice, scene.b, scene.b_from_a, kMaxErrorRad, options)) {
+    EXPECT_TRUE(used.insert(match.b).second);
+  }
+}
+
+TEST(MatchGuided, ReturnsNothingWithoutABaselineOrDescriptors) {
+  const Scene scene = MakeScene(15, 10);
+  EXPECT_TRUE(
+      MatchGuided(
+          scene.a, scene.b, {scene.b_from_a.rotation, Eigen::Vector3d::Zero()}, kMaxErrorRad, {})
+          .empty());
+  EXPECT_TRUE(MatchGuided({}, scene.b, scene.b_from_a, kMaxErrorRad, {}).empty());
+}
+
+}  // namespace
+}  // namespace orbweave

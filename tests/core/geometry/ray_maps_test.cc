@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/geometry/ray_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/random_world.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using testing::BearingOf;
+using testing::RandomDirection;
+using testing::RandomRotation;
+
+TEST(FitRayRotation, RecoversTheRotation) {
+  Random random(1);
+  for (const size_t count : {2, 3, 50}) {
+    const Matrix3d R = RandomRotation(random).toRotationMatrix();
+    std::vector<Vector3d> a(count);
+    for (Vector3d& bearing : a) bearing = RandomDirection(random);
+    std::vector<Vector3d> b(count);
+    std::transform(a.begin(), a.end(), b.begin(), [&](const Vector3d& v) { return R * v; });
+    const auto found = FitRayRotation(a, b);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_LT((*found - R).norm(), 1e-9) << count;
+  }
+}
+
+TEST(FitRayRotation, RefusesParallelBearings) {
+  const std::vector<Vector3d> parallel = {Vector3d::UnitX(), -Vector3d::UnitX(), Vector3d::UnitX()};
+  EXPECT_FALSE(FitRayRotation(parallel, parallel).has_value());
+  EXPECT_FALSE(FitRayRotation({}, {}).has_value());
+}
+
+TEST(FitRayHomography, MapsBearingsOfOnePlane) {
+  Random random(2);
+  const Rigid3 b_from_a = {RandomRotation(random), RandomDirection(random)};
+  const Eigen::Quaterniond facing = RandomRotation(random);
+  for (const size_t count : {4, 5, 40}) {
+    std::vector<Vector3d> a;
+    std::vector<Vector3d> b;
+    for (size_t i = 0; i < count; ++i) {
+      const double x = random.Uniform(-6.0, 6.0);
+      const double y = random.Uniform(-6.0, 6.0);
+      const Vector3d X = facing * Vector3d(x, y, 3.0);
+      a.push_back(X.normalized());
+      b.push_back(BearingOf(b_from_a, X));
+    }
+    const auto H = FitRayHomography(a, b);
+    ASSERT_TRUE(H.has_value());
+    for (size_t i = 0; i < count; ++i) EXPECT_LT(AngleBetween(*H * a[i], b[i]), 1e-6) << count;
+  }
+}
+
+TEST(FitRayHomography, RefusesFewAndCollinearBearings) {
+  const auto world = testing::MakeTwoViewWorld(1, 3);
+  EXPECT_FALSE(FitRayHomography(world.bearings_a, world.bearings_b).has_value());
+  std::vector<Vector3d> on_a_circle;
+  for (const double angle : {0.1, 0.7, 1.5, 2.0, 4.0}) on_a_circle.push_back({std::cos(angle), std::sin(angle), 0.0});
+  EXPECT_FALSE(FitRayHomography(on_a_circle, on_a_circle).has_value());
+}
+
+}  // namespace
+}  // namespace orbweave

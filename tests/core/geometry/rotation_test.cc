@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/geometry/rotation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/random_world.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using std::numbers::pi;
+using testing::RandomDirection;
+using testing::RandomRotation;
+
+TEST(RotationFromVector, IsUndoneByVectorFromRotation) {
+  Random random(1);
+  for (const double angle : {0.0, 1e-12, 1e-7, 1e-3, 1.0, 3.0, pi - 1e-6}) {
+    const Vector3d w = angle * RandomDirection(random);
+    EXPECT_LT((VectorFromRotation(RotationFromVector(w)) - w).norm(), 1e-9) << angle;
+    EXPECT_NEAR(RotationAngle(RotationFromVector(w)), angle, 1e-9);
+  }
+}
+
+TEST(RotationFromVector, AgreesWithEigen) {
+  Random random(2);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vector3d axis = RandomDirection(random);
+    const double angle = random.Uniform(0.0, 10.0);
+    const Quaterniond expected(Eigen::AngleAxisd(angle, axis));
+    EXPECT_LT(RotationAngle(RotationFromVector(angle * axis) * expected.conjugate()), 1e-9);
+  }
+}
+
+TEST(VectorFromRotation, TakesTheShortWayForEitherSign) {
+  const Quaterniond q = RotationFromVector({0.1, -0.2, 0.3});
+  const Quaterniond negated(-q.w(), -q.x(), -q.y(), -q.z());
+  EXPECT_LT((VectorFromRotation(q) - VectorFromRotation(negated)).norm(), 1e-15);
+}
+
+TEST(SkewSymmetric, IsTheCrossProduct) {
+  const Vector3d v(1, -2, 3);
+  const Vector3d w(0.4, 5, -6);
+  EXPECT_LT((SkewSymmetric(v) * w - v.cross(w)).norm(), 1e-15);
+}
+
+TEST(TangentBasis, IsOrthonormalEverywhere) {
+  Random random(3);
+  const auto expect_orthonormal = [](const Vector3d& b) {
+    Eigen::Matrix3d frame;
+    frame << TangentBasis(b), b;
+    EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm(), 1e-12) << b.transpose();
+  };
+  for (int trial = 0; trial < 1000; ++trial) expect_orthonormal(RandomDirection(random));
+  for (int k = 0; k < 3; ++k) {
+    expect_orthonormal(Vector3d::Unit(k));
+    expect_orthonormal(-Vector3d::Unit(k));
+  }
+}
+
+TEST(AngleBetween, IsAccurateForTinyAndFlatAngles) {
+  const Vector3d x = Vector3d::UnitX();
+  for (const double angle : {1e-12, 1e-8, 1e-3, 1.0}) {
+    EXPECT_NEAR(AngleBetween(x, Vector3d(std::cos(angle), std::sin(angle), 0.0)) / angle, 1.0, 1e-9);
+    EXPECT_NEAR((pi - AngleBetween(x, Vector3d(-std::cos(angle), std::sin(angle), 0.0))) / angle, 1.0, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace orbweave

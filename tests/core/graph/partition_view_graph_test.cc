@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/graph/partition_view_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/graph/disjoint_sets.h"
+#include "tests/core/graph/graph_samples.h"
+
+namespace orbweave {
+namespace {
+
+Partition Divided(const ViewGraph& graph, const PartitionOptions& options = {}) {
+  const auto partition = PartitionViewGraph(graph, options);
+  EXPECT_TRUE(partition.ok()) << partition.status();
+  return partition.ok() ? *partition : Partition{};
+}
+
+bool AreConnected(const ViewGraph& graph, const std::vector<ImageId>& images) {
+  const std::set<ImageId> members(images.begin(), images.end());
+  DisjointSets sets(graph.num_images);
+  for (const ViewEdge& edge : graph.edges) {
+    if (members.contains(edge.pair.a) && members.contains(edge.pair.b)) {
+      sets.Unite(edge.pair.a.value, edge.pair.b.value);
+    }
+  }
+  return sets.SizeOf(images.front().value) == images.size();
+}
+
+bool Touch(const ViewGraph& graph, const Cluster& x, const Cluster& y) {
+  const auto has = [](const Cluster& cluster, ImageId image) {
+    return std::binary_search(cluster.interior.begin(), cluster.interior.end(), image);
+  };
+  return std::any_of(graph.edges.begin(), graph.edges.end(), [&](const ViewEdge& edge) {
+    return (has(x, edge.pair.a) && has(y, edge.pair.b)) ||
+           (has(y, edge.pair.a) && has(x, edge.pair.b));
+  });
+}
+
+// What the scene promises of every partition.
+void ExpectLawful(const ViewGraph& graph,
+                  const Partition& partition,
+                  const PartitionOptions& options) {
+  std::map<ImageId, int> interior_count;
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<ImageId>> seams;
+  for (const Seam& seam : partition.seams) seams[{seam.cluster_a, seam.cluster_b}] = seam.shared;
+  for (uint32_t c = 0; c < partition.clusters.size(); ++c) {
+    const Cluster& cluster = partition.clusters[c];
+    EXPECT_TRUE(std::is_sorted(cluster.images.begin(), cluster.images.end()));
+    EXPECT_TRUE(std::includes(cluster.images.begin(),
+                              cluster.images.end(),
+                              cluster.interior.begin(),
+                              cluster.interior.end()));
+    EXPECT_TRUE(AreConnected(graph, cluster.interior)) << "cluster " << c;
+    EXPECT_TRUE(AreConnected(graph, cluster.images)) << "cluster " << c;
+    for (const ImageId image : cluster.interior) ++interior_count[image];
+    if (c > 0) {
+      EXPECT_LT(partition.clusters[c - 1].interior.front(), cluster.interior.front());
+    }
+    for (uint32_t d = c + 1; d < partition.clusters.size(); ++d) {
+      const Cluster& other = partition.clusters[d];
+      std::vector<ImageId> shared;
+      std::set_intersection(cluster.images.begin(),
+                            cluster.images.end(),
+                            other.images.begin(),
+                            other.images.end(),
+                            std::back_inserter(shared));
+      const auto seam = seams.find({c, d});
+      EXPECT_EQ(seam == seams.end() ? std::vector<ImageId>{} : seam->second, shared);
+      if (!Touch(graph, cluster, other)) continue;
+      const size_t available = cluster.interior.size() + other.interior.size();
+      EXPECT_GE(shared.size(), std::min<size_t>(static_cast<size_t>(options.overlap), available));
+    }
+  }
+  std::set<ImageId> joined;
+  for (const ViewEdge& edge : graph.edges) joined.insert({edge.pair.a, edge.pair.b});
+  EXPECT_EQ(interior_count.size(), joined.size());
+  for (const auto& [image, count] : interior_count) EXPECT_EQ(count, 1) << "image " << image.value;
+}
+
+TEST(PartitionViewGraph, LeavesASmallJobInOneCluster) {
+  for (const uint32_t n : {2, 11, 30, 31}) {
+    const Partition partition = Divided(Street(n, 10));
+    ASSERT_EQ(partition.clusters.size(), 1U) << n;
+    EXPECT_EQ(partition.clusters[0].images.size(), n);
+    EXPECT_TRUE(partition.seams.empty());
+  }
+}
+
+TEST(PartitionViewGraph, DividesALoopOf48IntoThreeClustersInARing) {
+  const ViewGraph loop = Loop(48, 10);
+  const Partition partition = Divided(loop);
+  EXPECT_EQ(partition.clusters.size(), 3U);
+  EXPECT_EQ(partition.seams.size(), 3U);
+  ExpectLawful(loop, partition, {});
+}
+
+TEST(PartitionViewGraph, DividesACorridorByClusterSize) {
+  const ViewGraph street = Street(500, 10);
+  const Partition partition = Divided(street);
+  EXPECT_EQ(partition.clusters.size(), 5U);
+  EXPECT_EQ(partition.seams.size(), 4U);
+  ExpectLawful(street, partition, {});
+  for (const Seam& seam : partition.seams) EXPECT_EQ(seam.shared.size(), 12U);
+}
+
+TEST(PartitionViewGraph, DividesCrossingStreets) {
+  const ViewGraph grid = Grid(20);
+  const PartitionOptions options{.cluster_size = 50};
+  const Partition partition = Divided(grid, options);
+  EXPECT_GE(partition.clusters.size(), 6U);
+  ExpectLawful(grid, partition, options);
+}
+
+TEST(PartitionViewGraph, HandlesEveryComponentByItself) {
+  ViewGraph graph = Street(120, 5);
+  std::erase_if(graph.edges, [](const ViewEdge& edge) {
+    return edge.pair.a < ImageId(64) && edge.pair.b >= ImageId(64);
+  });
+  const PartitionOptions options{.cluster_size = 30, .overlap = 6};
+  const Partition partition = Divided(graph, options);
+  ExpectLawful(graph, partition, options);
+  for (const Cluster& cluster : partition.clusters) {
+    EXPECT_EQ(cluster.images.front() < ImageId(64), cluster.images.back() < ImageId(64));
+  }
+}
+
+TEST(PartitionViewGraph, LeavesOutImagesWithoutAnEdge) {
+  ViewGraph graph = Street(20, 3);
+  graph.num_images = 25;
+  const Partition partition = Divided(graph);
+  ASSERT_EQ(partition.clusters.size(), 1U);
+  EXPECT_EQ(partition.clusters[0].images.back(), ImageId(19));
+  EXPECT_TRUE(Divided({.num_images = 1}).clusters.empty());
+  EXPECT_TRUE(Divided({}).clusters.empty());
+}
+
+TEST(PartitionViewGraph, KeepsChainsLawful) {
+  const ViewGraph chain = Street(64, 1);
+  const Partition partition = Divided(chain);
+  EXPECT_EQ(partition.clusters.size(), 3U);
+  ExpectLawful(chain, partition, {});
+}
+
+TEST(PartitionViewGraph, DoesNotDivideWhenToldNotTo) {
+  EXPECT_EQ(Divided(Street(500, 5), {.cluster_size = 0}).clusters.size(), 1U);
+}
+
+TEST(PartitionViewGraph, GivesTheSameAnswerTwice) {
+  const ViewGraph grid = Grid(15);
+  const Partition first = Divided(grid, {.cluster_size = 30});
+  const Partition second = Divided(grid, {.cluster_size = 30});
+  ASSERT_EQ(first.clusters.size(), second.clusters.size());
+  for (size_t c = 0; c < first.clusters.size(); ++c) {
+    EXPECT_EQ(first.clusters[c].images, second.clusters[c].images);
+  }
+}
+
+TEST(PartitionViewGraph, RefusesEdgesOfImagesThatAreNotThere) {
+  const ViewGraph graph{.num_images = 3, .edges = {Edge(1, 3)}};
+  EXPECT_EQ(PartitionViewGraph(graph, {}).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/byte_stream.h"
+#include "core/io/cameras_csv.h"
+#include "core/io/georeference_json.h"
+#include "core/io/local_frame.h"
+#include "core/io/measure_reconstruction.h"
+#include "core/io/text_fields.h"
+#include "core/io/trace_json.h"
+#include "core/io/trajectory_geojson.h"
+#include "core/io/write_ply.h"
+#include "tests/core/io/io_test_support.h"
+
+namespace orbweave {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+SmallScene GeoreferencedScene() {
+  SmallScene scene = MakeSmallScene(12, 200);
+  scene.manifest.origin = GeodeticPosition{47.61, -122.32, 60.0};
+  for (ImageRecord& image : scene.manifest.images) image.drive = image.id.value / 6;
+  return scene;
+}
+
+TEST(WritePly, HoldsEveryPointAndColour) {
+  const SmallScene scene = MakeSmallScene(6, 50);
+  const std::string ply = PlyFromReconstruction(scene.reconstruction);
+  const size_t body = ply.find("end_header\n") + 11;
+  EXPECT_THAT(ply,
+              StartsWith("ply\nformat binary_little_endian 1.0\nelement vertex " +
+                         std::to_string(scene.reconstruction.tracks.size()) + "\n"));
+  ASSERT_EQ(ply.size() - body, scene.reconstruction.tracks.size() * 27);
+  ByteReader in(std::string_view(ply).substr(body));
+  for (const Track& track : scene.reconstruction.tracks) {
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(in.Take<double>(), track.point_in_world[axis]);
+    EXPECT_EQ(in.Take<uint8_t>(), track.color.r);
+    EXPECT_EQ(in.Take<uint8_t>(), track.color.g);
+    EXPECT_EQ(in.Take<uint8_t>(), track.color.b);
+  }
+}
+
+TEST(CamerasCsv, GivesPosesBack) {
+  SmallScene scene = GeoreferencedScene();
+  scene.manifest.images[2].name = "a,\"b\".jpg";
+  scene.reconstruction.images[ImageId(3)].loose = true;
+  const std::string csv = CamerasCsv(scene.reconstruction, scene.manifest, true);
+  const std::vector<std::string_view> lines = SplitLines(csv);
+  ASSERT_EQ(lines.size(), 13U);
+  for (uint32_t i = 0; i < 12; ++i) {
+    const std::vector<std::string> cells = SplitFields(lines[i + 1], ',');
+    ASSERT_EQ(cells.size(), 12U) << lines[i + 1];
+    EXPECT_EQ(cells[0], scene.manifest.images[i].name);
+    EXPECT_EQ(cells[11], i == 3 ? "loose" : i % 10 == 1 ? "not_registered" : "registered");
+    if (i % 10 == 1) continue;
+    const Rigid3& pose = scene.reconstruction.images.at(ImageId(i)).cam_from_world;
+    double v[10];
+    for (size_t c = 0; c < 10; ++c) v[c] = NumberFromText(cells[c + 1]).value();
+    EXPECT_LT((Eigen::Vector3d(v[0], v[1], v[2]) - pose.Centre()).norm(), 1e-5);
+    EXPECT_LT(Eigen::Quaterniond(v[3], v[4], v[5], v[6]).angularDistance(pose.rotation), 1e-7);
+    EXPECT_GE(v[3], 0.0);
+    EXPECT_LT((EnuFromGeodetic({v[7], v[8], v[9]}, *scene.manifest.origin) - pose.Centre()).norm(),
+              1e-3);
+  }
+  EXPECT_THAT(std::string(SplitLines(CamerasCsv(scene.reconstruction, scene.manifest, false))[1]),
+              HasSubstr(",,,,registered"));
+}
+
+TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
+  const SmallScene scene = GeoreferencedScene();
+  const auto json =
+      nlohmann::json::parse(TrajectoryGeoJson(scene.reconstruction, scene.manifest).value());
+  EXPECT_EQ(json["type"], "FeatureCollection");
+  ASSERT_EQ(json["features"].size(), 2 + scene.reconstruction.images.size());
+  EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
+  EXPECT_EQ(json["features"][1]["properties"]["drive"], 1);
+  const auto& point = json["features"][2];
+  EXPECT_EQ(point["properties"]["name"], "street/img0.jpg");
+  const auto& position = point["geometry"]["coordinates"];
+  const Eigen::Vector3d enu =
+      EnuFromGeodetic({position[1], position[0], position[2]}, *scene.manifest.origin);
+  EXPECT_LT((enu - scene.reconstruction.images.at(ImageId(0)).cam_from_world.Centre()).norm(),
+            1e-3);
+  EXPECT_EQ(TrajectoryGeoJson(scene.reconstruction, {}).status().code(),
+            absl::StatusCode::kFailedPrecondition);
+}
+
+TEST(GeoreferenceJson, PlacesTheFrameOnTheEarth) {
+  const SmallScene scene = GeoreferencedScene();
+  const auto json = nlohmann::json::parse(GeoreferenceJson(scene.manifest, true));
+  EXPECT_EQ(json["axes"], "east-north-up");
+  EXPECT_EQ(json["unit"], "metre");
+  EXPECT_DOUBLE_EQ(json["origin"]["latitude"], 47.61);
+  const auto& M = json["ecef_from_enu"];
+  const Eigen::Vector3d up(M[0][2], M[1][2], M[2][2]);
+  const double latitude = 47.61 * M_PI / 180.0;
+  EXPECT_NEAR(up.z(), std::sin(latitude), 1e-12);
+  EXPECT_NEAR(Eigen::Vector3d(M[0][3], M[1][3], M[2][3]).norm(), 6.3667e6, 3e3);
+  EXPECT_EQ(nlohmann::json::parse(GeoreferenceJson(scene.manifest, false))["georeferenced"], false);
+}
+
+TEST(MeasureReconstruction, CountsAndMeasures) {
+  SmallScene scene = MakeSmallScene(12, 200);
+  ReconstructionMeasures measures = MeasureReconstruction(scene.reconstruction, scene.manifest);
+  EXPECT_EQ(measures.points, scene.reconstruction.tracks.size());
+  EXPECT_EQ(measures.observations, scene.reconstruction.NumObservations());
+  EXPECT_LT(measures.residual_px_rms, 1e-6);
+  EXPECT_EQ(measures.residual_histogram.counts[0], measures.observations);
+  // Turn every bearing by 1.05 pixels of the wider camera.
+  const double angle = 1.05 / 2048.0 * 2.0 * M_PI;
+  for (Track& track : scene.reconstruction.tracks) {
+    for (Observation& observation : track.observations) {
+      const Eigen::Vector3d side = TangentBasis(observation.bearing).col(0);
+      observation.bearing = std::cos(angle) * observation.bearing + std::sin(angle) * side;
+    }
+  }
+  measures = MeasureReconstruction(scene.reconstruction, scene.manifest);
+  uint64_t wide = 0;
+  uint64_t total = 0;
+  for (const auto& [id, image] : measures.images) {
+    const bool is_wide = scene.manifest.At(id).camera.width_px == 2048;
+    EXPECT_NEAR(image.residual_px_mean, is_wide ? 1.05 : 0.525, 1e-9);
+    wide += is_wide ? image.observations : 0;
+    total += image.observations;
+  }
+  EXPECT_EQ(total, measures.observations);
+  EXPECT_EQ(measures.residual_histogram.counts[10], wide);
+  EXPECT_EQ(measures.residual_histogram.counts[5], total - wide);
+  EXPECT_EQ(MeasureReconstruction({}, {}).mean_track_length, 0.0);
+}
+
+TEST(TraceJson, HasALanePerSlotAndDoesNotDependOnOrder) {
+  const std::vector<TraceRow> rows = {{"extract", 0, "w2", 0, 0.0, 1.5, true},
+                                      {"extract", 1, "w10", 1, 0.25, 2.0, false},
+                                      {"match", 0, "w2", 0, 2.0, 3.0, true}};
+  const std::string text = TraceJson(rows);
+  EXPECT_EQ(text, TraceJson({rows[2], rows[0], rows[1]}));
+  const auto events = nlohmann::json::parse(text)["traceEvents"];
+  ASSERT_EQ(events.size(), 4 + 3U);
+  EXPECT_EQ(events[0]["args"]["name"], "w2");  // natural order: w2 before w10
+  EXPECT_EQ(events[2]["args"]["name"], "w10");
+  EXPECT_EQ(events[3]["args"]["name"], "slot 1");
+  EXPECT_EQ(events[5]["name"], "extract 1");
+  EXPECT_EQ(events[5]["ts"], 250000);
+  EXPECT_EQ(events[5]["dur"], 1750000);
+  EXPECT_EQ(events[5]["tid"], 1);
+}
+
+}  // namespace
+}  // namespace orbweave

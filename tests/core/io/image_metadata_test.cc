@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/image_metadata.h"
+
+#include <exiv2/exiv2.hpp>
+
+#include "core/io/image_container.h"
+#include "tests/core/io/io_test_support.h"
+
+namespace orbweave {
+namespace {
+
+/// `encoded` with EXIF and XMP keys set to the values given as text.
+std::string Tagged(const std::string& encoded,
+                   const std::vector<std::pair<std::string, std::string>>& exif,
+                   const std::vector<std::pair<std::string, std::string>>& xmp = {}) {
+  const auto image = Exiv2::ImageFactory::open(reinterpret_cast<const Exiv2::byte*>(encoded.data()),
+                                               static_cast<long>(encoded.size()));
+  image->readMetadata();
+  for (const auto& [key, value] : exif) image->exifData()[key] = value;
+  for (const auto& [key, value] : xmp) image->xmpData()[key] = value;
+  image->writeMetadata();
+  Exiv2::BasicIo& io = image->io();
+  io.open();
+  std::string bytes(io.size(), '\0');
+  io.read(reinterpret_cast<Exiv2::byte*>(bytes.data()), static_cast<long>(bytes.size()));
+  return bytes;
+}
+
+TEST(ReadImageMetadata, GivesTheSizeOfEveryKind) {
+  for (const char* extension : {".jpg", ".png", ".tif", ".bmp", ".webp", ".ppm"}) {
+    const absl::StatusOr<ImageMetadata> metadata =
+        ReadImageMetadata(EncodedImage(64, 32, extension));
+    ASSERT_TRUE(metadata.ok()) << extension << ": " << metadata.status();
+    EXPECT_EQ(metadata->width_px, 64) << extension;
+    EXPECT_EQ(metadata->height_px, 32) << extension;
+    EXPECT_FALSE(metadata->position) << extension;
+  }
+}
+
+TEST(ReadImageMetadata, ReadsPositionPoseAndTime) {
+  const std::string bytes =
+      Tagged(EncodedImage(64, 32, ".jpg"),
+             {{"Exif.GPSInfo.GPSLatitude", "33/1 51/1 2520/100"},
+              {"Exif.GPSInfo.GPSLatitudeRef", "S"},
+              {"Exif.GPSInfo.GPSLongitude", "151/1 12/1 36/1"},
+              {"Exif.GPSInfo.GPSLongitudeRef", "E"},
+              {"Exif.GPSInfo.GPSAltitude", "1250/100"},
+              {"Exif.GPSInfo.GPSAltitudeRef", "1"},
+              {"Exif.GPSInfo.GPSImgDirection", "900/10"},
+              {"Exif.GPSInfo.GPSHPositioningError", "32/10"},
+              {"Exif.Photo.DateTimeOriginal", "2016:11:13 11:16:31"},
+              {"Exif.Photo.SubSecTimeOriginal", "25"}},
+             {{"Xmp.GPano.PoseHeadingDegrees", "271.5"}, {"Xmp.GPano.PosePitchDegrees", "-1.25"}});
+  const ImageMetadata metadata = ReadImageMetadata(bytes).value();
+  ASSERT_TRUE(metadata.position);
+  EXPECT_NEAR(metadata.position->latitude_deg, -(33.0 + 51.0 / 60.0 + 25.2 / 3600.0), 1e-12);
+  EXPECT_NEAR(metadata.position->longitude_deg, 151.21, 1e-12);
+  EXPECT_TRUE(metadata.altitude_known);
+  EXPECT_DOUBLE_EQ(metadata.position->altitude_m, -12.5);
+  EXPECT_EQ(metadata.position_error_m, 3.2);
+  EXPECT_EQ(metadata.heading_deg, 271.5);
+  EXPECT_EQ(metadata.pitch_deg, -1.25);
+  EXPECT_FALSE(metadata.roll_deg);
+  EXPECT_EQ(metadata.capture_time_s, 1479035791.25);
+}
+
+TEST(ReadImageMetadata, LeavesOutAbsurdValues) {
+  for (const auto& [latitude, longitude] : {std::pair("95/1 0/1 0/1", "10/1 0/1 0/1"),
+                                            std::pair("0/0 0/0 0/0", "0/0 0/0 0/0"),
+                                            std::pair("0/1 0/1 0/1", "0/1 0/1 0/1"),
+                                            std::pair("10/1 0/1 0/1", "181/1 0/1 0/1")}) {
+    const std::string bytes =
+        Tagged(EncodedImage(64, 32, ".jpg"),
+               {{"Exif.GPSInfo.GPSLatitude", latitude}, {"Exif.GPSInfo.GPSLongitude", longitude}});
+    EXPECT_FALSE(ReadImageMetadata(bytes).value().position) << latitude;
+  }
+}
+
+TEST(ReadImageMetadata, RefusesEveryTruncation) {
+  for (const char* extension : {".jpg", ".png", ".bmp", ".webp"}) {
+    const std::string bytes = EncodedImage(64, 32, extension);
+    for (size_t size = 0; size + 2 < bytes.size(); size += 1 + size / 8) {
+      EXPECT_FALSE(ReadImageMetadata(std::string_view(bytes).substr(0, size)).ok())
+          << extension << " " << size;
+    }
+    EXPECT_TRUE(CheckComplete(bytes).ok()) << extension;
+  }
+}
+
+TEST(ReadImageMetadata, SurvivesDamagedHeaders) {
+  Random random(5);
+  for (const char* extension : {".jpg", ".png", ".tif", ".webp", ".ppm"}) {
+    const std::string bytes =
+        Tagged(EncodedImage(64, 32, ".jpg"), {{"Exif.GPSInfo.GPSLatitude", "33/1 51/1 2520/100"}});
+    const std::string intact =
+        extension == std::string(".jpg") ? bytes : EncodedImage(64, 32, extension);
+    for (int round = 0; round < 60; ++round) {
+      std::string damaged = intact;
+      for (int i = 0; i < 4; ++i)
+        damaged[random.Index(std::min<uint32_t>(static_cast<uint32_t>(damaged.size()), 400))] =
+            static_cast<char>(random.Index(256));
+      const absl::StatusOr<ImageMetadata> metadata = ReadImageMetadata(damaged);
+      if (metadata.ok()) EXPECT_GT(metadata->width_px, 0);
+    }
+  }
+}
+
+TEST(ReadImageMetadata, ReadsTheRealCamera) {
+  const std::string path =
+      std::string(ORBWEAVE_SOURCE_DIR) + "/../shared/data/openmvg_flat360/images/R0010212.JPG";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the real images are not here";
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  const ImageMetadata metadata = ReadImageMetadata(bytes).value();
+  EXPECT_EQ(metadata.width_px, 5376);
+  EXPECT_EQ(metadata.height_px, 2688);
+  ASSERT_TRUE(metadata.position);
+  EXPECT_NEAR(metadata.position->latitude_deg, 47.6101944444444, 1e-9);
+  EXPECT_NEAR(metadata.position->longitude_deg, -122.323852777778, 1e-9);
+  EXPECT_DOUBLE_EQ(metadata.position->altitude_m, 60.0);
+  EXPECT_EQ(metadata.heading_deg, 180.0);
+  EXPECT_EQ(metadata.pitch_deg, 0.9);
+  EXPECT_EQ(metadata.roll_deg, 0.4);
+  EXPECT_EQ(metadata.capture_time_s, 1479035791.0);
+}
+
+}  // namespace
+}  // namespace orbweave

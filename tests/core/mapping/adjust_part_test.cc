@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/adjust_part.h"
+
+#include <gtest/gtest.h>
+
+#include "core/mapping/adjust_local.h"
+#include "core/mapping/filter_points.h"
+#include "tests/core/mapping/true_state.h"
+
+namespace orbweave {
+namespace {
+
+TEST(AdjustPart, MovesADisplacedImageBackAndHoldsTheOthers) {
+  const StreetFixture street({.centres = StraightWalk(5, 3.0), .noise_px = 0.0});
+  MappingState state = street.TriangulatedStateWith(FirstImages(5));
+  const Rigid3 truth = state.CamFromWorld(2);
+  state.SetPose(2,
+                {truth.rotation * RotationFromVector({0.01, -0.01, 0.02}),
+                 truth.translation + Eigen::Vector3d(0.05, 0.02, -0.04)});
+  const std::vector<ImageSlot> images = {2};
+  ASSERT_TRUE(AdjustPart(state, images, AllPoints(state), {}, {}).ok());
+  EXPECT_LT((state.Centre(2) - truth.Centre()).norm(), 1e-5);
+  EXPECT_EQ(state.CamFromWorld(1).translation, street.world.cams_from_world[1].translation);
+}
+
+TEST(AdjustPart, LeavesTheStateAloneWhenCancelled) {
+  const StreetFixture street({.centres = StraightWalk(3, 3.0)});
+  MappingState state = street.TriangulatedStateWith(FirstImages(3));
+  const Eigen::Vector3d before = state.Point(0).position;
+  std::stop_source source;
+  source.request_stop();
+  const auto report =
+      AdjustPart(state, FirstImages(3), AllPoints(state), {}, {.stop = source.get_token()});
+  EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(state.Point(0).position, before);
+}
+
+TEST(NodeSigma, IsTheKeypointsThoughNeverZero) {
+  StreetWorld world = MakeStreet({.centres = StraightWalk(2, 3.0)});
+  world.problem.images[0].sigma_rad[0] = 0.01F;
+  world.problem.images[0].sigma_rad[1] = 0.0F;
+  const CorrespondenceGraph graph = BuildCorrespondenceGraph(world.problem).value();
+  const MappingState state(world.problem, graph);
+  EXPECT_FLOAT_EQ(static_cast<float>(NodeSigma(state, 0)), 0.01F);
+  EXPECT_GT(NodeSigma(state, 1), 0.0);
+}
+
+TEST(CovisibleWindow, HoldsTheImageAndItsNearestNeighbours) {
+  const StreetFixture street({.centres = StraightWalk(12, 3.0)});
+  const MappingState state = street.TriangulatedStateWith(FirstImages(12));
+  const std::vector<ImageSlot> window = CovisibleWindow(state, 6, 5);
+  ASSERT_EQ(window.size(), 5U);
+  EXPECT_EQ(window.front(), 6U);
+  for (const ImageSlot image : window) {
+    EXPECT_GE(image, 3U);
+    EXPECT_LE(image, 9U);
+  }
+}
+
+TEST(AdjustLocally, DoesNotTouchImagesOutsideTheWindow) {
+  const StreetFixture street({.centres = StraightWalk(12, 3.0)});
+  MappingState state = street.TriangulatedStateWith(FirstImages(12));
+  MappingOptions options;
+  options.local_window = 4;
+  const std::vector<ImageSlot> window = CovisibleWindow(state, 11, 4);
+  ASSERT_TRUE(AdjustLocally(state, 11, options, {}).ok());
+  for (ImageSlot image = 0; image < 12; ++image) {
+    const bool moved = state.Centre(image) != street.world.cams_from_world[image].Centre();
+    EXPECT_EQ(moved, std::ranges::count(window, image) > 0) << image;
+  }
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/reconstruct_cluster.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/core/mapping/model_error.h"
+#include "tests/core/mapping/street_world.h"
+
+namespace orbweave {
+namespace {
+
+ClusterReconstruction Reconstruct(const StreetWorld& world, const MappingOptions& options = {}) {
+  auto result = ReconstructCluster(world.problem, options, {.seed = 5});
+  EXPECT_TRUE(result.ok()) << result.status();
+  return result.ok() ? *std::move(result) : ClusterReconstruction{};
+}
+
+void ExpectWellFormed(const Reconstruction& reconstruction) {
+  const FeatureRef* previous = nullptr;
+  for (const Track& track : reconstruction.tracks) {
+    ASSERT_GE(track.observations.size(), 2U);
+    if (previous != nullptr) {
+      EXPECT_LT(*previous, track.Name());
+    }
+    previous = &track.Name();
+    for (size_t i = 0; i < track.observations.size(); ++i) {
+      EXPECT_TRUE(reconstruction.images.contains(track.observations[i].ref.image));
+      if (i > 0) {
+        EXPECT_LT(track.observations[i - 1].ref.image, track.observations[i].ref.image);
+      }
+    }
+  }
+}
+
+TEST(ReconstructCluster, RecoversACleanStreet) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(10, 3.0), .noise_px = 0.0});
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 10U);
+  EXPECT_TRUE(result.not_registered.empty());
+  EXPECT_LT(result.residual_rms_px, 1e-4);
+  const ModelError error = ErrorOf(result.components[0], world.cams_from_world);
+  EXPECT_LT(error.position_rmse, 1e-5);
+  EXPECT_LT(error.max_rotation_rad, 1e-6);
+  ExpectWellFormed(result.components[0]);
+}
+
+TEST(ReconstructCluster, ReachesTheNoiseLevel) {
+  const StreetWorld world =
+      MakeStreet({.centres = StraightWalk(30, 3.0), .noise_px = 0.5, .outlier_share = 0.02});
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 30U);
+  EXPECT_GT(result.residual_rms_px, 0.60);
+  EXPECT_LT(result.residual_rms_px, 0.71);  // 0.5 px along two axes, less what is fitted
+  const ModelError error = ErrorOf(result.components[0], world.cams_from_world);
+  EXPECT_LT(error.position_rmse, 0.01);
+  EXPECT_LT(error.max_rotation_rad, 1e-3);
+  ExpectWellFormed(result.components[0]);
+}
+
+TEST(ReconstructCluster, PanoramasMayBeTurnedAnyWay) {
+  StreetOptions options{.centres = StraightWalk(15, 3.0), .noise_px = 0.4};
+  const StreetWorld upright = MakeStreet(options);
+  options.random_rotations = true;
+  const StreetWorld turned = MakeStreet(options);
+  const ClusterReconstruction of_upright = Reconstruct(upright);
+  const ClusterReconstruction of_turned = Reconstruct(turned);
+  ASSERT_EQ(of_turned.components.size(), 1U);
+  EXPECT_EQ(of_turned.components[0].images.size(), of_upright.components[0].images.size());
+  EXPECT_NEAR(static_cast<double>(of_turned.components[0].tracks.size()),
+              static_cast<double>(of_upright.components[0].tracks.size()),
+              0.01 * static_cast<double>(of_upright.components[0].tracks.size()));
+  EXPECT_NEAR(of_turned.residual_rms_px, of_upright.residual_rms_px, 0.01);
+  EXPECT_LT(ErrorOf(of_turned.components[0], turned.cams_from_world).position_rmse, 0.01);
+}
+
+TEST(ReconstructCluster, ClosesALoop) {
+  StreetOptions options{.centres = RoundWalk(24, 12.0)};
+  options.window = 23;
+  const StreetWorld world = MakeStreet(options);
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 24U);
+  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
+}
+
+TEST(ReconstructCluster, WithstandsManyWrongMatches) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(15, 3.0), .outlier_share = 0.3});
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 15U);
+  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.02);
+}
+
+TEST(ReconstructCluster, PassesAStopAtALight) {
+  // Drives up, stands for 20 panoramas within millimetres, drives on.
+  std::vector<Eigen::Vector3d> centres = StraightWalk(6, 3.0);
+  const Eigen::Vector3d stop = centres.back();
+  Random random(9);
+  for (int i = 0; i < 20; ++i) {
+    centres.push_back(stop +
+                      1e-3 * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()));
+  }
+  for (int i = 1; i <= 6; ++i) centres.push_back(stop + Eigen::Vector3d(3.0 * i, 0.0, 0.0));
+  const StreetWorld world = MakeStreet({.centres = centres, .points_per_metre = 16, .window = 22});
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 32U);
+  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.02);
+}
+
+TEST(ReconstructCluster, HasNoComponentOfACameraThatNeverMoves) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(6, 0.0), .points_per_metre = 80});
+  ASSERT_FALSE(world.problem.pairs.empty());
+  const ClusterReconstruction result = Reconstruct(world);
+  EXPECT_TRUE(result.components.empty());
+  EXPECT_EQ(result.not_registered.size(), 6U);
+}
+
+TEST(ReconstructCluster, KeepsTwoComponentsApart) {
+  std::vector<Eigen::Vector3d> centres = StraightWalk(8, 3.0);
+  for (const Eigen::Vector3d& centre : StraightWalk(6, 3.0)) {
+    centres.push_back(centre + Eigen::Vector3d(500.0, 0.0, 0.0));
+  }
+  const StreetWorld world = MakeStreet({.centres = centres});
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 2U);
+  EXPECT_EQ(result.components[0].images.size(), 8U);
+  EXPECT_EQ(result.components[1].images.size(), 6U);
+  EXPECT_EQ(result.components[1].images.begin()->first, ImageId(8));
+}
+
+TEST(ReconstructCluster, NamesImagesThatItCannotPlace) {
+  StreetWorld world = MakeStreet({.centres = StraightWalk(10, 3.0)});
+  // Image 9 shows something else: its features lead nowhere.
+  Random random(2);
+  for (Eigen::Vector3d& bearing : world.problem.images[9].bearings) {
+    bearing = Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+  }
+  // Image 0 has no matches at all.
+  std::erase_if(world.problem.pairs,
+                [](const TwoViewGeometry& pair) { return pair.pair.a == ImageId(0); });
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 8U);
+  ASSERT_EQ(result.not_registered.size(), 2U);
+  EXPECT_EQ(result.not_registered[0].image, ImageId(0));
+  EXPECT_EQ(result.not_registered[0].reason, "no verified matches");
+  EXPECT_EQ(result.not_registered[1].image, ImageId(9));
+  EXPECT_NE(result.not_registered[1].reason.find("needed points agree"), std::string::npos)
+      << result.not_registered[1].reason;
+}
+
+TEST(ReconstructCluster, RecoversFromABadSeed) {
+  StreetWorld world = MakeStreet({.centres = StraightWalk(12, 3.0)});
+  // The pair that ranks first claims a wrong geometry.
+  size_t first = 0;
+  for (size_t i = 0; i < world.problem.pairs.size(); ++i) {
+    if (world.problem.pairs[i].inliers.size() > world.problem.pairs[first].inliers.size())
+      first = i;
+  }
+  world.problem.pairs[first].median_angle_rad = 0.5;
+  world.problem.pairs[first].b_from_a.rotation =
+      RotationFromVector({0.5, 0.2, 0.0}) * world.problem.pairs[first].b_from_a.rotation;
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 12U);
+  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
+}
+
+TEST(ReconstructCluster, TinyInputsAreNoError) {
+  for (const int count : {0, 1, 2, 3}) {
+    const StreetWorld world =
+        MakeStreet({.centres = StraightWalk(count, 3.0), .points_per_metre = 40});
+    const ClusterReconstruction result = Reconstruct(world);
+    EXPECT_EQ(result.components.size(), count == 3 ? 1U : 0U) << count;
+    EXPECT_EQ(result.not_registered.size(), count == 3 ? 0U : static_cast<size_t>(count)) << count;
+  }
+}
+
+TEST(ReconstructCluster, PaperPresetReconstructsToo) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(12, 3.0), .points_per_metre = 20});
+  MappingOptions options;
+  options.preset = MappingPreset::kPaper;
+  const ClusterReconstruction result = Reconstruct(world, options);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 12U);
+}
+
+TEST(ReconstructCluster, GivesTheSameBytesForAnyThreadCount) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(10, 3.0), .outlier_share = 0.05});
+  const auto one = ReconstructCluster(world.problem, {}, {.num_threads = 1, .seed = 3}).value();
+  const auto two = ReconstructCluster(world.problem, {}, {.num_threads = 2, .seed = 3}).value();
+  ASSERT_EQ(one.components.size(), two.components.size());
+  ASSERT_EQ(one.components[0].tracks.size(), two.components[0].tracks.size());
+  for (const auto& [id, image] : one.components[0].images) {
+    const Rigid3& other = two.components[0].images.at(id).cam_from_world;
+    EXPECT_EQ(image.cam_from_world.rotation.coeffs(), other.rotation.coeffs());
+    EXPECT_EQ(image.cam_from_world.translation, other.translation);
+  }
+  for (size_t i = 0; i < one.components[0].tracks.size(); ++i) {
+    EXPECT_EQ(one.components[0].tracks[i].point_in_world,
+              two.components[0].tracks[i].point_in_world);
+  }
+}
+
+TEST(ReconstructCluster, IsCancelledBetweenImages) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(20, 3.0)});
+  std::stop_source source;
+  uint64_t last_done = 0;
+  const StageContext context{.stop = source.get_token(), .report = [&](const Progress& progress) {
+                               last_done = progress.done;
+                               EXPECT_EQ(progress.total, 20U);
+                               if (progress.done >= 5) source.request_stop();
+                             }};
+  EXPECT_EQ(ReconstructCluster(world.problem, {}, context).status().code(),
+            absl::StatusCode::kCancelled);
+  EXPECT_EQ(last_done, 5U);
+}
+
+TEST(ReconstructCluster, ColoursATrackByTheMeanOfItsFeatures) {
+  const StreetWorld world = MakeStreet({.centres = StraightWalk(5, 3.0)});
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_FALSE(result.components.empty());
+  for (const Track& track : result.components[0].tracks) {
+    EXPECT_EQ(track.color.g, 100);
+    EXPECT_EQ(track.color.b, 200);
+  }
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/register_image.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/mapping/true_state.h"
+
+namespace orbweave {
+namespace {
+
+TEST(RegisterImage, RecoversThePoseFromScenePoints) {
+  const StreetFixture street(
+      {.centres = StraightWalk(5, 3.0), .noise_px = 0.3, .random_rotations = true});
+  MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});
+  const RegistrationAttempt attempt = RegisterImage(state, 4, {}, {}).value();
+  ASSERT_TRUE(attempt.registered);
+  EXPECT_GE(attempt.num_inliers, 20U);
+  const Rigid3& truth = street.world.cams_from_world[4];
+  EXPECT_LT((state.Centre(4) - truth.Centre()).norm(), 0.02);
+  EXPECT_LT(RotationAngle(state.CamFromWorld(4).rotation * truth.rotation.conjugate()), 2e-3);
+}
+
+TEST(RegisterImage, SaysHowManyPointsAgree) {
+  const StreetFixture street({.centres = StraightWalk(5, 3.0)});
+  MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});
+  const RegistrationAttempt attempt = RegisterImage(state, 4, {.min_inliers = 5000}, {}).value();
+  EXPECT_FALSE(attempt.registered);
+  EXPECT_FALSE(state.IsRegistered(4));
+  EXPECT_GT(attempt.num_inliers, 20U);
+  EXPECT_GE(attempt.num_visible, attempt.num_inliers);
+}
+
+TEST(RegisterImage, RefusesAnImageWhoseMatchesAreWrong) {
+  StreetFixture street({.centres = StraightWalk(5, 3.0)});
+  Random random(4);
+  for (Node node = street.graph.first_node[4]; node < street.graph.first_node[5]; ++node) {
+    street.graph.bearing_of_node[node] =
+        Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+  }
+  MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});
+  EXPECT_FALSE(RegisterImage(state, 4, {}, {}).value().registered);
+}
+
+TEST(RegisterImage, IsCancelledOnRequest) {
+  const StreetFixture street({.centres = StraightWalk(5, 3.0)});
+  MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_EQ(RegisterImage(state, 4, {}, {.stop = source.get_token()}).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/adjust_globally.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/geometry/rotation.h"
+#include "tests/core/merging/corridor_model.h"
+
+namespace orbweave {
+namespace {
+
+using testing::DisturbedModel;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::RandomDirection;
+using testing::TrueModel;
+
+constexpr double kDegPerRad = 57.29577951308232;
+
+Sim3 SomeFrame(Random& random) {
+  return {0.37, testing::RandomRotation(random), 20.0 * RandomDirection(random)};
+}
+
+// A corridor whose GNSS is the truth plus `bias` and normal noise.
+Corridor CorridorWithGnss(const CorridorOptions& options,
+                          const Eigen::Vector3d& bias_m,
+                          double sigma_m,
+                          Random& random) {
+  Corridor corridor = MakeCorridor(options);
+  for (ImageRecord& image : corridor.manifest.images) {
+    const double x = random.Normal();
+    const double y = random.Normal();
+    const Eigen::Vector3d noise(x, y, 2.0 * random.Normal());
+    image.prior.position_in_enu =
+        corridor.cams_from_world[image.id.value].Centre() + bias_m + sigma_m * noise;
+    image.prior.horizontal_sigma_m = sigma_m;
+    image.prior.vertical_sigma_m = 2.0 * sigma_m;
+  }
+  return corridor;
+}
+
+GloballyAdjusted Adjust(const Reconstruction& model,
+                        const ImageManifest& manifest,
+                        const GlobalAdjustOptions& options = {},
+                        int num_threads = 1) {
+  auto adjusted = AdjustGlobally(model, manifest, options, {}, {.num_threads = num_threads});
+  EXPECT_TRUE(adjusted.ok()) << adjusted.status();
+  return std::move(adjusted).value_or(GloballyAdjusted{});
+}
+
+double LargestCentreError(const Reconstruction& model,
+                          const Corridor& corridor,
+                          const Eigen::Vector3d& bias_m) {
+  double largest = 0.0;
+  for (const auto& [id, image] : model.images) {
+    const Eigen::Vector3d truth = corridor.cams_from_world[id.value].Centre() + bias_m;
+    largest = std::max(largest, (image.cam_from_world.Centre() - truth).norm());
+  }
+  return largest;
+}
+
+double MeanTilt_deg(const Reconstruction& model) {
+  Eigen::Vector3d down = Eigen::Vector3d::Zero();
+  for (const auto& [id, image] : model.images) {
+    down += image.cam_from_world.rotation.conjugate() * Eigen::Vector3d::UnitY();
+  }
+  return kDegPerRad * AngleBetween(down, -Eigen::Vector3d::UnitZ());
+}
+
+TEST(AdjustGlobally, PutsTheStreetWithinTheGnssBiasOfTheTruth) {
+  Random random(1);
+  const Eigen::Vector3d bias_m(0.8, -0.6, 0.5);
+  Corridor corridor =
+      CorridorWithGnss({.panoramas = 60, .features_per_panorama = 200}, bias_m, 0.5, random);
+  for (const uint32_t i : {7U, 30U}) {
+    *corridor.manifest.images[i].prior.position_in_enu += Eigen::Vector3d(40.0, 25.0, 0.0);
+  }
+  const Reconstruction start = DisturbedModel(TrueModel(corridor), 0.02, SomeFrame(random), random);
+  const GloballyAdjusted adjusted = Adjust(start, corridor.manifest);
+  EXPECT_TRUE(adjusted.report.gnss.used) << adjusted.report.gnss.reason;
+  EXPECT_THAT(adjusted.report.gnss.outliers,
+              ElementsAre(corridor.manifest.images[7].name, corridor.manifest.images[30].name));
+  EXPECT_EQ(adjusted.report.gnss.num_priors, 60U);
+  EXPECT_EQ(adjusted.report.gnss.num_inliers, 58U);
+  EXPECT_LT(LargestCentreError(adjusted.reconstruction, corridor, bias_m), 0.6);
+  EXPECT_LT(LargestCentreError(adjusted.reconstruction, corridor, Eigen::Vector3d::Zero()),
+            bias_m.norm() + 0.5);
+  // Two axes of 0.5 px less what poses and points absorb.
+  EXPECT_NEAR(adjusted.report.residual_px_rms, 0.6, 0.1);
+  EXPECT_GT(adjusted.report.removed_observations, start.NumObservations() / 60);
+}
+
+TEST(AdjustGlobally, KeepsAStraightStreetFromRolling) {
+  Random random(2);
+  const Corridor corridor = CorridorWithGnss(
+      {.panoramas = 40, .shape = CorridorShape::kStraight, .features_per_panorama = 150},
+      {0, 0, 0},
+      3.0,
+      random);
+  const GloballyAdjusted adjusted = Adjust(
+      DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random), corridor.manifest);
+  EXPECT_TRUE(adjusted.report.gnss.used) << adjusted.report.gnss.reason;
+  EXPECT_LT(MeanTilt_deg(adjusted.reconstruction), 4.0);
+  EXPECT_LT(LargestCentreError(adjusted.reconstruction, corridor, {0, 0, 0}), 4.0);
+}
+
+TEST(AdjustGlobally, DoesNotBendAnIndoorModelToScatteredGnss) {
+  Random random(3);
+  const Corridor corridor = CorridorWithGnss(
+      {.panoramas = 11, .spacing_m = 0.6, .features_per_panorama = 300}, {0, 0, 0}, 12.0, random);
+  const Reconstruction start = DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random);
+  const GloballyAdjusted adjusted = Adjust(start, corridor.manifest);
+  EXPECT_FALSE(adjusted.report.gnss.used);
+  EXPECT_THAT(adjusted.report.gnss.reason, HasSubstr("scale"));
+  const GloballyAdjusted without = Adjust(start, corridor.manifest, {.gnss = GnssUse::kOff});
+  EXPECT_THAT(without.report.gnss.reason, HasSubstr("off"));
+  EXPECT_NEAR(adjusted.report.residual_px_rms,
+              without.report.residual_px_rms,
+              0.01 * without.report.residual_px_rms);
+  EXPECT_LT(MeanTilt_deg(adjusted.reconstruction), 0.1);
+  const auto& images = adjusted.reconstruction.images;
+  const double step = (images.at(ImageId(1)).cam_from_world.Centre() -
+                       images.at(ImageId(0)).cam_from_world.Centre())
+                          .norm();
+  EXPECT_NEAR(step, 1.0, 0.1);
+}
+
+TEST(AdjustGlobally, NeedsNoGravityOnABentStreet) {
+  Random random(4);
+  const Corridor corridor = CorridorWithGnss({.panoramas = 60,
+                                              .shape = CorridorShape::kLoop,
+                                              .features_per_panorama = 150,
+                                              .random_rotations = true},
+                                             {0, 0, 0},
+                                             0.5,
+                                             random);
+  const GloballyAdjusted adjusted = Adjust(
+      DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random), corridor.manifest);
+  EXPECT_TRUE(adjusted.report.gnss.used) << adjusted.report.gnss.reason;
+  EXPECT_LT(LargestCentreError(adjusted.reconstruction, corridor, {0, 0, 0}), 1.0);
+}
+
+TEST(AdjustGlobally, EstimatesTheBiasOfEachDrive) {
+  Random random(5);
+  Corridor corridor =
+      CorridorWithGnss({.panoramas = 60, .features_per_panorama = 150}, {0, 0, 0}, 0.3, random);
+  for (ImageRecord& image : corridor.manifest.images) {
+    image.drive = image.id.value % 2;
+    image.prior.position_in_enu->x() += image.drive == 0 ? 2.0 : -2.0;
+  }
+  const GloballyAdjusted adjusted = Adjust(
+      DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random), corridor.manifest);
+  ASSERT_EQ(adjusted.report.adjustments.back().biases_m.size(), 2U);
+  const auto& biases = adjusted.report.adjustments.back().biases_m;
+  EXPECT_NEAR(biases[0].x() - biases[1].x(), 4.0, 0.3);
+  EXPECT_LT(LargestCentreError(adjusted.reconstruction, corridor, {0, 0, 0}), 0.6);
+}
+
+TEST(AdjustGlobally, GivesTheSameBytesForAnyNumberOfThreads) {
+  Random random(6);
+  const Corridor corridor =
+      CorridorWithGnss({.panoramas = 30, .features_per_panorama = 200}, {0, 0, 0}, 1.0, random);
+  const Reconstruction start = DisturbedModel(TrueModel(corridor), 0.02, SomeFrame(random), random);
+  const GloballyAdjusted one = Adjust(start, corridor.manifest, {}, 1);
+  const GloballyAdjusted three = Adjust(start, corridor.manifest, {}, 3);
+  for (const auto& [id, image] : one.reconstruction.images) {
+    const Rigid3& other = three.reconstruction.images.at(id).cam_from_world;
+    EXPECT_EQ(image.cam_from_world.rotation.coeffs(), other.rotation.coeffs());
+    EXPECT_EQ(image.cam_from_world.translation, other.translation);
+  }
+  ASSERT_EQ(one.reconstruction.tracks.size(), three.reconstruction.tracks.size());
+  for (size_t i = 0; i < one.reconstruction.tracks.size(); ++i) {
+    EXPECT_EQ(one.reconstruction.tracks[i].point_in_world,
+              three.reconstruction.tracks[i].point_in_world);
+  }
+}
+
+TEST(AdjustGlobally, KeepsTracksSortedAndLeavesLooseImagesOut) {
+  Random random(7);
+  const Corridor corridor =
+      CorridorWithGnss({.panoramas = 20, .features_per_panorama = 150}, {0, 0, 0}, 1.0, random);
+  Reconstruction start = DisturbedModel(TrueModel(corridor), 0.1, SomeFrame(random), random);
+  start.images.at(ImageId(4)).loose = true;
+  const GloballyAdjusted adjusted = Adjust(start, corridor.manifest);
+  const std::vector<Track>& tracks = adjusted.reconstruction.tracks;
+  ASSERT_FALSE(tracks.empty());
+  for (size_t i = 0; i < tracks.size(); ++i) {
+    EXPECT_GE(tracks[i].observations.size(), 2U);
+    EXPECT_TRUE(i == 0 || tracks[i - 1].Name() < tracks[i].Name());
+    for (const Observation& seen : tracks[i].observations) EXPECT_NE(seen.ref.image, ImageId(4));
+  }
+  EXPECT_EQ(adjusted.reconstruction.images.size(), 20U);
+  EXPECT_TRUE(adjusted.report.unobserved_images.empty());
+}
+
+TEST(AdjustGlobally, NamesImagesThatLoseAllObservations) {
+  Random random(8);
+  const Corridor corridor =
+      CorridorWithGnss({.panoramas = 12, .features_per_panorama = 150}, {0, 0, 0}, 1.0, random);
+  Reconstruction start = DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random);
+  for (Track& track : start.tracks) {
+    std::erase_if(track.observations,
+                  [](const Observation& seen) { return seen.ref.image == ImageId(5); });
+  }
+  start.SortTracks();
+  const GloballyAdjusted adjusted = Adjust(start, corridor.manifest);
+  EXPECT_THAT(adjusted.report.unobserved_images, ElementsAre(corridor.manifest.images[5].name));
+  EXPECT_TRUE(adjusted.reconstruction.images.at(ImageId(5)).loose);
+}
+
+TEST(AdjustGlobally, AcceptsAnEmptyModel) {
+  const GloballyAdjusted adjusted = Adjust({}, {});
+  EXPECT_FALSE(adjusted.report.gnss.used);
+  EXPECT_TRUE(adjusted.reconstruction.images.empty());
+}
+
+}  // namespace
+}  // namespace orbweave

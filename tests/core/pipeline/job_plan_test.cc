@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/pipeline/job_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+std::vector<std::string> StageNames(const JobPlan& plan) {
+  std::vector<std::string> names;
+  for (const StageRule& rule : plan.stages) names.push_back(rule.stage);
+  return names;
+}
+
+TEST(FindJobPlan, SparseLeadsFromImagesToAModel) {
+  const auto plan = FindJobPlan("sparse");
+  ASSERT_TRUE(plan.ok());
+  EXPECT_THAT(StageNames(*plan),
+              ::testing::ElementsAre("ingest_images",
+                                     "extract_features",
+                                     "select_image_pairs",
+                                     "match_images",
+                                     "partition_view_graph",
+                                     "reconstruct_cluster",
+                                     "align_submodels",
+                                     "merge_submodels",
+                                     "adjust_globally"));
+}
+
+TEST(FindJobPlan, SparseFromMatchesBeginsWithVerification) {
+  const auto plan = FindJobPlan("sparse_from_matches");
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->stages.front().stage, "verify_matches");
+  EXPECT_EQ(plan->stages.front().parts_listed_in, 2U);
+  EXPECT_EQ(plan->stages.back().stage, "adjust_globally");
+}
+
+TEST(FindJobPlan, RefusesAnUnknownKindByName) {
+  const auto plan = FindJobPlan("dense");
+  EXPECT_TRUE(absl::IsNotFound(plan.status()));
+  EXPECT_THAT(std::string(plan.status().message()), ::testing::HasSubstr("dense"));
+}
+
+TEST(FindJobPlan, EveryStageReadsOnlyStagesBeforeIt) {
+  for (const char* kind : {"sparse", "sparse_from_matches"}) {
+    const auto plan = FindJobPlan(kind);
+    ASSERT_TRUE(plan.ok());
+    std::vector<std::string> before = {""};
+    for (const StageRule& rule : plan->stages) {
+      EXPECT_THAT(before, ::testing::Contains(rule.parts_from)) << rule.stage;
+      for (const InputRule& input : rule.inputs)
+        EXPECT_THAT(before, ::testing::Contains(input.stage)) << rule.stage;
+      before.push_back(rule.stage);
+    }
+  }
+}
+
+TEST(SelectSections, KeepsLinesOfTheSectionsInOrder) {
+  const std::string text = "align.a=1\nmatching.b=2\nmatch.c=3\nmatching.d=4\n";
+  EXPECT_EQ(SelectSections(text, {"matching"}), "matching.b=2\nmatching.d=4\n");
+  EXPECT_EQ(SelectSections(text, {"match", "align"}), "align.a=1\nmatch.c=3\n");
+  EXPECT_EQ(SelectSections(text, {}), "");
+  EXPECT_EQ(SelectSections("", {"match"}), "");
+}
+
+TEST(SelectSections, EndsTheLastLineEvenWhenTheTextDoesNot) {
+  EXPECT_EQ(SelectSections("align.a=1", {"align"}), "align.a=1\n");
+}
+
+TEST(Collection, SurvivesTheRoundTrip) {
+  const std::vector<Digest> digests = {DigestOf("a"), DigestOf("b"), DigestOf("a")};
+  const auto decoded = DecodeCollection(EncodeCollection(digests));
+  ASSERT_TRUE(decoded.ok());
+  EXPECT_EQ(*decoded, digests);
+  EXPECT_TRUE(DecodeCollection("")->empty());
+}
+
+TEST(Collection, RefusesATornList) {
+  const std::string bytes = EncodeCollection({DigestOf("a")});
+  EXPECT_TRUE(absl::IsInvalidArgument(DecodeCollection(bytes.substr(1)).status()));
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/pipeline/plan_stage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+using Kind = InputRule::Kind;
+
+/// first: one part; fan: a part per recipe of first; last: first's output 1 and all outputs of fan.
+JobPlan FanPlan() {
+  return {
+      "fan",
+      {{.stage = "first", .inputs = {{Kind::kJobInput, "", 0}}, .option_sections = {"a"}},
+       {.stage = "fan",
+        .parts_from = "first",
+        .inputs = {{Kind::kJobInput, "", 0}, {Kind::kRecipe, "", 0}}},
+       {.stage = "last", .inputs = {{Kind::kOutput, "first", 1}, {Kind::kCollection, "fan", 0}}}}};
+}
+
+const JobSpec kJob{.kind = "fan", .inputs = {DigestOf("input")}, .options_text = "a.x=1\nb.y=2\n"};
+
+TaskResult FirstResult() {
+  return {.outputs = {DigestOf("o0"), DigestOf("o1")}, .recipes = {DigestOf("r0"), DigestOf("r1")}};
+}
+
+TEST(PlanStage, GivesAnUndividedStageOneTaskWithItsOwnOptions) {
+  const auto plan = PlanStage(FanPlan(), 0, kJob, {}, {});
+  ASSERT_TRUE(plan.ok());
+  ASSERT_EQ(plan->tasks.size(), 1U);
+  EXPECT_EQ(plan->tasks[0].stage, "first");
+  EXPECT_EQ(plan->tasks[0].options_text, "a.x=1\n");
+  EXPECT_THAT(plan->tasks[0].inputs, ::testing::ElementsAre(DigestOf("input")));
+  EXPECT_TRUE(plan->collections.empty());
+}
+
+TEST(PlanStage, GivesEachRecipeAPart) {
+  const auto plan = PlanStage(FanPlan(), 1, kJob, {{FirstResult()}}, {});
+  ASSERT_TRUE(plan.ok());
+  ASSERT_EQ(plan->tasks.size(), 2U);
+  for (uint32_t part = 0; part < 2; ++part) {
+    EXPECT_EQ(plan->tasks[part].part, part);
+    EXPECT_THAT(plan->tasks[part].inputs,
+                ::testing::ElementsAre(DigestOf("input"), DigestOf("r" + std::to_string(part))));
+  }
+}
+
+TEST(PlanStage, CollectsAllOutputsInPartOrder) {
+  const std::vector<TaskResult> fan = {{.outputs = {DigestOf("p0")}},
+                                       {.outputs = {DigestOf("p1"), DigestOf("p2")}}};
+  const auto plan = PlanStage(FanPlan(), 2, kJob, {{FirstResult()}, fan}, {});
+  ASSERT_TRUE(plan.ok());
+  const std::string collection = EncodeCollection({DigestOf("p0"), DigestOf("p1"), DigestOf("p2")});
+  EXPECT_THAT(plan->collections, ::testing::ElementsAre(collection));
+  EXPECT_THAT(plan->tasks.at(0).inputs,
+              ::testing::ElementsAre(DigestOf("o1"), DigestOf(collection)));
+}
+
+TEST(PlanStage, GivesNoTaskWhenThereIsNoRecipe) {
+  TaskResult first = FirstResult();
+  first.recipes.clear();
+  const auto plan = PlanStage(FanPlan(), 1, kJob, {{first}}, {});
+  ASSERT_TRUE(plan.ok());
+  EXPECT_TRUE(plan->tasks.empty());
+}
+
+TEST(PlanStage, GivesEachListedRecipeAPart) {
+  const JobPlan listed{
+      "listed", {{.stage = "verify", .parts_listed_in = 1, .inputs = {{Kind::kRecipe, "", 0}}}}};
+  const auto plan = PlanStage(listed, 0, kJob, {}, {DigestOf("x"), DigestOf("y")});
+  ASSERT_TRUE(plan.ok());
+  ASSERT_EQ(plan->tasks.size(), 2U);
+  EXPECT_THAT(plan->tasks[1].inputs, ::testing::ElementsAre(DigestOf("y")));
+}
+
+TEST(PlanStage, NamesWhatIsMissing) {
+  JobSpec no_inputs = kJob;
+  no_inputs.inputs.clear();
+  EXPECT_TRUE(absl::IsInvalidArgument(PlanStage(FanPlan(), 0, no_inputs, {}, {}).status()));
+  TaskResult one_output = FirstResult();
+  one_output.outputs.pop_back();
+  const auto plan = PlanStage(FanPlan(), 2, kJob, {{one_output}, {}}, {});
+  EXPECT_TRUE(absl::IsFailedPrecondition(plan.status()));
+  EXPECT_THAT(std::string(plan.status().message()), ::testing::HasSubstr("first left no output 1"));
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What people really feed to programs. Every case ends with a message that names the thing and an exit code
+// that says so; where anything usable is left, the rest of the job goes on.
+
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/base/random.h"
+#include "tests/jobs/corridor_job.h"
+
+namespace orbweave::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A panorama with enough texture for features; equal seeds give equal pictures.
+cv::Mat Texture(int width, int height, uint64_t seed) {
+  Random random(seed);
+  cv::Mat image(height, width, CV_8UC3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width * 3; ++x) image.at<uint8_t>(y, x) = static_cast<uint8_t>(random.Index(256));
+  }
+  cv::GaussianBlur(image, image, cv::Size(), 3.0);
+  cv::normalize(image, image, 0, 255, cv::NORM_MINMAX);
+  return image;
+}
+
+std::string Jpeg(int width, int height, uint64_t seed) {
+  std::vector<uchar> bytes;
+  cv::imencode(".jpg", Texture(width, height, seed), bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+CommandOutcome RunImages(const TemporaryFolder& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> command = {ORBWEAVE_BINARY, "run",       folder / "images", "--output",
+                                      folder / "out",  "--workers", "1"};
+  command.insert(command.end(), more.begin(), more.end());
+  return RunCommand(command);
+}
+
+std::string ReasonFor(const nlohmann::json& report, const std::string& name) {
+  for (const auto& entry : report["not_registered"]) {
+    if (entry["name"] == name) return entry["reason"];
+  }
+  return "";
+}
+
+/// Two copies of one view, a quarter turn apart: enough for the job to go on, nothing to reconstruct.
+void WriteGoodImages(const TemporaryFolder& folder) {
+  WriteAll(folder / "images/good_1.jpg", Jpeg(512, 256, 1));
+  WriteAll(folder / "images/good_2.jpg", Jpeg(512, 256, 2));
+  WriteAll(folder / "images/good_3.jpg", Jpeg(512, 256, 3));
+}
+
+TEST(BadInput, BadImagesAreLeftOutByNameAndTheRestGoesOn) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  const std::string good = ReadAll(folder / "images/good_1.jpg");
+  WriteAll(folder / "images/copy.jpg", good);
+  WriteAll(folder / "images/text.jpg", "this is a text file\n");
+  WriteAll(folder / "images/square.jpg", Jpeg(256, 256, 4));
+  const std::string other = Jpeg(512, 256, 5);
+  WriteAll(folder / "images/truncated.jpg", other.substr(0, other.size() / 2));
+  WriteAll(folder / "images/empty.jpg", "");
+  WriteAll(folder / "images/smaller.jpg", Jpeg(256, 128, 6));
+  const CommandOutcome run = RunImages(folder);
+  const nlohmann::json report = ReportOf(folder / "out");
+  ASSERT_TRUE(report.is_object()) << run.err;
+  EXPECT_EQ(report["images_total"], 9);
+  EXPECT_THAT(ReasonFor(report, "good_1.jpg") + ReasonFor(report, "copy.jpg"), HasSubstr("duplicate"));
+  EXPECT_THAT(ReasonFor(report, "text.jpg"), HasSubstr("image"));
+  EXPECT_THAT(ReasonFor(report, "square.jpg"), HasSubstr("2:1"));
+  EXPECT_THAT(ReasonFor(report, "truncated.jpg"), HasSubstr("truncated"));
+  EXPECT_NE(ReasonFor(report, "empty.jpg"), "");
+  EXPECT_THAT(ReasonFor(report, "smaller.jpg"), ::testing::Not(HasSubstr("size")));
+  // Unrelated textures: nothing can be registered, and the exit code says so.
+  EXPECT_EQ(report["registered"], 0);
+  EXPECT_EQ(run.exit_code, 1);
+}
+
+TEST(BadInput, AnEmptyFolderIsRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "images");
+  const CommandOutcome run = RunImages(folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("images"));
+}
+
+TEST(BadInput, AMissingFolderIsRefused) {
+  const TemporaryFolder folder;
+  const CommandOutcome run = RunImages(folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr(folder / "images"));
+}
+
+TEST(BadInput, AFolderOfUselessFilesFailsWithTheReasons) {
+  const TemporaryFolder folder;
+  WriteAll(folder / "images/text.jpg", "this is a text file\n");
+  const CommandOutcome run = RunImages(folder);
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("text.jpg"));
+}
+
+TEST(BadInput, AMaskOfAnotherSizeLeavesItsImageOut) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  cv::Mat mask = cv::Mat::zeros(64, 128, CV_8UC1);
+  std::vector<uchar> png;
+  cv::imencode(".png", mask, png);
+  WriteAll(folder / "masks/good_2.png", {png.begin(), png.end()});
+  const CommandOutcome run = RunImages(folder, {"--masks", folder / "masks"});
+  EXPECT_THAT(ReasonFor(ReportOf(folder / "out"), "good_2.jpg"), HasSubstr("mask")) << run.err;
+}
+
+TEST(BadInput, GnssRowsThatFitNoImageAreWarnedOf) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  WriteAll(folder / "gnss.csv",
+           "name,latitude,longitude,altitude\ngood_1.jpg,47.5,8.5,400\nnobody.jpg,47.5,8.5,400\n");
+  const CommandOutcome run = RunImages(folder, {"--gnss", folder / "gnss.csv"});
+  const std::string warnings = ReportOf(folder / "out")["warnings"].dump();
+  EXPECT_THAT(warnings, HasSubstr("nobody.jpg")) << run.err;
+  EXPECT_THAT(warnings, HasSubstr("good_2.jpg"));
+}
+
+TEST(BadInput, SwappedLatitudeAndLongitudeAreRefused) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  WriteAll(folder / "gnss.csv",
+           "name,latitude,longitude,altitude\ngood_1.jpg,-122.4,37.5,10\ngood_2.jpg,-122.4,37.5,10\n");
+  const CommandOutcome run = RunImages(folder, {"--gnss", folder / "gnss.csv"});
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("swapped"));
+}
+
+TEST(BadInput, AMisspeltOptionNamesTheNearest) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  const CommandOutcome run = RunImages(folder, {"--set", "mapping.min_inlier=20"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("mapping.min_inliers"));
+}
+
+TEST(BadInput, AnOptionOutOfRangeIsRefused) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  const CommandOutcome run = RunImages(folder, {"--set", "matching.max_ratio=7"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("[0.1, 1]"));
+}
+
+TEST(BadInput, AnOutputThatCannotBeWrittenIsRefusedBeforeAnyWork) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  WriteAll(folder / "out", "a file where the folder should be");
+  const CommandOutcome run = RunImages(folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("out"));
+}
+
+TEST(BadInput, ADatabaseThatIsNoneIsRefused) {
+  const TemporaryFolder folder;
+  WriteAll(folder / "x.db", "not a database at all");
+  const CommandOutcome run =
+      RunCommand({ORBWEAVE_BINARY, "reconstruct", "--database", folder / "x.db", "--output", folder / "out"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("x.db"));
+}
+
+/// A copy of the corridor's database with one statement run on it.
+CommandOutcome ReconstructEdited(const TemporaryFolder& folder, const std::string& sql) {
+  std::filesystem::copy_file(CorridorFolder() + "/corridor.db", folder / "edited.db");
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open((folder / "edited.db").c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+  return RunCommand({ORBWEAVE_BINARY, "reconstruct", "--database", folder / "edited.db", "--output", folder / "out"});
+}
+
+TEST(BadInput, ADatabaseWithoutMatchesIsRefused) {
+  const TemporaryFolder folder;
+  const CommandOutcome run =
+      ReconstructEdited(folder, "DELETE FROM matches; DELETE FROM two_view_geometries;");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("no matches"));
+}
+
+TEST(BadInput, ADatabaseWithAPinholeCameraIsRefused) {
+  const TemporaryFolder folder;
+  const CommandOutcome run = ReconstructEdited(folder, "UPDATE cameras SET model = 1;");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("PINHOLE"));
+}
+
+TEST(BadInput, AListenerBeyondThisMachineIsRefused) {
+  const TemporaryFolder folder;
+  const CommandOutcome run =
+      RunCommand({ORBWEAVE_BINARY, "serve", "--listen", "0.0.0.0:0", "--state", folder / "state"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("TLS"));
+}
+
+TEST(BadInput, AFullDiskStopsWithAMessageAndResumesWhenThereIsRoom) {
+  const TemporaryFolder folder;
+  const std::string disk = folder / "disk";
+  std::filesystem::create_directories(disk);
+  if (geteuid() != 0 || RunCommand({"/bin/mount", "-t", "tmpfs", "-o", "size=2m", "none", disk}).exit_code != 0) {
+    GTEST_SKIP() << "a small disk can be mounted by root alone";
+  }
+  const CommandOutcome full = RunCommand(ReconstructCorridor(disk + "/out", 1));
+  EXPECT_NE(full.exit_code, 0);
+  EXPECT_THAT(full.err, HasSubstr("disk"));
+  EXPECT_EQ(RunCommand({"/bin/mount", "-o", "remount,size=400m", disk}).exit_code, 0);
+  const CommandOutcome again = RunCommand(ReconstructCorridor(disk + "/out", 1));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  RunCommand({"/bin/umount", disk});
+}
+
+}  // namespace
+}  // namespace orbweave::testing

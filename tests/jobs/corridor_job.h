@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.h"
+
+/// A small job that runs in seconds: a corridor of rays, divided into several clusters.
+
+namespace orbweave::testing {
+
+/// Writes corridor.db, gnss.csv and truth.csv once per test program.
+inline const std::string& CorridorFolder() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    const CommandOutcome made =
+        RunCommand({ORBWEAVE_BINARY, "synth", "corridor", "--panoramas", "60", "--output", folder.Path()});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return folder.Path();
+  }();
+  return path;
+}
+
+inline std::vector<std::string> ReconstructCorridor(const std::string& output, int workers) {
+  return {ORBWEAVE_BINARY, "reconstruct",
+          "--database",    CorridorFolder() + "/corridor.db",
+          "--gnss",        CorridorFolder() + "/gnss.csv",
+          "--output",      output,
+          "--workers",     std::to_string(workers),
+          "--set",         "partition.cluster_size=16"};
+}
+
+inline nlohmann::json ReportOf(const std::string& output) {
+  return nlohmann::json::parse(ReadAll(output + "/report.json"), nullptr, false);
+}
+
+/// The files that must be the same whoever computed them.
+inline void ExpectSameModel(const std::string& a, const std::string& b) {
+  for (const char* name : {"sparse/0/cameras.bin", "sparse/0/images.bin", "sparse/0/points3D.bin", "points.ply",
+                           "cameras.csv", "trajectory.geojson", "georeference.json"}) {
+    const std::string bytes = ReadAll(a + "/" + name);
+    EXPECT_FALSE(bytes.empty()) << name;
+    EXPECT_TRUE(bytes == ReadAll(b + "/" + name)) << name << " differs";
+  }
+}
+
+}  // namespace orbweave::testing

@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The law of every codec: decode(encode(x)) = x, encode is a function of x alone, and bytes that are not
+// whole are an error, never a crash.
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/geometry/rotation.h"
+#include "proto/codec/features_codec.h"
+#include "proto/codec/manifest_codec.h"
+#include "proto/codec/recipes_codec.h"
+#include "proto/codec/reconstruction_codec.h"
+#include "proto/codec/two_view_codec.h"
+
+namespace orbweave {
+namespace {
+
+Features SomeFeatures(size_t n) {
+  Random random(7);
+  Features features{.camera = {2048, 1024}};
+  for (size_t i = 0; i < n; ++i) {
+    features.keypoints.push_back({static_cast<float>(random.Uniform(0, 2048)),
+                                  static_cast<float>(random.Uniform(0, 1024)),
+                                  static_cast<float>(random.Uniform(1, 9)),
+                                  static_cast<float>(random.Uniform(-3, 3))});
+    features.sigma_rad.push_back(static_cast<float>(random.Uniform(1e-3, 2e-3)));
+    features.colors.push_back({static_cast<uint8_t>(random.Index(256)), 3, 200});
+    for (int k = 0; k < kDescriptorSize; ++k) features.descriptors.push_back(static_cast<uint8_t>(random.Index(256)));
+  }
+  return features;
+}
+
+Reconstruction SomeReconstruction() {
+  Random random(11);
+  Reconstruction reconstruction;
+  for (uint32_t i = 0; i < 5; ++i) {
+    const Eigen::Vector3d w(random.Normal(), random.Normal(), random.Normal());
+    reconstruction.images[ImageId(3 * i)] = {
+        Rigid3::FromCentre(RotationFromVector(w), Eigen::Vector3d(i, random.Normal(), 0.1)), i == 4};
+  }
+  for (uint32_t p = 0; p < 20; ++p) {
+    Track track{.point_in_world = {random.Normal(), random.Normal(), random.Normal()}, .color = {1, 2, 250}};
+    for (uint32_t i = 0; i < 2 + p % 3; ++i) {
+      const Eigen::Vector3d ray(random.Normal(), random.Normal(), random.Normal());
+      track.observations.push_back({{ImageId(3 * i), p}, ray.normalized(), 1e-3 * (1 + i)});
+    }
+    reconstruction.tracks.push_back(std::move(track));
+  }
+  return reconstruction;
+}
+
+void ExpectSame(const Reconstruction& a, const Reconstruction& b) {
+  ASSERT_EQ(a.images.size(), b.images.size());
+  for (const auto& [id, image] : a.images) {
+    ASSERT_TRUE(b.images.contains(id));
+    EXPECT_EQ(image.cam_from_world.translation, b.images.at(id).cam_from_world.translation);
+    EXPECT_EQ(image.cam_from_world.rotation.coeffs(), b.images.at(id).cam_from_world.rotation.coeffs());
+    EXPECT_EQ(image.loose, b.images.at(id).loose);
+  }
+  ASSERT_EQ(a.tracks.size(), b.tracks.size());
+  for (size_t t = 0; t < a.tracks.size(); ++t) {
+    EXPECT_EQ(a.tracks[t].point_in_world, b.tracks[t].point_in_world);
+    EXPECT_EQ(a.tracks[t].color, b.tracks[t].color);
+    ASSERT_EQ(a.tracks[t].observations.size(), b.tracks[t].observations.size());
+    for (size_t k = 0; k < a.tracks[t].observations.size(); ++k) {
+      EXPECT_EQ(a.tracks[t].observations[k].ref, b.tracks[t].observations[k].ref);
+      EXPECT_EQ(a.tracks[t].observations[k].bearing, b.tracks[t].observations[k].bearing);
+      EXPECT_EQ(a.tracks[t].observations[k].sigma_rad, b.tracks[t].observations[k].sigma_rad);
+    }
+  }
+}
+
+/// Every prefix of an encoding decodes to an error or to something well-formed; none crashes.
+template <typename Decode>
+void DecodePrefixes(const std::string& bytes, Decode decode) {
+  const size_t step = std::max<size_t>(1, bytes.size() / 200);
+  size_t errors = 0;
+  for (size_t n = 0; n < bytes.size(); n += step) {
+    if (!decode(std::string_view(bytes).substr(0, n)).ok()) ++errors;
+  }
+  EXPECT_GT(errors, 0U);
+}
+
+TEST(FeaturesCodec, RoundTripsExactly) {
+  const Features in = SomeFeatures(50);
+  const auto out = DecodeFeatures(EncodeFeatures(in));
+  ASSERT_TRUE(out.ok()) << out.status();
+  EXPECT_EQ(out->camera, in.camera);
+  EXPECT_EQ(out->descriptors, in.descriptors);
+  EXPECT_EQ(out->sigma_rad, in.sigma_rad);
+  EXPECT_EQ(out->colors, in.colors);
+  ASSERT_EQ(out->size(), in.size());
+  for (size_t i = 0; i < in.size(); ++i) EXPECT_EQ(out->keypoints[i].x_px, in.keypoints[i].x_px);
+  EXPECT_EQ(EncodeFeatures(*out), EncodeFeatures(in));
+  DecodePrefixes(EncodeFeatures(in), DecodeFeatures);
+}
+
+TEST(FeaturesCodec, KeepsFeaturesWithoutDescriptorsAndProblems) {
+  Features in = SomeFeatures(3);
+  in.descriptors.clear();
+  in.problem = "cannot decode";
+  const auto out = DecodeFeatures(EncodeFeatures(in));
+  ASSERT_TRUE(out.ok()) << out.status();
+  EXPECT_TRUE(out->descriptors.empty());
+  EXPECT_EQ(out->problem, in.problem);
+}
+
+TEST(FeaturesCodec, RefusesArraysOfDifferentLengths) {
+  Features in = SomeFeatures(3);
+  in.sigma_rad.pop_back();
+  EXPECT_EQ(DecodeFeatures(EncodeFeatures(in)).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(PlaceSampleCodec, RoundTrips) {
+  const PlaceSample in{.num_features = 9, .descriptors = std::vector<uint8_t>(256, 4), .problem = "x"};
+  const auto out = DecodePlaceSample(EncodePlaceSample(in));
+  ASSERT_TRUE(out.ok());
+  EXPECT_EQ(out->num_features, 9U);
+  EXPECT_EQ(out->descriptors, in.descriptors);
+  EXPECT_EQ(out->problem, "x");
+}
+
+TEST(TwoViewCodec, RoundTripsExactly) {
+  TwoViewGeometry in{.pair = {ImageId(2), ImageId(9)}, .kind = TwoViewKind::kPlanar};
+  in.b_from_a = {RotationFromVector({0.1, 2.0, -0.3}), Eigen::Vector3d(0.6, 0.0, 0.8)};
+  in.inliers = {{1, 5}, {2, 4}};
+  in.num_putative = 7;
+  in.median_angle_rad = 0.25;
+  in.spread = 0.5;
+  const std::string bytes = EncodeTwoViewGeometries({in, in});
+  const auto out = DecodeTwoViewGeometries(bytes);
+  ASSERT_TRUE(out.ok()) << out.status();
+  ASSERT_EQ(out->size(), 2U);
+  EXPECT_EQ((*out)[1].pair, in.pair);
+  EXPECT_EQ((*out)[1].kind, in.kind);
+  EXPECT_EQ((*out)[1].inliers, in.inliers);
+  EXPECT_EQ((*out)[1].b_from_a.translation, in.b_from_a.translation);
+  EXPECT_EQ((*out)[1].spread, in.spread);
+  EXPECT_EQ(EncodeTwoViewGeometries(*out), bytes);
+  DecodePrefixes(bytes, DecodeTwoViewGeometries);
+}
+
+TEST(TwoViewCodec, RefusesPairsOutOfOrder) {
+  const TwoViewGeometry in{.pair = {ImageId(9), ImageId(2)}};
+  EXPECT_FALSE(DecodeTwoViewGeometries(EncodeTwoViewGeometries({in})).ok());
+}
+
+TEST(RecipesCodec, RoundTrip) {
+  const Digest digest = DigestOf("features");
+  const MatchRecipe match{.images = {{ImageId(1), digest}, {ImageId(4), DigestOf("b")}},
+                          .pairs = {{{ImageId(1), ImageId(4)}, {{3, 4}}}}};
+  const auto match_out = DecodeMatchRecipe(EncodeMatchRecipe(match));
+  ASSERT_TRUE(match_out.ok()) << match_out.status();
+  EXPECT_EQ(match_out->images[0].features, digest);
+  EXPECT_EQ(match_out->pairs[0].matches, match.pairs[0].matches);
+
+  const ClusterRecipe cluster{.cluster = 3,
+                              .images = match.images,
+                              .pairs = {{ImageId(1), ImageId(4)}},
+                              .matches = {digest}};
+  const auto cluster_out = DecodeClusterRecipe(EncodeClusterRecipe(cluster));
+  ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
+  EXPECT_EQ(cluster_out->cluster, 3U);
+  EXPECT_EQ(cluster_out->pairs, cluster.pairs);
+  EXPECT_EQ(cluster_out->matches, cluster.matches);
+
+  const ExtractRecipe extract{.image = digest, .mask = {}, .mask_ignores_white = false};
+  const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract));
+  ASSERT_TRUE(extract_out.ok()) << extract_out.status();
+  EXPECT_EQ(extract_out->image, digest);
+  EXPECT_TRUE(extract_out->mask.IsZero());
+  EXPECT_FALSE(extract_out->mask_ignores_white);
+}
+
+TEST(RecipesCodec, RefusesAPairWithoutItsImages) {
+  const MatchRecipe match{.images = {{ImageId(1), DigestOf("a")}}, .pairs = {{{ImageId(1), ImageId(4)}, {}}}};
+  EXPECT_FALSE(DecodeMatchRecipe(EncodeMatchRecipe(match)).ok());
+}
+
+TEST(ManifestCodec, RoundTrips) {
+  ImageManifest in{.excluded = {{"c.jpg", "not 2:1"}}, .warnings = {"row 3"}, .mask_ignores_white = false};
+  in.origin = GeodeticPosition{47.5, 8.5, 400.0};
+  ImageRecord image{.id = ImageId(0), .name = "a/b.jpg", .content = DigestOf("a"), .camera = {100, 50}, .drive = 2};
+  image.capture_time_s = 12.5;
+  image.prior.geodetic = in.origin;
+  image.prior.position_in_enu = Eigen::Vector3d(1, 2, 3);
+  image.prior.heading_deg = 0.0;
+  in.images.push_back(image);
+  const std::string bytes = EncodeImageManifest(in);
+  const auto out = DecodeImageManifest(bytes);
+  ASSERT_TRUE(out.ok()) << out.status();
+  ASSERT_EQ(out->images.size(), 1U);
+  EXPECT_EQ(out->images[0].name, "a/b.jpg");
+  EXPECT_EQ(out->images[0].content, image.content);
+  EXPECT_EQ(out->images[0].prior.position_in_enu, image.prior.position_in_enu);
+  EXPECT_EQ(out->images[0].prior.heading_deg, image.prior.heading_deg);
+  EXPECT_FALSE(out->images[0].prior.pitch_deg.has_value());
+  EXPECT_EQ(out->images[0].capture_time_s, 12.5);
+  EXPECT_EQ(out->excluded[0].reason, "not 2:1");
+  EXPECT_FALSE(out->mask_ignores_white);
+  EXPECT_EQ(EncodeImageManifest(*out), bytes);
+}
+
+TEST(ReconstructionCodec, RoundTripsExactly) {
+  const Reconstruction in = SomeReconstruction();
+  const auto out = DecodeReconstruction(EncodeReconstruction(in));
+  ASSERT_TRUE(out.ok()) << out.status();
+  ExpectSame(in, *out);
+  DecodePrefixes(EncodeReconstruction(in), DecodeReconstruction);
+}
+
+TEST(ReconstructionCodec, RefusesObservationsOfUnregisteredImages) {
+  Reconstruction in = SomeReconstruction();
+  in.images.erase(ImageId(0));
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
+}
+
+TEST(ReconstructionCodec, RefusesBearingsOfAnotherLength) {
+  Reconstruction in = SomeReconstruction();
+  in.tracks[3].observations[0].bearing *= 2.0;
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
+}
+
+TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
+  const ClusterResult cluster{.cluster = 4,
+                              .reconstruction = {.components = {SomeReconstruction()},
+                                                 .not_registered = {{ImageId(77), "no verified matches"}},
+                                                 .residual_rms_px = 0.5}};
+  const auto cluster_out = DecodeClusterResult(EncodeClusterResult(cluster));
+  ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
+  EXPECT_EQ(cluster_out->cluster, 4U);
+  EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
+  ExpectSame(cluster_out->reconstruction.components[0], cluster.reconstruction.components[0]);
+
+  Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}}, .world = {0}};
+  alignment.seams.push_back({.submodel_a = 0, .submodel_b = 1, .used = false, .reason = "loop", .position_jump_m = 0.1});
+  const auto alignment_out = DecodeAlignment(EncodeAlignment(alignment));
+  ASSERT_TRUE(alignment_out.ok()) << alignment_out.status();
+  EXPECT_EQ(alignment_out->world_from_submodel[0].scale, 2.0);
+  EXPECT_FALSE(alignment_out->seams[0].used);
+  EXPECT_EQ(alignment_out->seams[0].reason, "loop");
+
+  const auto merged_out = DecodeMergedWorlds(EncodeMergedWorlds({{SomeReconstruction(), {3, 4}}}));
+  ASSERT_TRUE(merged_out.ok()) << merged_out.status();
+  EXPECT_EQ((*merged_out)[0].report.conflicting_tracks, 4U);
+
+  GloballyAdjusted adjusted{.reconstruction = SomeReconstruction()};
+  adjusted.report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
+  adjusted.report.residual_px_mean = 0.5;
+  adjusted.report.adjustments.push_back({.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
+  const auto adjusted_out = DecodeAdjustedWorlds(EncodeAdjustedWorlds({adjusted}));
+  ASSERT_TRUE(adjusted_out.ok()) << adjusted_out.status();
+  EXPECT_EQ((*adjusted_out)[0].report.gnss.outliers, adjusted.report.gnss.outliers);
+  EXPECT_EQ((*adjusted_out)[0].report.adjustments[0].biases_m[0], Eigen::Vector3d(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace orbweave

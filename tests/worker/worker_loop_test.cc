@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "worker/worker_loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "coordinator/coordinator.h"
+#include "coordinator/grpc_server.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/toy_job.h"
+#include "tests/support/wait_until.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+using testing::FindToyPlan;
+using testing::LookupIn;
+using testing::PrepareToyJob;
+using testing::ScratchFolder;
+using testing::ToyAnswer;
+using testing::ToyStages;
+using testing::WaitForEnd;
+using testing::WaitUntil;
+
+std::unique_ptr<Coordinator> OpenCoordinator(const std::string& state,
+                                             const Clock& clock,
+                                             double lease_s = 20.0) {
+  auto opened = Coordinator::Open({.state_dir = state,
+                                   .lease_s = lease_s,
+                                   .retry = {.first_wait_s = 0.05},
+                                   .find_plan = FindToyPlan},
+                                  clock);
+  ORBWEAVE_CHECK(opened.ok());
+  return *std::move(opened);
+}
+
+/// A worker on a thread of its own, stopped when it goes.
+class RunningWorker {
+ public:
+  RunningWorker(CoordinatorApi& api,
+                testing::StageMap stages,
+                const std::string& name,
+                uint32_t slots = 1)
+      : stages_(std::move(stages)), options_{.name = name, .slots = slots, .poll_s = 0.1} {
+    thread_ = std::thread([this, &api] {
+      end_ = RunWorker(api, LookupIn(stages_), options_, clock_, stop_.get_token());
+    });
+  }
+  ~RunningWorker() { Stop(); }
+  RunningWorker(const RunningWorker&) = delete;
+  RunningWorker& operator=(const RunningWorker&) = delete;
+
+  void RequestStop() { stop_.request_stop(); }
+  /// Waits for its end; how it ended.
+  absl::Status Join() {
+    if (thread_.joinable()) thread_.join();
+    return end_;
+  }
+  absl::Status Stop() {
+    RequestStop();
+    return Join();
+  }
+
+ private:
+  testing::StageMap stages_;
+  WorkerOptions options_;
+  SteadyClock clock_;
+  std::stop_source stop_;
+  absl::Status end_ = absl::UnknownError("never ran");
+  std::thread thread_;
+};
+
+class WorkerLoopTest : public ::testing::Test {
+ protected:
+  Digest Submit(CoordinatorApi& api,
+                const std::string& numbers,
+                const std::string& options_text = "") {
+    return *api.SubmitJob(*PrepareToyJob(api, numbers, options_text));
+  }
+
+  ScratchFolder folder_;
+  SteadyClock clock_;
+};
+
+TEST_F(WorkerLoopTest, DoesAJobWithSeveralWorkersAndSlots) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  RunningWorker one(*coordinator, ToyStages(), "one");
+  RunningWorker two(*coordinator, ToyStages(), "two", 3);
+  const Digest job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator, job), "385");
+  EXPECT_TRUE(one.Stop().ok());
+  EXPECT_TRUE(two.Stop().ok());
+  for (const WorkerStatus& worker : coordinator->GetJob(job)->workers)
+    EXPECT_FALSE(worker.alive) << worker.name;
+}
+
+TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
+  const auto is_squaring = [&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; };
+  {
+    RunningWorker leaver(*coordinator, ToyStages(), "leaver");
+    ASSERT_TRUE(WaitUntil(is_squaring));
+    EXPECT_TRUE(leaver.Stop().ok());
+  }
+  const auto status = coordinator->GetJob(job);
+  EXPECT_EQ(status->state, JobState::kRunning);
+  EXPECT_EQ(status->stages[1].tasks_running, 0U);
+  EXPECT_EQ(status->stages[1].retries, 0U);
+  RunningWorker next(*coordinator, ToyStages(), "next");
+  EXPECT_TRUE(WaitUntil(is_squaring));
+}
+
+TEST_F(WorkerLoopTest, StopsATaskOfACancelledJobAndTakesTheNext) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_, 2.0);
+  RunningWorker worker(*coordinator, ToyStages(), "w");
+  const Digest slow = Submit(*coordinator, "1", "toy.slow=true\n");
+  ASSERT_TRUE(WaitUntil([&] { return coordinator->GetJob(slow)->stages[1].tasks_running == 1; }));
+  ASSERT_TRUE(coordinator->CancelJob(slow).ok());
+  const Digest quick = Submit(*coordinator, "2");
+  EXPECT_EQ(WaitForEnd(*coordinator, quick)->state, JobState::kDone);
+}
+
+TEST_F(WorkerLoopTest, RetriesWhatFailedForAWhile) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  std::atomic<int> attempts{0};
+  testing::StageMap stages = ToyStages();
+  stages["split"] = [&attempts](
+                        const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    if (++attempts < 3) throw std::runtime_error("solver crashed");
+    return testing::Split(spec, blobs, context);
+  };
+  RunningWorker worker(*coordinator, stages, "w");
+  const Digest job = Submit(*coordinator, "1 2");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(coordinator->GetJob(job)->stages[0].retries, 2U);
+}
+
+TEST_F(WorkerLoopTest, ReportsAPermanentErrorOnce) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  std::atomic<int> attempts{0};
+  testing::StageMap stages = ToyStages();
+  stages["split"] =
+      [&attempts](const TaskSpec&, BlobAccess&, const StageContext&) -> absl::StatusOr<TaskResult> {
+    ++attempts;
+    return absl::InvalidArgumentError("no numbers");
+  };
+  RunningWorker worker(*coordinator, stages, "w");
+  const Digest job = Submit(*coordinator, "1 2");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kFailed);
+  EXPECT_THAT(coordinator->GetJob(job)->error, ::testing::HasSubstr("no numbers"));
+  EXPECT_EQ(attempts.load(), 1);
+}
+
+TEST_F(WorkerLoopTest, ReportsProgressWithItsHeartbeats) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_, 2.0);
+  RunningWorker worker(*coordinator, ToyStages(), "w");
+  const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
+  EXPECT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].fraction_running == 0.5; }));
+}
+
+TEST_F(WorkerLoopTest, LeavesWhenTheCoordinatorShutsDown) {
+  const auto coordinator = OpenCoordinator(folder_.path(), clock_, 2.0);
+  RunningWorker worker(*coordinator, ToyStages(), "w");
+  const Digest job = Submit(*coordinator, "1");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  coordinator->BeginShutdown();
+  EXPECT_TRUE(worker.Join().ok());
+}
+
+TEST_F(WorkerLoopTest, OutlastsACoordinatorThatIsStartedAgain) {
+  const std::string address = "unix:" + (folder_ / "s");
+  auto coordinator = OpenCoordinator(folder_ / "state", clock_);
+  auto server = *GrpcServer::Start(*coordinator, address);
+  std::stop_source stop;
+  GrpcCoordinatorClient client(address, stop.get_token());
+  RunningWorker worker(client, ToyStages(), "w");
+  const Digest first = Submit(*coordinator, "1 2");
+  EXPECT_EQ(WaitForEnd(*coordinator, first)->state, JobState::kDone);
+  server.reset();  // as if the process had died: nobody is told
+  coordinator.reset();
+  coordinator = OpenCoordinator(folder_ / "state", clock_);
+  server = *GrpcServer::Start(*coordinator, address);
+  const Digest second = Submit(*coordinator, "3 4");
+  EXPECT_EQ(WaitForEnd(*coordinator, second)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator, second), "25");
+  worker.RequestStop();
+  stop.request_stop();
+  EXPECT_TRUE(worker.Join().ok());
+  coordinator->BeginShutdown();
+}
+
+}  // namespace
+}  // namespace orbweave

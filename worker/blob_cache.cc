@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "worker/blob_cache.h"
+
+#include "worker/retry.h"
+
+namespace orbweave {
+
+absl::StatusOr<std::string> BlobCache::Get(const Digest& digest) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto it = places_.find(digest);
+    if (it != places_.end()) {
+      entries_.splice(entries_.begin(), entries_, it->second);
+      return it->second->second;
+    }
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(std::string bytes,
+                            RetryWhileUnavailable(stop_, [&] { return source_.Get(digest); }));
+  Keep(digest, bytes);
+  return bytes;
+}
+
+absl::StatusOr<Digest> BlobCache::Put(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest,
+                            RetryWhileUnavailable(stop_, [&] { return source_.Put(bytes); }));
+  Keep(digest, bytes);
+  return digest;
+}
+
+void BlobCache::Keep(const Digest& digest, std::string_view bytes) {
+  const std::lock_guard lock(mutex_);
+  if (bytes.size() > capacity_bytes_ || places_.contains(digest)) return;
+  entries_.emplace_front(digest, bytes);
+  places_[digest] = entries_.begin();
+  size_bytes_ += bytes.size();
+  while (size_bytes_ > capacity_bytes_) {
+    size_bytes_ -= entries_.back().second.size();
+    places_.erase(entries_.back().first);
+    entries_.pop_back();
+  }
+}
+
+}  // namespace orbweave

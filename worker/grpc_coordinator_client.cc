@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "worker/grpc_coordinator_client.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "proto/codec/coordinator_codec.h"
+
+namespace orbweave {
+namespace {
+
+using Stub = v1::Coordinator::Stub;
+
+constexpr size_t kChunkBytes = size_t{512} << 10;
+constexpr int kMaxMessageBytes = 8 << 20;
+/// Digests per StatBlobs message.
+constexpr size_t kMaxDigests = 65536;
+
+/// A call that is answered at once, one that reads or writes a file, one that moves a blob.
+constexpr double kQuick_s = 30.0;
+constexpr double kFile_s = 300.0;
+constexpr double kBlob_s = 1800.0;
+
+grpc::ChannelArguments ChannelArguments() {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 10'000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 5'000);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5'000);
+  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  return arguments;
+}
+
+/// The codes are the same numbers; a deadline that passed is a connection that broke.
+absl::Status FromWire(const grpc::Status& status) {
+  if (status.ok()) return absl::OkStatus();
+  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
+    return absl::UnavailableError(
+        absl::StrCat("the coordinator did not answer: ", status.error_message()));
+  }
+  return {static_cast<absl::StatusCode>(status.error_code()), status.error_message()};
+}
+
+void SetDeadline(grpc::ClientContext& context, double seconds) {
+  context.set_deadline(std::chrono::system_clock::now() +
+                       std::chrono::milliseconds(static_cast<int64_t>(1000.0 * seconds)));
+}
+
+template <typename Request, typename Reply>
+using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const Request&, Reply*);
+
+template <typename Request, typename Reply>
+absl::StatusOr<Reply> Call(Stub& stub,
+                           Method<Request, Reply> method,
+                           const Request& request,
+                           double timeout_s) {
+  grpc::ClientContext context;
+  SetDeadline(context, timeout_s);
+  Reply reply;
+  ORBWEAVE_RETURN_IF_ERROR(FromWire((stub.*method)(&context, request, &reply)));
+  return reply;
+}
+
+v1::JobRequest RequestFor(const Digest& job) {
+  v1::JobRequest request;
+  request.set_id(ToProto(job));
+  return request;
+}
+
+}  // namespace
+
+GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address, std::stop_token stop)
+    : stub_(v1::Coordinator::NewStub(grpc::CreateCustomChannel(
+          address, grpc::InsecureChannelCredentials(), ChannelArguments()))),
+      stop_(std::move(stop)) {}
+
+absl::StatusOr<std::string> GrpcCoordinatorClient::Get(const Digest& digest) {
+  grpc::ClientContext context;
+  SetDeadline(context, kBlob_s);
+  v1::GetBlobRequest request;
+  request.set_digest(ToProto(digest));
+  const auto reader = stub_->GetBlob(&context, request);
+  std::string bytes;
+  v1::BlobChunk chunk;
+  while (reader->Read(&chunk)) bytes += chunk.data();
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
+  if (DigestOf(bytes) == digest) return bytes;
+  return absl::UnavailableError(absl::StrCat("blob ", digest.ToShortHex(), " arrived damaged"));
+}
+
+absl::StatusOr<Digest> GrpcCoordinatorClient::Put(std::string_view bytes) {
+  grpc::ClientContext context;
+  SetDeadline(context, kBlob_s);
+  v1::PutBlobReply reply;
+  const auto writer = stub_->PutBlob(&context, &reply);
+  for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
+    v1::BlobChunk chunk;
+    chunk.set_data(bytes.data() + offset, std::min(kChunkBytes, bytes.size() - offset));
+    if (!writer->Write(chunk)) break;  // Finish says why
+  }
+  writer->WritesDone();
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(writer->Finish()));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest stored, DigestFromProto(reply.digest()));
+  const Digest digest = DigestOf(bytes);
+  if (stored == digest) return digest;
+  return absl::UnavailableError(absl::StrCat("blob ", digest.ToShortHex(), " arrived damaged"));
+}
+
+absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::JoinReply reply,
+                            Call(*stub_, &Stub::Join, ToProto(worker), kQuick_s));
+  return FromProto(reply);
+}
+
+absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t session,
+                                                                      uint32_t slot,
+                                                                      double wait_s) {
+  v1::LeaseTaskRequest request;
+  request.set_session(session);
+  request.set_slot(slot);
+  request.set_wait_s(wait_s);
+  grpc::ClientContext context;
+  SetDeadline(context, wait_s + kQuick_s);
+  const std::stop_callback on_stop(stop_, [&context] { context.TryCancel(); });
+  v1::LeaseTaskReply reply;
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(stub_->LeaseTask(&context, request, &reply)));
+  if (!reply.has_lease()) return std::nullopt;
+  ORBWEAVE_ASSIGN_OR_RETURN(Lease lease, FromProto(reply.lease()));
+  return lease;
+}
+
+absl::StatusOr<HeartbeatReply> GrpcCoordinatorClient::Heartbeat(
+    uint64_t session, const std::vector<LeaseProgress>& leases) {
+  v1::HeartbeatRequest request;
+  request.set_session(session);
+  for (const LeaseProgress& lease : leases) *request.add_leases() = ToProto(lease);
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::HeartbeatReply reply,
+                            Call(*stub_, &Stub::Heartbeat, request, kQuick_s));
+  return FromProto(reply);
+}
+
+absl::Status GrpcCoordinatorClient::CompleteTask(uint64_t session,
+                                                 const Lease& lease,
+                                                 const TaskResult& result) {
+  v1::CompleteTaskRequest request;
+  request.set_session(session);
+  *request.mutable_lease() = ToProto(lease);
+  *request.mutable_result() = ToProto(result);
+  return Call(*stub_, &Stub::CompleteTask, request, kFile_s).status();
+}
+
+absl::Status GrpcCoordinatorClient::FailTask(uint64_t session,
+                                             const Lease& lease,
+                                             const absl::Status& error) {
+  v1::FailTaskRequest request;
+  request.set_session(session);
+  *request.mutable_lease() = ToProto(lease);
+  request.set_code(static_cast<uint32_t>(error.code()));
+  request.set_message(std::string(error.message()));
+  return Call(*stub_, &Stub::FailTask, request, kQuick_s).status();
+}
+
+absl::Status GrpcCoordinatorClient::Leave(uint64_t session) {
+  v1::LeaveRequest request;
+  request.set_session(session);
+  return Call(*stub_, &Stub::Leave, request, kQuick_s).status();
+}
+
+absl::StatusOr<Digest> GrpcCoordinatorClient::SubmitJob(const JobSpec& job) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::JobReply reply,
+                            Call(*stub_, &Stub::SubmitJob, ToProto(job), kFile_s));
+  return DigestFromProto(reply.id());
+}
+
+absl::StatusOr<JobStatus> GrpcCoordinatorClient::GetJob(const Digest& job) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::JobStatus reply,
+                            Call(*stub_, &Stub::GetJob, RequestFor(job), kQuick_s));
+  return FromProto(reply);
+}
+
+absl::StatusOr<std::vector<JobStatus>> GrpcCoordinatorClient::ListJobs() {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ListJobsReply reply,
+                            Call(*stub_, &Stub::ListJobs, v1::Empty(), kQuick_s));
+  std::vector<JobStatus> jobs;
+  for (const v1::JobStatus& job : reply.jobs()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(), FromProto(job));
+  }
+  return jobs;
+}
+
+absl::Status GrpcCoordinatorClient::CancelJob(const Digest& job) {
+  return Call(*stub_, &Stub::CancelJob, RequestFor(job), kFile_s).status();
+}
+
+absl::StatusOr<std::vector<TaskOutcome>> GrpcCoordinatorClient::GetOutcomes(const Digest& job) {
+  grpc::ClientContext context;
+  SetDeadline(context, kFile_s);
+  const auto reader = stub_->GetOutcomes(&context, RequestFor(job));
+  std::vector<TaskOutcome> outcomes;
+  v1::TaskOutcome proto;
+  absl::Status decoded;
+  while (reader->Read(&proto)) {
+    absl::StatusOr<TaskOutcome> outcome = FromProto(proto);
+    decoded.Update(outcome.status());
+    if (outcome.ok()) outcomes.push_back(*std::move(outcome));
+  }
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
+  ORBWEAVE_RETURN_IF_ERROR(decoded);
+  return outcomes;
+}
+
+absl::StatusOr<std::vector<TaskTiming>> GrpcCoordinatorClient::GetTimings(const Digest& job) {
+  grpc::ClientContext context;
+  SetDeadline(context, kFile_s);
+  const auto reader = stub_->GetTimings(&context, RequestFor(job));
+  std::vector<TaskTiming> timings;
+  v1::TaskTiming proto;
+  while (reader->Read(&proto)) timings.push_back(FromProto(proto));
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
+  return timings;
+}
+
+absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(
+    const std::vector<Digest>& digests) {
+  std::vector<bool> stored;
+  for (size_t begin = 0; begin < digests.size(); begin += kMaxDigests) {
+    const size_t end = std::min(begin + kMaxDigests, digests.size());
+    v1::StatBlobsRequest request;
+    for (size_t i = begin; i < end; ++i) request.add_digests(ToProto(digests[i]));
+    ORBWEAVE_ASSIGN_OR_RETURN(const v1::StatBlobsReply reply,
+                              Call(*stub_, &Stub::StatBlobs, request, kFile_s));
+    if (static_cast<size_t>(reply.stored_size()) != end - begin) {
+      return absl::UnavailableError("the coordinator answered for another number of blobs");
+    }
+    stored.insert(stored.end(), reply.stored().begin(), reply.stored().end());
+  }
+  return stored;
+}
+
+absl::Status GrpcCoordinatorClient::LinkFile(const Digest& digest, const std::string& path) {
+  v1::LinkFileRequest request;
+  request.set_digest(ToProto(digest));
+  request.set_path(path);
+  return Call(*stub_, &Stub::LinkFile, request, kFile_s).status();
+}
+
+}  // namespace orbweave

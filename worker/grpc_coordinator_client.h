@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "core/pipeline/coordinator_api.h"
+#include "orbweave/v1/coordinator.grpc.pb.h"
+
+namespace orbweave {
+
+/// CoordinatorApi at the other end of a gRPC channel. The channel connects when it is needed and
+/// again when it broke; until then calls are Unavailable, as is a blob that was damaged on its way.
+/// Thread-safe.
+class GrpcCoordinatorClient final : public CoordinatorApi {
+ public:
+  /// `address` as the server prints it. `stop` ends a waiting LeaseTask with Cancelled.
+  explicit GrpcCoordinatorClient(const std::string& address, std::stop_token stop = {});
+
+  [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
+  [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
+
+  [[nodiscard]] absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) override;
+  [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
+                                                               uint32_t slot,
+                                                               double wait_s) override;
+  [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(
+      uint64_t session, const std::vector<LeaseProgress>& leases) override;
+  [[nodiscard]] absl::Status CompleteTask(uint64_t session,
+                                          const Lease& lease,
+                                          const TaskResult& result) override;
+  [[nodiscard]] absl::Status FailTask(uint64_t session,
+                                      const Lease& lease,
+                                      const absl::Status& error) override;
+  [[nodiscard]] absl::Status Leave(uint64_t session) override;
+
+  [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
+  [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
+  [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
+  [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
+  [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
+  [[nodiscard]] absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) override;
+
+  [[nodiscard]] absl::StatusOr<std::vector<bool>> StatBlobs(
+      const std::vector<Digest>& digests) override;
+  [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
+
+ private:
+  std::unique_ptr<v1::Coordinator::Stub> stub_;
+  std::stop_token stop_;
+};
+
+}  // namespace orbweave

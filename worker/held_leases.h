@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <stop_token>
+#include <vector>
+
+#include "core/pipeline/coordinator_api.h"
+
+namespace orbweave {
+
+/// The leases a worker works on, shared by its slots (which add, report and remove) and its
+/// heartbeat (which lists and stops them). Thread-safe.
+class HeldLeases {
+ public:
+  /// The returned token is stopped when the lease is to be given up.
+  [[nodiscard]] std::stop_token Add(uint64_t session, const Lease& lease);
+  void Report(uint64_t epoch, const Progress& progress);
+  void Remove(uint64_t epoch);
+
+  [[nodiscard]] std::vector<LeaseProgress> List() const;
+  void StopTask(const Digest& task);
+  /// Stops what was leased under other sessions than this one.
+  void StopOtherSessions(uint64_t session);
+  void StopAll();
+
+ private:
+  struct Held {
+    uint64_t session = 0;
+    LeaseProgress progress{};
+    std::stop_source stop{};
+  };
+  mutable std::mutex mutex_;
+  std::map<uint64_t, Held> held_;  ///< by epoch
+};
+
+}  // namespace orbweave

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worker/model_stages.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/graph/build_view_graph.h"
+#include "core/graph/partition_view_graph.h"
+#include "core/merging/adjust_globally.h"
+#include "core/merging/align_submodels.h"
+#include "core/merging/merge_submodels.h"
+#include "core/stages/assemble_cluster.h"
+#include "core/stages/plan_recipes.h"
+#include "proto/codec/features_codec.h"
+#include "proto/codec/manifest_codec.h"
+#include "proto/codec/recipes_codec.h"
+#include "proto/codec/reconstruction_codec.h"
+#include "proto/codec/two_view_codec.h"
+#include "worker/stage_io.h"
+
+namespace orbweave {
+namespace {
+
+ViewEdge ToEdge(const TwoViewGeometry& geometry) {
+  return {.pair = geometry.pair,
+          .kind = geometry.kind,
+          .b_from_a = geometry.b_from_a,
+          .num_inliers = static_cast<uint32_t>(geometry.inliers.size()),
+          .median_angle_rad = geometry.median_angle_rad,
+          .spread = geometry.spread};
+}
+
+/// Edges of all verified pairs, one blob open at a time.
+struct CollectedEdges {
+  std::vector<ViewEdge> edges{};
+  std::map<ImagePair, Digest> blob_of_pair{};
+};
+
+absl::StatusOr<CollectedEdges> CollectEdges(const std::vector<Digest>& match_blobs, BlobAccess& blobs) {
+  CollectedEdges collected;
+  for (const Digest& digest : match_blobs) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const auto geometries, FetchBlob(digest, blobs, DecodeTwoViewGeometries));
+    for (const TwoViewGeometry& geometry : geometries) {
+      collected.edges.push_back(ToEdge(geometry));
+      collected.blob_of_pair[geometry.pair] = digest;
+    }
+  }
+  return collected;
+}
+
+/// Every component of every cluster, by cluster and then by size.
+absl::StatusOr<std::vector<Submodel>> LoadSubmodels(const TaskSpec& spec, BlobAccess& blobs) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests, FetchInput(spec, 1, blobs, DecodeCollection));
+  std::vector<Submodel> submodels;
+  for (const Digest& digest : digests) {
+    ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult result, FetchBlob(digest, blobs, DecodeClusterResult));
+    uint32_t component = 0;
+    for (Reconstruction& reconstruction : result.reconstruction.components) {
+      submodels.push_back({result.cluster, component++, std::move(reconstruction)});
+    }
+  }
+  return submodels;
+}
+
+}  // namespace
+
+absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractedBlobs extracted, FetchInput(spec, 1, blobs, SplitExtracted));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> match_blobs, FetchInput(spec, 2, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
+  const FilteredViewGraph filtered = BuildViewGraph(
+      static_cast<uint32_t>(manifest.images.size()), std::move(collected.edges), options.view_graph);
+  DividedViewGraph divided{.dropped = filtered.dropped};
+  ORBWEAVE_ASSIGN_OR_RETURN(divided.partition, PartitionViewGraph(filtered.graph, options.partition));
+  for (const ViewEdge& edge : filtered.graph.edges) divided.edges.push_back(edge.pair);
+
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeDividedViewGraph(divided), blobs, result));
+  const auto recipes = PlanClusters(divided.partition, filtered.graph, extracted.features, collected.blob_of_pair);
+  ORBWEAVE_RETURN_IF_ERROR(PutRecipes(recipes, EncodeClusterRecipe, blobs, result));
+  result.report_json = nlohmann::json{{"edges", divided.edges.size()},
+                                      {"dropped_edges", divided.dropped.size()},
+                                      {"clusters", divided.partition.clusters.size()}}
+                           .dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterRecipe recipe, FetchInput(spec, 0, blobs, DecodeClusterRecipe));
+  ClusterProblem problem;
+  for (const FeatureFile& file : recipe.images) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Features features, FetchBlob(file.features, blobs, DecodeFeatures));
+    problem.images.push_back(ToClusterImage(file.image, features));
+  }
+  for (const Digest& digest : recipe.matches) {
+    ORBWEAVE_ASSIGN_OR_RETURN(auto geometries, FetchBlob(digest, blobs, DecodeTwoViewGeometries));
+    TakePairs(recipe, std::move(geometries), problem);
+  }
+  ClusterResult cluster{.cluster = recipe.cluster};
+  ORBWEAVE_ASSIGN_OR_RETURN(cluster.reconstruction, ReconstructCluster(problem, options.mapping, context));
+
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeClusterResult(cluster), blobs, result));
+  size_t registered = 0;
+  for (const Reconstruction& component : cluster.reconstruction.components) registered += component.images.size();
+  result.report_json = nlohmann::json{{"images", problem.images.size()},
+                                      {"registered", registered},
+                                      {"components", cluster.reconstruction.components.size()},
+                                      {"residual_rms_px", cluster.reconstruction.residual_rms_px}}
+                           .dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadSubmodels(spec, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, AlignSubmodels(submodels, options.align, context));
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAlignment(alignment), blobs, result));
+  result.report_json = nlohmann::json{{"submodels", submodels.size()}, {"seams", alignment.seams.size()}}.dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadSubmodels(spec, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 2, blobs, DecodeAlignment));
+  if (alignment.world.size() != submodels.size()) {
+    return absl::InvalidArgumentError("merge_submodels: the alignment is of other submodels");
+  }
+  const std::vector<MergedWorld> worlds = MergeSubmodels(submodels, alignment);
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeMergedWorlds(worlds), blobs, result));
+  result.report_json = nlohmann::json{{"worlds", worlds.size()}}.dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MergedWorld> worlds, FetchInput(spec, 1, blobs, DecodeMergedWorlds));
+  std::vector<GloballyAdjusted> adjusted;
+  for (MergedWorld& world : worlds) {
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        GloballyAdjusted done,
+        AdjustGlobally(std::move(world.reconstruction), manifest, options.global, options.bundle, context));
+    adjusted.push_back(std::move(done));
+  }
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAdjustedWorlds(adjusted), blobs, result));
+  result.report_json = nlohmann::json{{"worlds", adjusted.size()}}.dump();
+  return result;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worker/stage_table.h"
+
+#include <map>
+#include <string>
+
+#include "worker/image_stages.h"
+#include "worker/model_stages.h"
+
+namespace orbweave {
+
+const StageFunction* FindStage(std::string_view stage) {
+  static const auto* const kTable = new std::map<std::string, StageFunction, std::less<>>{
+      {"ingest_images", RunIngestImages},
+      {"extract_features", RunExtractFeatures},
+      {"select_image_pairs", RunSelectImagePairs},
+      {"match_images", RunMatchImages},
+      {"verify_matches", RunMatchImages},
+      {"partition_view_graph", RunPartitionViewGraph},
+      {"reconstruct_cluster", RunReconstructCluster},
+      {"align_submodels", RunAlignSubmodels},
+      {"merge_submodels", RunMergeSubmodels},
+      {"adjust_globally", RunAdjustGlobally},
+  };
+  const auto found = kTable->find(stage);
+  return found == kTable->end() ? nullptr : &found->second;
+}
+
+}  // namespace orbweave

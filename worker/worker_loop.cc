@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "worker/worker_loop.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/pipeline/build_version.h"
+#include "worker/blob_cache.h"
+#include "worker/held_leases.h"
+#include "worker/retry.h"
+#include "worker/task_runner.h"
+#include "worker/worker_session.h"
+
+namespace orbweave {
+namespace {
+
+std::string DescribeLease(const Lease& lease) {
+  return absl::StrCat(
+      "stage=", lease.spec.stage, " part=", lease.spec.part, " task=", lease.task.ToShortHex());
+}
+
+class Worker {
+ public:
+  Worker(CoordinatorApi& api,
+         const StageLookup& stages,
+         const WorkerOptions& options,
+         const Clock& clock)
+      : api_(api),
+        stages_(stages),
+        options_(options),
+        clock_(clock),
+        session_(api, {options.name, std::string(BuildVersion()), options.slots}, leases_),
+        blobs_(api, options.cache_bytes, ending_.get_token()) {}
+
+  absl::Status Run(const std::stop_token& stop) {
+    const std::stop_callback on_stop(stop, [this] { End(absl::OkStatus()); });
+    {
+      const std::jthread heartbeat([this] { BeatUntilEnd(); });
+      std::vector<std::jthread> slots;
+      for (uint32_t slot = 0; slot < options_.slots; ++slot) {
+        slots.emplace_back([this, slot] { WorkUntilEnd(slot); });
+      }
+      slots.clear();  // joins: the heart beats until the last task is handed in or given back
+      beating_.request_stop();
+    }
+    session_.Leave();
+    const std::lock_guard lock(mutex_);
+    return reason_;
+  }
+
+ private:
+  /// The first reason is kept: OK when told to stop or to leave.
+  void End(const absl::Status& reason) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (ending_.stop_requested()) return;
+      reason_ = reason;
+    }
+    ending_.request_stop();
+    leases_.StopAll();
+  }
+
+  void Log(const std::string& line) const {
+    if (options_.log) options_.log(line);
+  }
+
+  /// The session, or nothing when the work is over.
+  std::optional<JoinReply> Session() {
+    const absl::StatusOr<JoinReply> reply = session_.Get(ending_.get_token());
+    if (reply.ok()) return *reply;
+    if (!absl::IsCancelled(reply.status())) End(reply.status());
+    return std::nullopt;
+  }
+
+  void WorkUntilEnd(uint32_t slot) {
+    Backoff backoff;
+    while (!ending_.stop_requested()) {
+      const std::optional<JoinReply> session = Session();
+      if (!session) return;
+      const absl::StatusOr<std::optional<Lease>> lease =
+          api_.LeaseTask(session->session, slot, options_.poll_s);
+      if (lease.ok()) {
+        backoff = {};
+        if (*lease) Work(session->session, **lease);
+      } else if (absl::IsNotFound(lease.status())) {
+        session_.Forget(session->session);
+      } else if (!ending_.stop_requested()) {
+        Log(absl::StrCat("coordinator away reason=\"", lease.status().message(), "\""));
+        backoff.Wait(ending_.get_token());
+      }
+    }
+  }
+
+  void Work(uint64_t session, const Lease& lease) {
+    StageContext context;
+    context.stop = leases_.Add(session, lease);
+    context.num_threads = options_.threads_per_task;
+    context.seed = lease.task.ToSeed();
+    context.report = [this, epoch = lease.epoch](const Progress& progress) {
+      leases_.Report(epoch, progress);
+    };
+    if (ending_.stop_requested())
+      leases_.StopAll();  // the end may have come between leasing and adding
+    Log("task leased " + DescribeLease(lease));
+    const CpuClock cpu_clock = options_.slots == 1 ? CpuClock::kProcess : CpuClock::kThread;
+    const absl::StatusOr<TaskResult> result =
+        RunTask(stages_, lease.spec, blobs_, context, clock_, cpu_clock);
+    const absl::Status handed_in = result.ok() ? HandIn(session, lease, *result) : result.status();
+    if (!handed_in.ok()) {
+      const bool given_up = context.stop.stop_requested();
+      GiveBack(
+          session, lease, given_up ? absl::CancelledError("the worker gave it up") : handed_in);
+    }
+    leases_.Remove(lease.epoch);
+  }
+
+  /// Hands a result in, through times without a coordinator.
+  absl::Status HandIn(uint64_t session, const Lease& lease, const TaskResult& result) {
+    const absl::Status status = RetryWhileUnavailable(
+        ending_.get_token(), [&] { return api_.CompleteTask(session, lease, result); });
+    if (status.ok())
+      Log(absl::StrCat("task done ", DescribeLease(lease), " wall_s=", result.wall_s));
+    return status;
+  }
+
+  /// Tells the coordinator why there is no result. A lease that is no longer ours is not its
+  /// business.
+  void GiveBack(uint64_t session, const Lease& lease, const absl::Status& error) {
+    Log(absl::StrCat("task not done ", DescribeLease(lease), " reason=\"", error.ToString(), "\""));
+    (void)RetryWhileUnavailable(ending_.get_token(),
+                                [&] { return api_.FailTask(session, lease, error); });
+  }
+
+  void BeatUntilEnd() {
+    while (!beating_.stop_requested()) {
+      const double wait_s = Beat();
+      std::unique_lock lock(beat_mutex_);
+      never_.wait_for(
+          lock, beating_.get_token(), std::chrono::duration<double>(wait_s), [] { return false; });
+    }
+  }
+
+  /// One heartbeat; returns the seconds until the next.
+  double Beat() {
+    constexpr double kSoon = 0.5;
+    if (ending_.stop_requested() && leases_.List().empty()) return kSoon;
+    const absl::StatusOr<JoinReply> session = session_.Get(ending_.get_token());
+    if (!session.ok()) {
+      if (!absl::IsCancelled(session.status())) End(session.status());
+      return kSoon;
+    }
+    const absl::StatusOr<HeartbeatReply> reply = api_.Heartbeat(session->session, leases_.List());
+    if (absl::IsNotFound(reply.status())) session_.Forget(session->session);
+    if (!reply.ok()) return kSoon;
+    for (const Digest& task : reply->cancelled) leases_.StopTask(task);
+    if (reply->shutdown) End(absl::OkStatus());
+    return session->heartbeat_s;
+  }
+
+  CoordinatorApi& api_;
+  const StageLookup& stages_;
+  const WorkerOptions& options_;
+  const Clock& clock_;
+  std::mutex mutex_;
+  absl::Status reason_;
+  std::stop_source ending_;   ///< take no more, hand in or give back what runs
+  std::stop_source beating_;  ///< all is handed in
+  std::mutex beat_mutex_;
+  std::condition_variable_any never_;
+  HeldLeases leases_;
+  WorkerSession session_;
+  BlobCache blobs_;
+};
+
+}  // namespace
+
+absl::Status RunWorker(CoordinatorApi& api,
+                       const StageLookup& stages,
+                       const WorkerOptions& options,
+                       const Clock& clock,
+                       const std::stop_token& stop) {
+  return Worker(api, stages, options, clock).Run(stop);
+}
+
+}  // namespace orbweave

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "core/base/clock.h"
+#include "core/pipeline/coordinator_api.h"
+#include "worker/task_runner.h"
+
+namespace orbweave {
+
+struct WorkerOptions {
+  std::string name{};  ///< unique among the workers of a coordinator
+  uint32_t slots = 1;  ///< tasks at a time
+  int threads_per_task = 1;
+  double poll_s = 10.0;  ///< how long one question for a task waits at the coordinator
+  size_t cache_bytes = size_t{512} << 20;
+  /// Told one line per event ("task leased stage=... part=..."); may be empty. Called from several
+  /// threads.
+  std::function<void(const std::string& line)> log{};
+};
+
+/// Works for the coordinator until `stop` or until it says to leave: asks for tasks, runs them,
+/// hands in what came out, and beats. Outlasts a coordinator that is away for a while. Returns OK
+/// after leaving; FailedPrecondition when the coordinator does not take this worker (another
+/// version). When stopped, running tasks are given back.
+[[nodiscard]] absl::Status RunWorker(CoordinatorApi& api,
+                                     const StageLookup& stages,
+                                     const WorkerOptions& options,
+                                     const Clock& clock,
+                                     const std::stop_token& stop);
+
+}  // namespace orbweave

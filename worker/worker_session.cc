@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "worker/worker_session.h"
+
+#include "worker/retry.h"
+
+namespace orbweave {
+
+absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
+  const std::lock_guard lock(mutex_);
+  if (reply_.session != 0) return reply_;
+  if (stop.stop_requested()) return absl::CancelledError("the worker is stopping");
+  absl::StatusOr<JoinReply> joined =
+      RetryWhileUnavailable(stop, [this] { return api_.Join(info_); });
+  if (!joined.ok())
+    return stop.stop_requested() ? absl::CancelledError("the worker is stopping") : joined.status();
+  reply_ = *joined;
+  leases_.StopOtherSessions(reply_.session);
+  return reply_;
+}
+
+void WorkerSession::Forget(uint64_t session) {
+  const std::lock_guard lock(mutex_);
+  if (reply_.session == session) reply_.session = 0;
+}
+
+void WorkerSession::Leave() {
+  const std::lock_guard lock(mutex_);
+  if (reply_.session == 0) return;
+  (void)api_.Leave(reply_.session);  // a coordinator that is gone learns of it by silence
+  reply_.session = 0;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mutex>
+#include <stop_token>
+
+#include "core/pipeline/coordinator_api.h"
+#include "worker/held_leases.h"
+
+namespace orbweave {
+
+/// A worker's membership: joins, and joins again when the coordinator has forgotten the session (it
+/// was restarted, or it heard nothing for too long). Thread-safe.
+class WorkerSession {
+ public:
+  WorkerSession(CoordinatorApi& api, WorkerInfo info, HeldLeases& leases)
+      : api_(api), info_(std::move(info)), leases_(leases) {}
+
+  /// The present session, joining first when there is none; waits while the coordinator is
+  /// Unavailable. Cancelled: stopped before it could join. FailedPrecondition: the coordinator does
+  /// not want this worker.
+  [[nodiscard]] absl::StatusOr<JoinReply> Get(const std::stop_token& stop);
+  /// `session` is over: the next Get joins again, and tasks leased under it are stopped then.
+  void Forget(uint64_t session);
+  /// Leaves, when there is a session to leave.
+  void Leave();
+
+ private:
+  CoordinatorApi& api_;
+  WorkerInfo info_;
+  HeldLeases& leases_;
+  std::mutex mutex_;
+  JoinReply reply_{};  ///< session 0: none
+};
+
+}  // namespace orbweave
