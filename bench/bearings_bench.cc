@@ -43,7 +43,8 @@ BENCHMARK(BearingFromPixel);
 void PixelFromBearing(benchmark::State& state) {
   const EquirectangularCamera camera = {5376, 2688};
   size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(camera.PixelFromBearing(Pairs().bearings_a[i++ % kCount]));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(camera.PixelFromBearing(Pairs().bearings_a[i++ % kCount]));
 }
 BENCHMARK(PixelFromBearing);
 
@@ -52,7 +53,8 @@ void SymmetricEpipolarAngles(benchmark::State& state) {
   size_t i = 0;
   for (auto _ : state) {
     i = (i + 1) % kCount;
-    benchmark::DoNotOptimize(SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]));
+    benchmark::DoNotOptimize(
+        SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]));
   }
 }
 BENCHMARK(SymmetricEpipolarAngles);
@@ -64,7 +66,8 @@ BENCHMARK(VisibilityOf1024Bearings);
 
 /// `kSize` consecutive pairs, another start each time.
 template <size_t kSize>
-std::pair<std::span<const Vector3d, kSize>, std::span<const Vector3d, kSize>> NextSample(size_t& i) {
+std::pair<std::span<const Vector3d, kSize>, std::span<const Vector3d, kSize>> NextSample(
+    size_t& i) {
   i = (i + 1) % (kCount - kSize);
   return {std::span<const Vector3d, kSize>(Pairs().bearings_a.data() + i, kSize),
           std::span<const Vector3d, kSize>(Pairs().bearings_b.data() + i, kSize)};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <string>
 
 #include "cli/cancel_command.h"
@@ -22,6 +23,7 @@
 #include "worker/stage_table.h"
 
 int main(int argc, char** argv) {
+  ::setenv("GRPC_VERBOSITY", "NONE", 0);  // what goes wrong is said in our own words
   orbweave::RunLibrariesOnOneThread(argv);
   CLI::App app("Orbweave: structure from motion for 360-degree panoramas, on one machine or many");
   app.set_version_flag("--version", "orbweave " + std::string(orbweave::BuildVersion()));

@@ -5,13 +5,16 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "absl/strings/str_format.h"
 #include "cli/exit_code.h"
+#include "cli/stop_signals.h"
 #include "core/io/cameras_csv.h"
 #include "core/io/colmap_database.h"
 #include "core/io/file.h"
 #include "core/synthetic/corridor.h"
+#include "core/synthetic/write_street.h"
 
 namespace orbweave {
 namespace {
@@ -96,11 +99,60 @@ void AddCorridor(CLI::App& synth, SelectedCommand& selected) {
       [arguments, &selected] { selected.run = [arguments] { return ReportStatus(WriteCorridor(*arguments)); }; });
 }
 
+struct StreetArguments {
+  StreetOptions options{};
+  std::string size = "2048x1024";
+  std::string output{};
+};
+
+/// "2048x1024": twice as wide as high.
+absl::StatusOr<int> WidthOf(const std::string& size) {
+  int width = 0;
+  int height = 0;
+  char end = 0;
+  if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width != 2 * height) {
+    return absl::InvalidArgumentError("--size " + size + ": a panorama is twice as wide as high, e.g. 2048x1024");
+  }
+  return width;
+}
+
+absl::Status WriteRenderedStreet(StreetArguments arguments) {
+  const StopSignals signals;
+  ORBWEAVE_ASSIGN_OR_RETURN(arguments.options.width_px, WidthOf(arguments.size));
+  ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", arguments.options));
+  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
+  const auto show = [](const Progress& progress) {
+    std::fprintf(stderr, "rendered %d of %d panoramas\n", static_cast<int>(progress.done), static_cast<int>(progress.total));
+  };
+  const StageContext context{.stop = signals.token(),
+                             .report = show,
+                             .num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
+  ORBWEAVE_RETURN_IF_ERROR(WriteStreet(arguments.options, arguments.output, context));
+  std::printf("%d panoramas written to %s\n", arguments.options.panoramas, arguments.output.c_str());
+  return absl::OkStatus();
+}
+
+void AddStreet(CLI::App& synth, SelectedCommand& selected) {
+  CLI::App* command = synth.add_subcommand("street", "Rendered panoramas of a street round a block");
+  const auto arguments = std::make_shared<StreetArguments>();
+  command->add_option("--panoramas", arguments->options.panoramas, "Number of panoramas")->capture_default_str();
+  command->add_option("--size", arguments->size, "Width x height of a panorama")->capture_default_str();
+  command->add_option("--spacing", arguments->options.spacing_m, "Metres between panoramas")->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "Another seed, another street")->capture_default_str();
+  command->add_option("--output", arguments->output, "Folder for images, masks, gnss.csv, truth.csv, surface.ply")
+      ->required();
+  command->footer("Example:\n  orbweave synth street --panoramas 48 --size 2048x1024 --output street");
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(WriteRenderedStreet(*arguments)); };
+  });
+}
+
 }  // namespace
 
 void AddSynthCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("synth", "Make streets whose truth is known");
   command->require_subcommand(1);
+  AddStreet(*command, selected);
   AddCorridor(*command, selected);
 }
 

@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 /// Squared sines for the pairs [begin, end): (p_b^T E p_a)^2 / (1 - ((T.R p_a)^2 + (T.p_b)^2) / 2).
 /// NaN where both bearings are epipoles, which no threshold admits.
-void SquaredSines(const BearingPairs& pairs, const Rigid3& b_from_a, size_t begin, size_t end, double* squared) {
+void SquaredSines(
+    const BearingPairs& pairs, const Rigid3& b_from_a, size_t begin, size_t end, double* squared) {
   const Eigen::Matrix3d E = EssentialFromPose(b_from_a);
   const Vector3d T = b_from_a.translation;
   const Vector3d RtT = b_from_a.rotation.conjugate() * T;
@@ -85,7 +86,9 @@ std::optional<RansacScore> ScoreEpipolar(const BearingPairs& pairs,
   return score;
 }
 
-std::vector<uint32_t> EpipolarInliers(const BearingPairs& pairs, const Rigid3& b_from_a, double max_error_rad) {
+std::vector<uint32_t> EpipolarInliers(const BearingPairs& pairs,
+                                      const Rigid3& b_from_a,
+                                      double max_error_rad) {
   const double max_squared = std::sin(max_error_rad) * std::sin(max_error_rad);
   std::vector<double> squared(pairs.Size());
   SquaredSines(pairs, b_from_a, 0, pairs.Size(), squared.data());

@@ -38,10 +38,11 @@ struct SelectedBearings {
   std::vector<Eigen::Vector3d> b{};
 };
 
-[[nodiscard]] SelectedBearings SelectPairs(const BearingPairs& pairs, std::span<const uint32_t> indices);
+[[nodiscard]] SelectedBearings SelectPairs(const BearingPairs& pairs,
+                                           std::span<const uint32_t> indices);
 
-/// Truncated sum of squared sines of SymmetricEpipolarAngle; nullopt once `gate` has ruled the pose out.
-/// |T| = 1. The same for all four poses of an essential matrix.
+/// Truncated sum of squared sines of SymmetricEpipolarAngle; nullopt once `gate` has ruled the pose
+/// out. |T| = 1. The same for all four poses of an essential matrix.
 [[nodiscard]] std::optional<RansacScore> ScoreEpipolar(const BearingPairs& pairs,
                                                        const Rigid3& b_from_a,
                                                        double max_error_rad,

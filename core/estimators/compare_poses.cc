@@ -29,13 +29,16 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-std::vector<double> Distances(const Sim3& b_from_a, const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+std::vector<double> Distances(const Sim3& b_from_a,
+                              const std::vector<Eigen::Vector3d>& a,
+                              const std::vector<Eigen::Vector3d>& b) {
   std::vector<double> distances(a.size());
   for (size_t i = 0; i < a.size(); ++i) distances[i] = (b_from_a * a[i] - b[i]).norm();
   return distances;
 }
 
-std::optional<Sim3> FitTrimmed(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+std::optional<Sim3> FitTrimmed(const std::vector<Eigen::Vector3d>& a,
+                               const std::vector<Eigen::Vector3d>& b) {
   std::vector<double> weights(a.size(), 1.0);
   std::optional<Sim3> fit;
   for (int refit = 0; refit < kTrimmedRefits; ++refit) {
@@ -45,7 +48,9 @@ std::optional<Sim3> FitTrimmed(const std::vector<Eigen::Vector3d>& a, const std:
     const std::vector<double> distances = Distances(*fit, a, b);
     const double limit = std::max(3.0 * Median(distances), 1e-9);
     std::vector<double> trimmed(a.size());
-    std::transform(distances.begin(), distances.end(), trimmed.begin(), [&](double d) { return d <= limit ? 1.0 : 0.0; });
+    std::transform(distances.begin(), distances.end(), trimmed.begin(), [&](double d) {
+      return d <= limit ? 1.0 : 0.0;
+    });
     if (trimmed == weights) break;
     weights = std::move(trimmed);
   }
@@ -73,19 +78,21 @@ std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
   std::vector<double> steps;
   for (size_t i = 0; i < in_model.size(); ++i) {
     const Rigid3 aligned = TransformCamera(*fit, cams_from_model[i]);
-    rotations_deg.push_back(RotationAngle(aligned.rotation * cams_from_reference[i].rotation.conjugate()) * kDegPerRad);
+    rotations_deg.push_back(
+        RotationAngle(aligned.rotation * cams_from_reference[i].rotation.conjugate()) * kDegPerRad);
     if (i == 0) continue;
     const Eigen::Vector3d step = fit->scale * (fit->rotation * (in_model[i] - in_model[i - 1]));
     steps.push_back((step - (in_reference[i] - in_reference[i - 1])).norm());
   }
   const std::vector<double> distances = Distances(*fit, in_model, in_reference);
-  return PoseErrors{.reference_from_model = *fit,
-                    .position_rmse_m = Rms(distances),
-                    .position_max_m = *std::max_element(distances.begin(), distances.end()),
-                    .rotation_median_deg = Median(rotations_deg),
-                    .rotation_max_deg = *std::max_element(rotations_deg.begin(), rotations_deg.end()),
-                    .unaligned_rmse_m = Rms(Distances({}, in_model, in_reference)),
-                    .neighbour_rmse_m = Rms(steps)};
+  return PoseErrors{
+      .reference_from_model = *fit,
+      .position_rmse_m = Rms(distances),
+      .position_max_m = *std::max_element(distances.begin(), distances.end()),
+      .rotation_median_deg = Median(rotations_deg),
+      .rotation_max_deg = *std::max_element(rotations_deg.begin(), rotations_deg.end()),
+      .unaligned_rmse_m = Rms(Distances({}, in_model, in_reference)),
+      .neighbour_rmse_m = Rms(steps)};
 }
 
 }  // namespace orbweave

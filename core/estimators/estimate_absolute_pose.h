@@ -20,9 +20,13 @@ struct AbsolutePoseOptions {
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("confidence", self.confidence, "RANSAC stops once the best pose is found with this probability", Range{0.5, 0.999999});
+    visit("confidence",
+          self.confidence,
+          "RANSAC stops once the best pose is found with this probability",
+          Range{0.5, 0.999999});
     visit("max_trials", self.max_trials, "RANSAC trials at most", Range{10, 10000000});
-    visit("min_inliers", self.min_inliers, "poses with fewer inliers are no answer", Range{4, 10000});
+    visit(
+        "min_inliers", self.min_inliers, "poses with fewer inliers are no answer", Range{4, 10000});
   }
 };
 
@@ -42,8 +46,8 @@ struct AbsolutePose {
     const AbsolutePoseOptions& options,
     const StageContext& context);
 
-/// Least-squares pose (tangent-plane residuals, Cauchy loss at max_error_rad / 2) from `initial` over the
-/// correspondences with is_inlier set (all, when empty).
+/// Least-squares pose (tangent-plane residuals, Cauchy loss at max_error_rad / 2) from `initial`
+/// over the correspondences with is_inlier set (all, when empty).
 [[nodiscard]] Rigid3 RefineAbsolutePose(const Rigid3& initial,
                                         std::span<const Eigen::Vector3d> bearings,
                                         std::span<const Eigen::Vector3d> points_in_world,

@@ -46,7 +46,8 @@ class SimilarityEstimator {
     if (const std::optional<Sim3> model = Fit(sample)) models.push_back(*model);
   }
 
-  [[nodiscard]] std::optional<RansacScore> Score(const Sim3& model, const EarlyRejection& gate) const {
+  [[nodiscard]] std::optional<RansacScore> Score(const Sim3& model,
+                                                 const EarlyRejection& gate) const {
     RansacScore score;
     for (size_t begin = 0; begin < Size(); begin += EarlyRejection::kBlock) {
       const size_t end = std::min(begin + EarlyRejection::kBlock, Size());
@@ -99,10 +100,11 @@ class SimilarityEstimator {
 
 }  // namespace
 
-absl::StatusOr<std::optional<RobustSimilarity>> EstimateSimilarity(std::span<const Vector3d> points_in_a,
-                                                                   std::span<const Vector3d> points_in_b,
-                                                                   double max_error,
-                                                                   const StageContext& context) {
+absl::StatusOr<std::optional<RobustSimilarity>> EstimateSimilarity(
+    std::span<const Vector3d> points_in_a,
+    std::span<const Vector3d> points_in_b,
+    double max_error,
+    const StageContext& context) {
   ORBWEAVE_CHECK(points_in_a.size() == points_in_b.size());
   const PointPairs pairs = Arrange(points_in_a, points_in_b, context.seed);
   const SimilarityEstimator estimator(pairs, max_error);

@@ -25,10 +25,13 @@ constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
 
 /// Alternates pose and inliers until these do not grow any more.
-ResolvedPose RefineToConvergence(const BearingPairs& pairs, ResolvedPose best, double max_error_rad) {
+ResolvedPose RefineToConvergence(const BearingPairs& pairs,
+                                 ResolvedPose best,
+                                 double max_error_rad) {
   for (int refit = 0; refit < kFinalRefits; ++refit) {
     const SelectedBearings selected = SelectPairs(pairs, best.inliers);
-    const Rigid3 pose = MinimiseEpipolarResiduals(best.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
+    const Rigid3 pose = MinimiseEpipolarResiduals(
+        best.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
     std::vector<uint32_t> inliers =
         InFrontOfBoth(pairs, EpipolarInliers(pairs, pose, max_error_rad), pose, max_error_rad);
     const bool grows = inliers.size() > best.inliers.size();
@@ -41,7 +44,8 @@ ResolvedPose RefineToConvergence(const BearingPairs& pairs, ResolvedPose best, d
 double MedianAngle(const SelectedBearings& inliers, const Eigen::Quaterniond& R) {
   std::vector<double> angles;
   angles.reserve(inliers.a.size());
-  for (size_t i = 0; i < inliers.a.size(); ++i) angles.push_back(AngleBetween(R * inliers.a[i], inliers.b[i]));
+  for (size_t i = 0; i < inliers.a.size(); ++i)
+    angles.push_back(AngleBetween(R * inliers.a[i], inliers.b[i]));
   const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
   std::nth_element(angles.begin(), middle, angles.end());
   return *middle;
@@ -49,7 +53,8 @@ double MedianAngle(const SelectedBearings& inliers, const Eigen::Quaterniond& R)
 
 bool IsSupported(size_t num_inliers, size_t num_putative, const TwoViewOptions& options) {
   const auto share = static_cast<double>(num_inliers) / static_cast<double>(num_putative);
-  return num_inliers >= static_cast<size_t>(options.min_inliers) && share >= options.min_inlier_share;
+  return num_inliers >= static_cast<size_t>(options.min_inliers) &&
+         share >= options.min_inlier_share;
 }
 
 /// The inliers as pairs of their own, for the tests of degeneracy.
@@ -78,16 +83,18 @@ absl::StatusOr<Verdict> Classify(const BearingPairs& pairs,
                                  const StageContext& context) {
   Verdict verdict{.b_from_a = candidate.b_from_a, .inliers = Subset(pairs, candidate.inliers)};
   const double enough = kDegenerateShare * static_cast<double>(candidate.inliers.size());
-  ORBWEAVE_ASSIGN_OR_RETURN(const RayMap rotation,
-                            ExplainByRotation(verdict.inliers, max_error_rad, kDegenerateShare, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const RayMap rotation,
+      ExplainByRotation(verdict.inliers, max_error_rad, kDegenerateShare, context));
   if (static_cast<double>(rotation.inliers.size()) >= enough) {
     verdict.kind = TwoViewKind::kPureRotation;
     verdict.b_from_a = {Eigen::Quaterniond(rotation.M).normalized(), Vector3d::Zero()};
     verdict.inliers = Subset(verdict.inliers, rotation.inliers);
     return verdict;
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(const RayMap plane,
-                            ExplainByHomography(verdict.inliers, max_error_rad, kDegenerateShare, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const RayMap plane,
+      ExplainByHomography(verdict.inliers, max_error_rad, kDegenerateShare, context));
   if (static_cast<double>(plane.inliers.size()) >= enough) verdict.kind = TwoViewKind::kPlanar;
   return verdict;
 }
@@ -104,13 +111,15 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
   TwoViewGeometry geometry{.pair = pair, .num_putative = static_cast<uint32_t>(matches.size())};
   if (matches.size() < static_cast<size_t>(options.min_inliers)) return geometry;
   const BearingPairs pairs = ArrangePairs(bearings_a, bearings_b, matches, context.seed);
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto best, FindRelativePose(pairs, max_error_rad, options, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto best,
+                            FindRelativePose(pairs, max_error_rad, options, context));
   if (!best) return geometry;
   const ResolvedPose candidate =
       RefineToConvergence(pairs, ResolveCheirality(pairs, *best, max_error_rad), max_error_rad);
   if (!IsSupported(candidate.inliers.size(), matches.size(), options)) return geometry;
 
-  ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict, Classify(pairs, candidate, max_error_rad, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict,
+                            Classify(pairs, candidate, max_error_rad, context));
   if (!IsSupported(verdict.inliers.Size(), matches.size(), options)) return geometry;
   geometry.kind = verdict.kind;
   geometry.b_from_a = verdict.b_from_a;

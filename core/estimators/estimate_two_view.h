@@ -33,26 +33,36 @@ struct TwoViewOptions {
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("solver", self.solver, "minimal solver of the essential matrix");
-    visit("max_error_px", self.max_error_px, "distance to the epipolar plane, pixels at the equator (8)", Range{0.1, 100});
+    visit("max_error_px",
+          self.max_error_px,
+          "distance to the epipolar plane, pixels at the equator (8)",
+          Range{0.1, 100});
     visit("min_inliers", self.min_inliers, "pairs with fewer inliers are dropped", Range{5, 10000});
-    visit("min_inlier_share", self.min_inlier_share, "pairs with a smaller share of inliers are dropped", Range{0, 1});
-    visit("confidence", self.confidence, "RANSAC stops once the best model is found with this probability", Range{0.5, 0.999999});
+    visit("min_inlier_share",
+          self.min_inlier_share,
+          "pairs with a smaller share of inliers are dropped",
+          Range{0, 1});
+    visit("confidence",
+          self.confidence,
+          "RANSAC stops once the best model is found with this probability",
+          Range{0.5, 0.999999});
     visit("max_trials", self.max_trials, "RANSAC trials at most", Range{10, 10000000});
   }
 };
 
 /// Relative pose of two panoramas from putative matches by RANSAC with local optimisation on
-/// bearings: inliers by the angle to the epipolar plane (7) below `max_error_rad` and by cheirality on
-/// both spheres (paper 3.3), refined over all inliers; flags pure rotation and planes.
-/// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera frames;
-/// `matches` index into them. Returns kind kNone (and num_putative) when no geometry is supported.
-/// Cancelled when asked to stop. `context.seed` seeds the sampler.
-[[nodiscard]] absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
-                                                              std::span<const Eigen::Vector3d> bearings_a,
-                                                              std::span<const Eigen::Vector3d> bearings_b,
-                                                              std::span<const FeatureMatch> matches,
-                                                              double max_error_rad,
-                                                              const TwoViewOptions& options,
-                                                              const StageContext& context);
+/// bearings: inliers by the angle to the epipolar plane (7) below `max_error_rad` and by cheirality
+/// on both spheres (paper 3.3), refined over all inliers; flags pure rotation and planes.
+/// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera
+/// frames; `matches` index into them. Returns kind kNone (and num_putative) when no geometry is
+/// supported. Cancelled when asked to stop. `context.seed` seeds the sampler.
+[[nodiscard]] absl::StatusOr<TwoViewGeometry> EstimateTwoView(
+    ImagePair pair,
+    std::span<const Eigen::Vector3d> bearings_a,
+    std::span<const Eigen::Vector3d> bearings_b,
+    std::span<const FeatureMatch> matches,
+    double max_error_rad,
+    const TwoViewOptions& options,
+    const StageContext& context);
 
 }  // namespace orbweave

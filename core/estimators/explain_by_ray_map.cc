@@ -38,7 +38,8 @@ class RayMapEstimator {
     if (const std::optional<Matrix3d> M = kFit(selected.a, selected.b)) models.push_back(*M);
   }
 
-  [[nodiscard]] std::optional<RansacScore> Score(const Matrix3d& M, const EarlyRejection& gate) const {
+  [[nodiscard]] std::optional<RansacScore> Score(const Matrix3d& M,
+                                                 const EarlyRejection& gate) const {
     RansacScore score;
     for (size_t i = 0; i < Size(); ++i) {
       const double squared = SquaredChord(M, i);

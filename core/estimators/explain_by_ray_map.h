@@ -17,9 +17,9 @@ struct RayMap {
   std::vector<uint32_t> inliers{};
 };
 
-/// The rotation that most of the pairs agree on. Looks for explanations of at least `min_share` of the
-/// pairs, which a few trials of RANSAC cannot miss; a smaller support may not be the largest there is.
-/// Cancelled when asked to stop.
+/// The rotation that most of the pairs agree on. Looks for explanations of at least `min_share` of
+/// the pairs, which a few trials of RANSAC cannot miss; a smaller support may not be the largest
+/// there is. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<RayMap> ExplainByRotation(const BearingPairs& pairs,
                                                        double max_error_rad,
                                                        double min_share,

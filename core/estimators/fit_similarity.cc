@@ -21,11 +21,13 @@ struct Moments {
   double weight = 0.0;
   Vector3d mean_a = Vector3d::Zero();
   Vector3d mean_b = Vector3d::Zero();
-  double variance_a = 0.0;                   // sum w |a - mean_a|^2
+  double variance_a = 0.0;                 // sum w |a - mean_a|^2
   Matrix3d covariance = Matrix3d::Zero();  // sum w (b - mean_b) (a - mean_a)^T
 };
 
-Moments MomentsOf(std::span<const Vector3d> a, std::span<const Vector3d> b, std::span<const double> weights) {
+Moments MomentsOf(std::span<const Vector3d> a,
+                  std::span<const Vector3d> b,
+                  std::span<const double> weights) {
   const auto weight = [&](size_t i) { return weights.empty() ? 1.0 : weights[i]; };
   Moments m;
   for (size_t i = 0; i < a.size(); ++i) {

@@ -42,8 +42,8 @@ struct NormalEquations {
   double nearest = std::numeric_limits<double>::infinity();
 };
 
-/// Residual (I - d d^T) u with u = (X - C) / rho, of length sin(angle). With c = d.u and w = d - c u:
-/// J^T J = (I - u u^T - w w^T) / rho^2 and J^T r = -c w / rho.
+/// Residual (I - d d^T) u with u = (X - C) / rho, of length sin(angle). With c = d.u and w = d - c
+/// u: J^T J = (I - u u^T - w w^T) / rho^2 and J^T r = -c w / rho.
 NormalEquations Linearise(const Rays& rays, const Vector3d& X) {
   NormalEquations n;
   for (const Ray& ray : rays) {
@@ -69,7 +69,8 @@ bool InFrontOfAll(const Rays& rays, const Vector3d& X) {
 
 }  // namespace
 
-Rays RaysFromFirstCamera(std::span<const Rigid3> cams_from_world, std::span<const Vector3d> bearings) {
+Rays RaysFromFirstCamera(std::span<const Rigid3> cams_from_world,
+                         std::span<const Vector3d> bearings) {
   Rays rays(bearings.size());
   const Vector3d origin = cams_from_world[0].Centre();
   for (size_t i = 0; i < rays.size(); ++i) {

@@ -20,7 +20,8 @@ constexpr double kAntipode = 1e-9;  // keeps the residual finite where it has no
 
 Rigid3 MovePose(const Rigid3& cam_from_world, const Eigen::Matrix<double, 6, 1>& delta) {
   const Eigen::Quaterniond turn = RotationFromVector(delta.head<3>());
-  return {(turn * cam_from_world.rotation).normalized(), turn * (cam_from_world.translation - delta.tail<3>())};
+  return {(turn * cam_from_world.rotation).normalized(),
+          turn * (cam_from_world.translation - delta.tail<3>())};
 }
 
 Linearisation<6> LineariseTangentResiduals(const Rigid3& cam_from_world,

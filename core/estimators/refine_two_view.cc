@@ -63,7 +63,8 @@ Rigid3 MinimiseEpipolarResiduals(const Rigid3& initial,
   const auto linearise = [&](const Rigid3& pose) {
     return LineariseEpipolarResiduals(pose, bearings_a, bearings_b, loss_scale_rad);
   };
-  return MinimiseLevenbergMarquardt<5>(initial, linearise, MoveRelativePose, {.max_steps = max_steps});
+  return MinimiseLevenbergMarquardt<5>(
+      initial, linearise, MoveRelativePose, {.max_steps = max_steps});
 }
 
 }  // namespace orbweave

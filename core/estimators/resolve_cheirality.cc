@@ -29,7 +29,9 @@ std::vector<uint32_t> InFrontOfBoth(const BearingPairs& pairs,
   return in_front;
 }
 
-ResolvedPose ResolveCheirality(const BearingPairs& pairs, const Rigid3& any_of_four, double max_error_rad) {
+ResolvedPose ResolveCheirality(const BearingPairs& pairs,
+                               const Rigid3& any_of_four,
+                               double max_error_rad) {
   const std::vector<uint32_t> inliers = EpipolarInliers(pairs, any_of_four, max_error_rad);
   ResolvedPose best{.b_from_a = any_of_four};
   for (const Rigid3& pose : PosesFromEssential(EssentialFromPose(any_of_four))) {

@@ -11,8 +11,9 @@
 
 namespace orbweave {
 
-/// Those of `candidates` (indices of pairs) whose point lies in front of both panoramas, IsInFrontOfBoth.
-/// Rays that meet at less than twice the error are far points without a reliable side: they stay.
+/// Those of `candidates` (indices of pairs) whose point lies in front of both panoramas,
+/// IsInFrontOfBoth. Rays that meet at less than twice the error are far points without a reliable
+/// side: they stay.
 [[nodiscard]] std::vector<uint32_t> InFrontOfBoth(const BearingPairs& pairs,
                                                   std::span<const uint32_t> candidates,
                                                   const Rigid3& b_from_a,

@@ -62,7 +62,10 @@ double LargestAngle(const Rays& rays, const Vector3d& X) {
 }
 
 /// The point of two rays if they meet at a sufficient angle.
-std::optional<Vector3d> IntersectPair(const Rays& rays, uint32_t i, uint32_t j, double min_angle_rad) {
+std::optional<Vector3d> IntersectPair(const Rays& rays,
+                                      uint32_t i,
+                                      uint32_t j,
+                                      double min_angle_rad) {
   const Rays pair = {rays[i], rays[j]};
   const std::optional<Vector3d> X = IntersectRays(pair);
   if (!X || LargestAngle(pair, *X) < min_angle_rad) return std::nullopt;
@@ -123,7 +126,8 @@ std::optional<RobustTriangulation> TriangulateRobustly(std::span<const Rigid3> c
   ORBWEAVE_CHECK(cams_from_world.size() == bearings.size());
   if (bearings.size() < 2) return std::nullopt;
   const double max_chord = 2.0 * std::sin(0.5 * max_error_rad);
-  const Thresholds thresholds{.max_squared_chord = max_chord * max_chord, .min_angle_rad = min_angle_rad};
+  const Thresholds thresholds{.max_squared_chord = max_chord * max_chord,
+                              .min_angle_rad = min_angle_rad};
   const Rays rays = RaysFromFirstCamera(cams_from_world, bearings);
   const Candidate best = BestCandidate(rays, thresholds);
   if (best.num_inliers < 2) return std::nullopt;

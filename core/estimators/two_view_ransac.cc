@@ -24,21 +24,27 @@ constexpr int kMinTrials = 30;  // nearly planar scenes have two good models: bo
 
 struct FivePointSolver {
   static constexpr size_t kSampleSize = 5;
-  static void Solve(std::span<const Vector3d, 5> a, std::span<const Vector3d, 5> b, std::vector<Rigid3>& poses) {
+  static void Solve(std::span<const Vector3d, 5> a,
+                    std::span<const Vector3d, 5> b,
+                    std::vector<Rigid3>& poses) {
     for (const Eigen::Matrix3d& E : SolveFivePoint(a, b)) poses.push_back(PosesFromEssential(E)[0]);
   }
 };
 
 struct EightPointSolver {
   static constexpr size_t kSampleSize = 8;
-  static void Solve(std::span<const Vector3d, 8> a, std::span<const Vector3d, 8> b, std::vector<Rigid3>& poses) {
+  static void Solve(std::span<const Vector3d, 8> a,
+                    std::span<const Vector3d, 8> b,
+                    std::vector<Rigid3>& poses) {
     if (const auto E = SolveEightPoint(a, b)) poses.push_back(PosesFromEssential(*E)[0]);
   }
 };
 
 struct UprightThreePointSolver {
   static constexpr size_t kSampleSize = 3;
-  static void Solve(std::span<const Vector3d, 3> a, std::span<const Vector3d, 3> b, std::vector<Rigid3>& poses) {
+  static void Solve(std::span<const Vector3d, 3> a,
+                    std::span<const Vector3d, 3> b,
+                    std::vector<Rigid3>& poses) {
     for (const Rigid3& pose : SolveUprightThreePoint(a, b)) poses.push_back(pose);
   }
 };
@@ -49,7 +55,8 @@ class TwoViewEstimator {
   static constexpr size_t kSampleSize = Solver::kSampleSize;
   using Model = Rigid3;
 
-  TwoViewEstimator(const BearingPairs& pairs, double max_error_rad) : pairs_(pairs), max_error_rad_(max_error_rad) {}
+  TwoViewEstimator(const BearingPairs& pairs, double max_error_rad)
+      : pairs_(pairs), max_error_rad_(max_error_rad) {}
 
   [[nodiscard]] size_t Size() const { return pairs_.Size(); }
 
@@ -63,9 +70,10 @@ class TwoViewEstimator {
     Solver::Solve(a, b, models);
   }
 
-  /// Inliers on the wrong side count as outliers, for the best of the four poses. This is looked at in
-  /// the few models that reach the end, and tells the two poses apart that fit a plane.
-  [[nodiscard]] std::optional<RansacScore> Score(const Rigid3& pose, const EarlyRejection& gate) const {
+  /// Inliers on the wrong side count as outliers, for the best of the four poses. This is looked at
+  /// in the few models that reach the end, and tells the two poses apart that fit a plane.
+  [[nodiscard]] std::optional<RansacScore> Score(const Rigid3& pose,
+                                                 const EarlyRejection& gate) const {
     std::optional<RansacScore> score = ScoreEpipolar(pairs_, pose, max_error_rad_, gate);
     if (!score) return std::nullopt;
     const auto num_in_front =
@@ -77,7 +85,8 @@ class TwoViewEstimator {
   }
 
   [[nodiscard]] Rigid3 Refine(const Rigid3& pose) const {
-    const SelectedBearings inliers = SelectPairs(pairs_, EpipolarInliers(pairs_, pose, max_error_rad_));
+    const SelectedBearings inliers =
+        SelectPairs(pairs_, EpipolarInliers(pairs_, pose, max_error_rad_));
     return MinimiseEpipolarResiduals(pose, inliers.a, inliers.b, 0.5 * max_error_rad_, kLocalSteps);
   }
 

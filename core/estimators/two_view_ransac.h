@@ -12,8 +12,9 @@
 namespace orbweave {
 
 /// RANSAC with local optimisation over the minimal solver of `options`: a pose, |T| = 1, of the
-/// essential matrix with the least truncated cost, any of its four (see ResolveCheirality). nullopt when there are fewer pairs than a sample or no sample has a solution. Cancelled when
-/// asked to stop.
+/// essential matrix with the least truncated cost, any of its four (see ResolveCheirality). nullopt
+/// when there are fewer pairs than a sample or no sample has a solution. Cancelled when asked to
+/// stop.
 [[nodiscard]] absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
                                                                      double max_error_rad,
                                                                      const TwoViewOptions& options,

@@ -8,15 +8,29 @@
 namespace orbweave::internal {
 namespace {
 
-std::array<int32_t, kLanes> DotProducts(const uint8_t* row, const DescriptorBlock& block) {
-  std::array<int32_t, kLanes> dots{};
+using WideDescriptor = std::array<int16_t, kDescriptorSize>;
+
+/// The descriptors of a block one after the other, in a type whose products compilers vectorise.
+std::array<WideDescriptor, kLanes> Unpack(const DescriptorBlock& block) {
+  std::array<WideDescriptor, kLanes> rows;
   for (size_t g = 0; g < kGroups; ++g) {
     for (size_t j = 0; j < kLanes; ++j) {
-      const uint8_t* const group = &block.bytes[4 * (kLanes * g + j)];
-      for (size_t k = 0; k < 4; ++k) dots[j] += row[4 * g + k] * group[k];
+      for (size_t k = 0; k < 4; ++k) rows[j][4 * g + k] = block.bytes[4 * (kLanes * g + j) + k];
     }
   }
-  return dots;
+  return rows;
+}
+
+WideDescriptor Widen(const uint8_t* descriptor) {
+  WideDescriptor wide;
+  for (size_t k = 0; k < wide.size(); ++k) wide[k] = descriptor[k];
+  return wide;
+}
+
+int32_t DotProduct(const WideDescriptor& a, const WideDescriptor& b) {
+  int32_t sum = 0;
+  for (size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
 }
 
 void Update(LaneState& state, size_t lane, int32_t distance, int32_t index) {
@@ -30,11 +44,12 @@ void Update(LaneState& state, size_t lane, int32_t distance, int32_t index) {
 
 void UpdateNearestPortable(const DistanceJob& job) {
   for (size_t c = 0; c < job.blocks.size(); ++c) {
-    const DescriptorBlock& block = job.blocks[c];
+    const std::array<WideDescriptor, kLanes> columns = Unpack(job.blocks[c]);
     for (size_t r = 0; r < job.num_rows; ++r) {
-      const std::array<int32_t, kLanes> dots = DotProducts(job.rows + r * kDescriptorSize, block);
+      const WideDescriptor row = Widen(job.rows + r * kDescriptorSize);
       for (size_t j = 0; j < kLanes; ++j) {
-        const int32_t distance = job.row_norms[r] + block.norms[j] - 2 * dots[j];
+        const int32_t norms = job.row_norms[r] + job.blocks[c].norms[j];
+        const int32_t distance = norms - 2 * DotProduct(row, columns[j]);
         Update(job.row_states[r], j, distance, static_cast<int32_t>(c));
         Update(job.block_states[c], j, distance, job.first_row + static_cast<int32_t>(r));
       }

@@ -13,7 +13,7 @@ namespace orbweave {
 struct ExtractOptions {
   int max_features = 8192;
   double max_latitude_deg = 65.0;
-  double contrast_threshold = 0.02;
+  double contrast_threshold = 0.003;
   double edge_threshold = 10.0;
   int tile_size_px = 1024;
   int max_image_width_px = 32768;
@@ -30,7 +30,7 @@ struct ExtractOptions {
           Range{5, 90});
     visit("contrast_threshold",
           self.contrast_threshold,
-          "SIFT contrast threshold",
+          "weakest SIFT contrast; the best max_features above it are kept",
           Range{0.001, 0.2});
     visit("edge_threshold", self.edge_threshold, "SIFT edge threshold", Range{2, 50});
     visit("tile_size_px",

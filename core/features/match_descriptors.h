@@ -16,7 +16,7 @@ struct MatchOptions {
   double max_distance = 0.7;
   bool cross_check = true;
   bool guided = true;
-  double guided_max_ratio = 0.9;
+  double guided_max_ratio = 0.7;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -37,14 +37,19 @@ struct MatchOptions {
   }
 };
 
-/// Nearest-neighbour matches of two panoramas by descriptor distance, sorted by (a, b).
-/// Empty when either has no descriptors.
+/// Nearest-neighbour matches of two panoramas by descriptor distance, sorted by (a, b). With cross
+/// check both directions must pass all tests, so exchanging the panoramas exchanges the result.
+/// Empty when either has no descriptors. The same on every machine: integer arithmetic.
 [[nodiscard]] std::vector<FeatureMatch> MatchDescriptors(const Features& a,
                                                          const Features& b,
                                                          const MatchOptions& options);
 
 /// Matches among features whose bearings lie within `max_error_rad` of each other's epipolar plane
-/// under b_from_a and in front of both spheres. Sorted by (a, b), one-to-one.
+/// under b_from_a and in front of both spheres: the nearest by descriptor among those candidates,
+/// by `guided_max_ratio`, `max_distance` and cross check. There are few candidates in a plane, so
+/// an unmatched feature easily finds one by chance: the ratio is what keeps such matches out.
+/// Sorted by (a, b), one-to-one. Empty without a translation (no epipolar planes) or without
+/// descriptors.
 [[nodiscard]] std::vector<FeatureMatch> MatchGuided(const Features& a,
                                                     const Features& b,
                                                     const Rigid3& b_from_a,

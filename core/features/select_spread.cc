@@ -19,9 +19,14 @@ auto PlaceOf(const SiftCandidate& c) {
       c.keypoint.y_px, c.keypoint.x_px, c.keypoint.scale_px, c.keypoint.orientation_rad);
 }
 
-bool Stronger(const SiftCandidate& a, const SiftCandidate& b) {
-  if (a.response != b.response) return a.response > b.response;
-  return PlaceOf(a) < PlaceOf(b);
+struct Ranked {
+  double merit = 0.0;
+  const SiftCandidate* candidate = nullptr;
+};
+
+bool Better(const Ranked& x, const Ranked& y) {
+  if (x.merit != y.merit) return x.merit > y.merit;
+  return PlaceOf(*x.candidate) < PlaceOf(*y.candidate);
 }
 
 int CellOf(const EquirectangularCamera& camera, const Keypoint& keypoint) {
@@ -33,23 +38,38 @@ int CellOf(const EquirectangularCamera& camera, const Keypoint& keypoint) {
   return row * kCellColumns + column;
 }
 
+/// How likely a candidate is found again in another image: with its contrast, and with its scale,
+/// since the finest scales of panoramas are mostly noise of the sensor and of the stitching.
+double MeritOf(const SiftCandidate& candidate) {
+  return double{candidate.response} * candidate.keypoint.scale_px;
+}
+
+std::vector<Ranked> RankedByMerit(const std::vector<SiftCandidate>& candidates) {
+  std::vector<Ranked> ranked;
+  for (const SiftCandidate& candidate : candidates)
+    ranked.push_back({MeritOf(candidate), &candidate});
+  std::sort(ranked.begin(), ranked.end(), Better);
+  return ranked;
+}
+
 }  // namespace
 
 std::vector<SiftCandidate> SelectSpread(const EquirectangularCamera& camera,
-                                        std::vector<SiftCandidate> candidates,
+                                        const std::vector<SiftCandidate>& candidates,
                                         size_t max_features) {
-  std::sort(candidates.begin(), candidates.end(), Stronger);
-  std::vector<size_t> taken_in_cell(kCellColumns * kCellRows, 0);
-  std::vector<std::pair<size_t, size_t>> round_and_index;  // strength within the cell, then overall
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    const auto cell = static_cast<size_t>(CellOf(camera, candidates[i].keypoint));
-    round_and_index.emplace_back(taken_in_cell[cell]++, i);
+  std::vector<Ranked> ranked = RankedByMerit(candidates);
+  const double fair_share = static_cast<double>(max_features) / (kCellColumns * kCellRows);
+  std::vector<double> ahead_in_cell(kCellColumns * kCellRows, 0.0);
+  for (Ranked& r : ranked) {
+    double& ahead = ahead_in_cell[static_cast<size_t>(CellOf(camera, r.candidate->keypoint))];
+    r.merit /= std::sqrt(1.0 + ahead / fair_share);
+    ahead += 1.0;
   }
-  std::sort(round_and_index.begin(), round_and_index.end());
-  round_and_index.resize(std::min(round_and_index.size(), max_features));
+  std::sort(ranked.begin(), ranked.end(), Better);
+  ranked.resize(std::min(ranked.size(), max_features));
 
   std::vector<SiftCandidate> selected;
-  for (const auto& [round, index] : round_and_index) selected.push_back(candidates[index]);
+  for (const Ranked& r : ranked) selected.push_back(*r.candidate);
   std::sort(selected.begin(), selected.end(), [](const auto& a, const auto& b) {
     return PlaceOf(a) < PlaceOf(b);
   });

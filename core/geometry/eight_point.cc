@@ -22,7 +22,8 @@ std::optional<Eigen::Matrix3d> SolveEightPoint(std::span<const Eigen::Vector3d> 
   if (count < 8) return std::nullopt;
   Eigen::Matrix<double, Eigen::Dynamic, 9> A(count, 9);
   for (Eigen::Index i = 0; i < count; ++i) {
-    for (int row = 0; row < 3; ++row) A.row(i).segment<3>(3 * row) = bearings_b[i][row] * bearings_a[i].transpose();
+    for (int row = 0; row < 3; ++row)
+      A.row(i).segment<3>(3 * row) = bearings_b[i][row] * bearings_a[i].transpose();
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
   const auto& singular_values = svd.singularValues();

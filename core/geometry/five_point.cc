@@ -23,13 +23,21 @@ struct Monomial {
   friend constexpr bool operator==(const Monomial&, const Monomial&) = default;
 };
 constexpr std::array<Monomial, 4> kLinear = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}};
-constexpr std::array<Monomial, 10> kQuadratic = {
-    {{2, 0, 0}, {1, 1, 0}, {0, 2, 0}, {1, 0, 1}, {0, 1, 1}, {0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}};
+constexpr std::array<Monomial, 10> kQuadratic = {{{2, 0, 0},
+                                                  {1, 1, 0},
+                                                  {0, 2, 0},
+                                                  {1, 0, 1},
+                                                  {0, 1, 1},
+                                                  {0, 0, 2},
+                                                  {1, 0, 0},
+                                                  {0, 1, 0},
+                                                  {0, 0, 1},
+                                                  {0, 0, 0}}};
 /// Nister's order: the first ten are eliminated, the others are x, y or 1 times a power of z.
-constexpr std::array<Monomial, 20> kCubic = {{{3, 0, 0}, {0, 3, 0}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1},
-                                              {2, 0, 0}, {0, 2, 1}, {0, 2, 0}, {1, 1, 1}, {1, 1, 0},
-                                              {1, 0, 2}, {1, 0, 1}, {1, 0, 0}, {0, 1, 2}, {0, 1, 1},
-                                              {0, 1, 0}, {0, 0, 3}, {0, 0, 2}, {0, 0, 1}, {0, 0, 0}}};
+constexpr std::array<Monomial, 20> kCubic = {
+    {{3, 0, 0}, {0, 3, 0}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}, {2, 0, 0}, {0, 2, 1},
+     {0, 2, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 2}, {1, 0, 1}, {1, 0, 0}, {0, 1, 2},
+     {0, 1, 1}, {0, 1, 0}, {0, 0, 3}, {0, 0, 2}, {0, 0, 1}, {0, 0, 0}}};
 
 /// products[i][j]: index in `result` of left[i] * right[j].
 template <size_t L, size_t R, size_t N>
@@ -39,7 +47,8 @@ constexpr std::array<std::array<int, R>, L> ProductTable(const std::array<Monomi
   std::array<std::array<int, R>, L> products{};
   for (size_t i = 0; i < L; ++i) {
     for (size_t j = 0; j < R; ++j) {
-      const Monomial product = {left[i].x + right[j].x, left[i].y + right[j].y, left[i].z + right[j].z};
+      const Monomial product = {
+          left[i].x + right[j].x, left[i].y + right[j].y, left[i].z + right[j].z};
       for (size_t k = 0; k < N; ++k) {
         if (result[k] == product) products[i][j] = static_cast<int>(k);
       }
@@ -80,7 +89,8 @@ NullSpace EpipolarNullSpace(std::span<const Vector3d, 5> a, std::span<const Vect
   const Eigen::Matrix<double, 9, 4> basis = qr.householderQ() * last;
   NullSpace null_space;
   for (int k = 0; k < 4; ++k) {
-    for (int row = 0; row < 3; ++row) null_space[k].row(row) = basis.col(k).segment<3>(3 * row).transpose();
+    for (int row = 0; row < 3; ++row)
+      null_space[k].row(row) = basis.col(k).segment<3>(3 * row).transpose();
   }
   return null_space;
 }
@@ -126,7 +136,8 @@ Eigen::Matrix<double, 10, 20> Constraints(const NullSpace& null_space) {
     for (size_t j = 0; j < 3; ++j) {
       Cubic entry{};
       for (size_t k = 0; k < 3; ++k) AddProduct(square[i][k], E[k][j], entry);
-      rows.row(static_cast<int>(3 * i + j)) = Eigen::Map<const Eigen::Matrix<double, 1, 20>>(entry.data());
+      rows.row(static_cast<int>(3 * i + j)) =
+          Eigen::Map<const Eigen::Matrix<double, 1, 20>>(entry.data());
     }
   }
   const Cubic det = Determinant(E);
@@ -210,13 +221,15 @@ absl::InlinedVector<Matrix3d, 10> SolveFivePoint(std::span<const Vector3d, 5> be
                                                  std::span<const Vector3d, 5> bearings_b) {
   const NullSpace null_space = EpipolarNullSpace(bearings_a, bearings_b);
   const Eigen::Matrix<double, 10, 20> rows = Constraints(null_space);
-  const Eigen::Matrix<double, 10, 10> tail = rows.leftCols<10>().partialPivLu().solve(rows.rightCols<10>());
+  const Eigen::Matrix<double, 10, 10> tail =
+      rows.leftCols<10>().partialPivLu().solve(rows.rightCols<10>());
   const ReducedRows reduced = {Subtract(tail, 4, 5), Subtract(tail, 6, 7), Subtract(tail, 8, 9)};
 
   absl::InlinedVector<Matrix3d, 10> solutions;
   for (const double z : RealRoots(Determinant(reduced))) {
     const Vector3d xy = SolveForXY(reduced, z);
-    const Matrix3d E = xy.x() * null_space[0] + xy.y() * null_space[1] + xy.z() * (z * null_space[2] + null_space[3]);
+    const Matrix3d E = xy.x() * null_space[0] + xy.y() * null_space[1] +
+                       xy.z() * (z * null_space[2] + null_space[3]);
     const double norm = E.norm();
     if (norm > 0.0 && std::isfinite(norm)) solutions.push_back(std::sqrt(2.0) / norm * E);
   }

@@ -38,10 +38,11 @@ Matrix3d DistanceForm(int i, int j, double cosine) {
 }
 
 DistanceQuadrics MakeQuadrics(std::span<const Vector3d, 3> b, std::span<const Vector3d, 3> P) {
-  return {.M = {DistanceForm(0, 1, b[0].dot(b[1])),
-                DistanceForm(0, 2, b[0].dot(b[2])),
-                DistanceForm(1, 2, b[1].dot(b[2]))},
-          .a = {(P[0] - P[1]).squaredNorm(), (P[0] - P[2]).squaredNorm(), (P[1] - P[2]).squaredNorm()}};
+  return {
+      .M = {DistanceForm(0, 1, b[0].dot(b[1])),
+            DistanceForm(0, 2, b[0].dot(b[2])),
+            DistanceForm(1, 2, b[1].dot(b[2]))},
+      .a = {(P[0] - P[1]).squaredNorm(), (P[0] - P[2]).squaredNorm(), (P[1] - P[2]).squaredNorm()}};
 }
 
 Matrix3d SymmetricAdjugate(const Matrix3d& D) {
@@ -52,8 +53,8 @@ Matrix3d SymmetricAdjugate(const Matrix3d& D) {
   return A;
 }
 
-/// The two real lines of a degenerate conic D = (l m^T + m l^T) / 2, whose adjugate is -p p^T with p
-/// proportional to l x m: then D + [p]x has rank one.
+/// The two real lines of a degenerate conic D = (l m^T + m l^T) / 2, whose adjugate is -p p^T with
+/// p proportional to l x m: then D + [p]x has rank one.
 struct LinePair {
   Vector3d l = Vector3d::Zero();
   Vector3d m = Vector3d::Zero();
@@ -76,8 +77,8 @@ LinePair SplitConic(const Matrix3d& D) {
   return lines;
 }
 
-/// The line pair of the pencil D1 + g D2, g real or infinite, that is furthest from complex, and a conic
-/// of the pencil to cut it with.
+/// The line pair of the pencil D1 + g D2, g real or infinite, that is furthest from complex, and a
+/// conic of the pencil to cut it with.
 struct Split {
   LinePair lines{};
   Matrix3d other = Matrix3d::Zero();
@@ -86,8 +87,10 @@ struct Split {
 Split BestSplit(const Matrix3d& D1, const Matrix3d& D2) {
   const Matrix3d A1 = SymmetricAdjugate(D1);
   const Matrix3d A2 = SymmetricAdjugate(D2);
-  const std::array<double, 4> cubic = {
-      D1.col(0).dot(A1.col(0)), A1.cwiseProduct(D2).sum(), A2.cwiseProduct(D1).sum(), D2.col(0).dot(A2.col(0))};
+  const std::array<double, 4> cubic = {D1.col(0).dot(A1.col(0)),
+                                       A1.cwiseProduct(D2).sum(),
+                                       A2.cwiseProduct(D1).sum(),
+                                       D2.col(0).dot(A2.col(0))};
   Split best{.other = D2};
   for (const double g : RealRoots(cubic)) {
     const LinePair lines = SplitConic(D1 + g * D2);
@@ -111,7 +114,8 @@ absl::InlinedVector<Vector3d, 2> Intersect(const Vector3d& line, const Matrix3d&
   return {basis * Eigen::Vector2d(q, Q(0, 0)), basis * Eigen::Vector2d(Q(1, 1), q)};
 }
 
-/// Scales a direction to the distances and polishes them with Newton's method on the three quadrics.
+/// Scales a direction to the distances and polishes them with Newton's method on the three
+/// quadrics.
 Vector3d DistancesAlong(const Vector3d& direction, const DistanceQuadrics& quadrics) {
   const Matrix3d sum = quadrics.M[0] + quadrics.M[1] + quadrics.M[2];
   const double a = quadrics.a[0] + quadrics.a[1] + quadrics.a[2];
@@ -140,7 +144,9 @@ Matrix3d TriangleFrame(const Vector3d& p0, const Vector3d& p1, const Vector3d& p
   return F;
 }
 
-Rigid3 PoseFromDistances(const Vector3d& lambda, std::span<const Vector3d, 3> b, std::span<const Vector3d, 3> P) {
+Rigid3 PoseFromDistances(const Vector3d& lambda,
+                         std::span<const Vector3d, 3> b,
+                         std::span<const Vector3d, 3> P) {
   const std::array<Vector3d, 3> Q = {lambda[0] * b[0], lambda[1] * b[1], lambda[2] * b[2]};
   const Matrix3d R = TriangleFrame(Q[0], Q[1], Q[2]) * TriangleFrame(P[0], P[1], P[2]).transpose();
   const Vector3d t = (Q[0] + Q[1] + Q[2] - R * (P[0] + P[1] + P[2])) / 3.0;

@@ -20,7 +20,8 @@ constexpr double kRankTolerance = 1e-10;  // of squared singular values where th
 
 }  // namespace
 
-std::optional<Matrix3d> FitRayRotation(std::span<const Vector3d> bearings_a, std::span<const Vector3d> bearings_b) {
+std::optional<Matrix3d> FitRayRotation(std::span<const Vector3d> bearings_a,
+                                       std::span<const Vector3d> bearings_b) {
   ORBWEAVE_CHECK(bearings_a.size() == bearings_b.size());
   Matrix3d M = Matrix3d::Zero();
   for (size_t i = 0; i < bearings_a.size(); ++i) M += bearings_b[i] * bearings_a[i].transpose();
@@ -30,7 +31,8 @@ std::optional<Matrix3d> FitRayRotation(std::span<const Vector3d> bearings_a, std
   return svd.matrixU() * Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
-std::optional<Matrix3d> FitRayHomography(std::span<const Vector3d> bearings_a, std::span<const Vector3d> bearings_b) {
+std::optional<Matrix3d> FitRayHomography(std::span<const Vector3d> bearings_a,
+                                         std::span<const Vector3d> bearings_b) {
   ORBWEAVE_CHECK(bearings_a.size() == bearings_b.size());
   if (bearings_a.size() < 4) return std::nullopt;
   Eigen::Matrix<double, 9, 9> AtA = Eigen::Matrix<double, 9, 9>::Zero();
@@ -48,7 +50,8 @@ std::optional<Matrix3d> FitRayHomography(std::span<const Vector3d> bearings_a, s
   Matrix3d H;
   H << h.segment<3>(0).transpose(), h.segment<3>(3).transpose(), h.segment<3>(6).transpose();
   int num_same_side = 0;
-  for (size_t i = 0; i < bearings_a.size(); ++i) num_same_side += bearings_b[i].dot(H * bearings_a[i]) > 0.0 ? 1 : -1;
+  for (size_t i = 0; i < bearings_a.size(); ++i)
+    num_same_side += bearings_b[i].dot(H * bearings_a[i]) > 0.0 ? 1 : -1;
   if (num_same_side < 0) H = -H;
   return H;
 }

@@ -8,16 +8,16 @@
 
 namespace orbweave {
 
-/// The rotation matrix R that maximises sum p_b . R p_a over pairs of unit bearings (Wahba's problem),
-/// by SVD: Arun, Huang, Blostein, PAMI 1987. nullopt for fewer than two pairs or when all bearings are
-/// parallel.
-[[nodiscard]] std::optional<Eigen::Matrix3d> FitRayRotation(std::span<const Eigen::Vector3d> bearings_a,
-                                                            std::span<const Eigen::Vector3d> bearings_b);
+/// The rotation matrix R that maximises sum p_b . R p_a over pairs of unit bearings (Wahba's
+/// problem), by SVD: Arun, Huang, Blostein, PAMI 1987. nullopt for fewer than two pairs or when all
+/// bearings are parallel.
+[[nodiscard]] std::optional<Eigen::Matrix3d> FitRayRotation(
+    std::span<const Eigen::Vector3d> bearings_a, std::span<const Eigen::Vector3d> bearings_b);
 
 /// The ray homography H, |H| = 1, with p_b parallel to H p_a and most of them on the same side,
-/// p_b . H p_a > 0: bearings of points on one plane. Least singular vector of B_b^T H p_a = 0, B_b the
-/// tangent plane of p_b. nullopt for fewer than four pairs or when these do not determine H.
-[[nodiscard]] std::optional<Eigen::Matrix3d> FitRayHomography(std::span<const Eigen::Vector3d> bearings_a,
-                                                              std::span<const Eigen::Vector3d> bearings_b);
+/// p_b . H p_a > 0: bearings of points on one plane. Least singular vector of B_b^T H p_a = 0, B_b
+/// the tangent plane of p_b. nullopt for fewer than four pairs or when these do not determine H.
+[[nodiscard]] std::optional<Eigen::Matrix3d> FitRayHomography(
+    std::span<const Eigen::Vector3d> bearings_a, std::span<const Eigen::Vector3d> bearings_b);
 
 }  // namespace orbweave

@@ -27,7 +27,8 @@ size_t CountCells(std::span<const Eigen::Vector3d> bearings, int n) {
 }  // namespace
 
 uint32_t SphereCell(const Eigen::Vector3d& bearing, int n) {
-  const double longitude_share = std::atan2(bearing.x(), bearing.z()) / (2.0 * std::numbers::pi) + 0.5;
+  const double longitude_share =
+      std::atan2(bearing.x(), bearing.z()) / (2.0 * std::numbers::pi) + 0.5;
   return Bin(0.5 * (bearing.y() + 1.0), n) * static_cast<uint32_t>(n) + Bin(longitude_share, n);
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The half-angle tangent is infinite at pi, and upright cameras do look the opposite way: image a is
-/// first turned by an angle at which nobody mounts a camera.
+/// The half-angle tangent is infinite at pi, and upright cameras do look the opposite way: image a
+/// is first turned by an angle at which nobody mounts a camera.
 constexpr double kTurnRad = 1.0;
 constexpr double kParallelSin = 1e-9;
 

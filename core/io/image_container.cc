@@ -71,7 +71,8 @@ ImageKind IdentifyImage(std::string_view encoded) {
   if (encoded.starts_with(kPngSignature)) return ImageKind::kPng;
   if (encoded.starts_with("II*\0"sv) || encoded.starts_with("MM\0*"sv)) return ImageKind::kTiff;
   if (encoded.starts_with("BM"sv) && encoded.size() >= 26) return ImageKind::kBmp;
-  if (encoded.starts_with("RIFF"sv) && encoded.substr(8, 4) == "WEBP"sv) return ImageKind::kWebp;
+  if (encoded.size() >= 12 && encoded.starts_with("RIFF"sv) && encoded.substr(8, 4) == "WEBP"sv)
+    return ImageKind::kWebp;
   if (encoded.starts_with("P5"sv) || encoded.starts_with("P6"sv)) return ImageKind::kPnm;
   return ImageKind::kUnknown;
 }

@@ -3,6 +3,8 @@
 
 #include "core/mapping/adjust_global.h"
 
+#include <algorithm>
+
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/complete_tracks.h"
 #include "core/mapping/filter_points.h"
@@ -17,6 +19,7 @@ namespace {
 struct Rounds {
   int max_rounds = 1;
   double max_changed_share = 0.0;  ///< of the observations, below which the model is at rest
+  bool tightens = false;           ///< judges errors by the model's own exactness
 };
 
 /// Returns the number of observations added and points merged.
@@ -31,15 +34,43 @@ absl::Status AdjustAll(MappingState& state, const BundleOptions& how, const Stag
   return AdjustPart(state, state.Registered(), AllPoints(state), how, context).status();
 }
 
+/// Median over all observations of their error in pixels at the equator.
+double MedianErrorPx(const MappingState& state) {
+  std::vector<double> errors_px;
+  errors_px.reserve(state.NumObservations());
+  for (const PointIndex point : AllPoints(state)) {
+    for (const Node node : state.Point(point).nodes) {
+      errors_px.push_back(NodeError(state, state.Point(point).position, node) /
+                          AngleFromPixels(state, node, 1.0));
+    }
+  }
+  if (errors_px.empty()) return 0.0;
+  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
+  std::nth_element(errors_px.begin(), middle, errors_px.end());
+  return *middle;
+}
+
+/// options.max_error_px is what is allowed at most; where observations are more exact, those that
+/// stand out from them are wrong too. Of errors with two normal components one in 10^5 exceeds
+/// four medians.
+MappingOptions Tightened(const MappingState& state, MappingOptions options) {
+  constexpr double kMedians = 4.0;
+  constexpr double kFloorPx = 0.5;
+  options.max_error_px =
+      std::min(options.max_error_px, std::max(kFloorPx, kMedians * MedianErrorPx(state)));
+  return options;
+}
+
 absl::Status AdjustInRounds(MappingState& state,
                             const MappingOptions& options,
                             const BundleOptions& how,
                             const Rounds& rounds,
                             const StageContext& context) {
   for (int round = 0; round < rounds.max_rounds; ++round) {
-    uint32_t changed = DensifyTracks(state, options);
+    const MappingOptions limits = rounds.tightens ? Tightened(state, options) : options;
+    uint32_t changed = DensifyTracks(state, limits);
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, how, context));
-    changed += FilterPoints(state, AllPoints(state), LimitsOf(options));
+    changed += FilterPoints(state, AllPoints(state), LimitsOf(limits));
     if (changed <= rounds.max_changed_share * state.NumObservations()) break;
   }
   return absl::OkStatus();
@@ -60,14 +91,19 @@ absl::Status AdjustFinalModel(MappingState& state,
                               const StageContext& context) {
   const BundleOptions robust = {
       .loss = BundleLoss::kCauchy, .max_iterations = 30, .function_tolerance = 1e-5};
-  ORBWEAVE_RETURN_IF_ERROR(AdjustInRounds(
-      state, options, robust, {.max_rounds = 4, .max_changed_share = 0.001}, context));
+  ORBWEAVE_RETURN_IF_ERROR(
+      AdjustInRounds(state,
+                     options,
+                     robust,
+                     {.max_rounds = 5, .max_changed_share = 0.001, .tightens = true},
+                     context));
   const BundleOptions exact = {
       .loss = BundleLoss::kLeastSquares, .max_iterations = 30, .function_tolerance = 1e-7};
   constexpr int kMaxFinishes = 3;
   for (int finish = 0; finish < kMaxFinishes; ++finish) {
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, exact, context));
-    if (FilterPoints(state, AllPoints(state), LimitsOf(options)) == 0) break;
+    const TrackLimits limits = LimitsOf(Tightened(state, options));
+    if (FilterPoints(state, AllPoints(state), limits) == 0) break;
   }
   return absl::OkStatus();
 }

@@ -119,8 +119,8 @@ absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruction,
   LoosenUnobserved(manifest, model);
   MeasureResiduals(manifest, model);
   if (!georeference.enu_from_world) {
-    model.reconstruction = Transformed(ChooseLocalFrame(model.reconstruction, manifest),
-                                       std::move(model.reconstruction));
+    const Sim3 local_from_world = ChooseLocalFrame(model.reconstruction, manifest);
+    model.reconstruction = Transformed(local_from_world, std::move(model.reconstruction));
   }
   return model;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <vector>
 
 #include "core/base/random.h"
@@ -17,10 +18,12 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kMinPositions = 3;
+constexpr size_t kMinPositions = 4;
 constexpr int kTrials = 500;
 constexpr int kReweightings = 20;
 constexpr double kMaxScaleUncertainty = 0.1;
+constexpr double kMinAgreeingShare = 0.7;
+constexpr size_t kMinDrive = 8;
 constexpr double kSigmaOfMad = 1.4826;
 
 // Camera centres and what GNSS says of them; sigma is that of one axis, for weights.
@@ -28,6 +31,7 @@ struct Positions {
   std::vector<Eigen::Vector3d> in_world{};
   std::vector<Eigen::Vector3d> in_enu{};
   std::vector<double> sigma_m{};
+  std::vector<uint32_t> drive{};
 
   [[nodiscard]] size_t size() const { return in_world.size(); }
 };
@@ -40,6 +44,7 @@ Positions Collect(const Reconstruction& reconstruction, const ImageManifest& man
     positions.in_world.push_back(image.cam_from_world.Centre());
     positions.in_enu.push_back(*prior.position_in_enu);
     positions.sigma_m.push_back(prior.horizontal_sigma_m);
+    positions.drive.push_back(manifest.At(id).drive);
   }
   return positions;
 }
@@ -157,18 +162,48 @@ absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
   return std::optional<Sim3>(Refine(positions, down, *start * upright_from_world));
 }
 
-void MeasureScatter(const Positions& positions, Georeference& result) {
+// Model minus GNSS, without the bias (median) of each drive that is long enough to have one.
+std::vector<Eigen::Vector3d> Residuals(const Positions& positions, const Sim3& enu_from_world) {
+  std::vector<Eigen::Vector3d> residuals;
+  std::map<uint32_t, std::vector<size_t>> members;
+  for (size_t i = 0; i < positions.size(); ++i) {
+    residuals.push_back(enu_from_world * positions.in_world[i] - positions.in_enu[i]);
+    members[positions.drive[i]].push_back(i);
+  }
+  for (const auto& [drive, indices] : members) {
+    if (members.size() == 1 || indices.size() < kMinDrive) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values;
+      for (const size_t i : indices) values.push_back(residuals[i][axis]);
+      const double bias = Quantile(std::move(values), 0.5);
+      for (const size_t i : indices) residuals[i][axis] -= bias;
+    }
+  }
+  return residuals;
+}
+
+void MeasureScatter(const std::vector<Eigen::Vector3d>& residuals, Georeference& result) {
   std::vector<double> horizontal;
   std::vector<double> vertical;
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const Eigen::Vector3d residual =
-        *result.enu_from_world * positions.in_world[i] - positions.in_enu[i];
+  for (const Eigen::Vector3d& residual : residuals) {
     horizontal.push_back(std::abs(residual.x()));
     horizontal.push_back(std::abs(residual.y()));
     vertical.push_back(std::abs(residual.z()));
   }
-  result.horizontal_scatter_m = kSigmaOfMad * Quantile(std::move(horizontal), 0.5);
-  result.vertical_scatter_m = kSigmaOfMad * Quantile(std::move(vertical), 0.5);
+  // The fit has taken seven of the 3n degrees of freedom.
+  const auto n = static_cast<double>(residuals.size());
+  const double sigma_of_median = kSigmaOfMad * std::sqrt(3.0 * n / (3.0 * n - 7.0));
+  result.horizontal_scatter_m = sigma_of_median * Quantile(std::move(horizontal), 0.5);
+  result.vertical_scatter_m = sigma_of_median * Quantile(std::move(vertical), 0.5);
+}
+
+// Share of the positions within three sigmas of the model, horizontally.
+double AgreeingShare(const std::vector<Eigen::Vector3d>& residuals, double scatter_m) {
+  const auto agreeing =
+      std::count_if(residuals.begin(), residuals.end(), [&](const Eigen::Vector3d& residual) {
+        return residual.head<2>().norm() <= 3.0 * scatter_m;
+      });
+  return static_cast<double>(agreeing) / static_cast<double>(residuals.size());
 }
 
 std::string Metres(double value_m) {
@@ -177,17 +212,24 @@ std::string Metres(double value_m) {
   return text;
 }
 
-// Drops the similarity when GNSS cannot carry its scale.
+// Measures the scatter and drops the similarity when GNSS cannot carry its scale.
 void Judge(const Positions& positions, Georeference& result) {
+  const std::vector<Eigen::Vector3d> residuals = Residuals(positions, *result.enu_from_world);
+  MeasureScatter(residuals, result);
   const double extent_m = result.enu_from_world->scale * SpreadOf(positions.in_world);
   const double scatter_m = result.horizontal_scatter_m;
   result.scale_uncertainty =
       scatter_m / (extent_m * std::sqrt(static_cast<double>(positions.size())));
-  if (scatter_m < extent_m && result.scale_uncertainty <= kMaxScaleUncertainty) return;
+  const bool carries_scale =
+      scatter_m < extent_m && result.scale_uncertainty <= kMaxScaleUncertainty;
+  const double agreeing_share = AgreeingShare(residuals, scatter_m);
+  if (carries_scale && agreeing_share >= kMinAgreeingShare) return;
   result.enu_from_world.reset();
-  result.reason = "GNSS scatters by " + Metres(scatter_m) +
-                  " about a model that would extend over " + Metres(extent_m) +
-                  ": too much to carry its scale";
+  result.reason = carries_scale ? std::to_string(std::lround(100.0 * agreeing_share)) +
+                                      " % of the GNSS positions agree with the model: too few"
+                                : "GNSS scatters by " + Metres(scatter_m) +
+                                      " about a model that would extend over " + Metres(extent_m) +
+                                      ": too much to carry its scale";
 }
 
 }  // namespace
@@ -207,7 +249,6 @@ absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& re
     result.reason = "no similarity fits the GNSS positions to the model";
     return result;
   }
-  MeasureScatter(positions, result);
   Judge(positions, result);
   return result;
 }

@@ -19,7 +19,7 @@ struct Georeference {
   std::optional<Sim3> enu_from_world{};
   std::string reason{};  ///< why not
   /// Robust standard deviation per axis of GNSS against the model (1.4826 median absolute
-  /// residual).
+  /// residual, corrected for the parameters of the fit).
   double horizontal_scatter_m = 0.0;
   double vertical_scatter_m = 0.0;
   /// Standard deviation of the scale over the scale, from scatter and extent.
@@ -30,10 +30,12 @@ struct Georeference {
 /// leave the roll about the street open, so gravity takes part: first yaw, scale and translation of
 /// the upright model from random pairs of images (least squared residuals, truncated), then all
 /// seven parameters by reweighted least squares with gravity as one more observation. Without
-/// gravity the similarity comes from EstimateSimilarity. GNSS carries the scale when its scatter
-/// leaves the scale uncertain by 10 % at most and is smaller than the extent of the centres (rms
-/// distance from their mean); a phone indoors fails both. Loose images take no part. Cancelled when
-/// asked to stop.
+/// gravity the similarity comes from EstimateSimilarity.
+///
+/// GNSS carries the scale when its scatter leaves the scale uncertain by 10 % at most and is
+/// smaller than the extent of the centres (rms distance from their mean), and 70 % of the positions
+/// agree within three sigmas; a phone indoors fails. Drives of eight positions or more are judged
+/// without their bias. Loose images take no part. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<Georeference> GeoreferenceReconstruction(
     const Reconstruction& reconstruction,
     const ImageManifest& manifest,

@@ -22,7 +22,8 @@ EarlyRejection::EarlyRejection(size_t size, double min_inlier_share)
 
 void EarlyRejection::Raise(double cost, uint32_t num_inliers) {
   best_cost_ = cost;
-  Expect(std::max(min_inlier_share_, static_cast<double>(num_inliers) / static_cast<double>(size_)));
+  Expect(
+      std::max(min_inlier_share_, static_cast<double>(num_inliers) / static_cast<double>(size_)));
 }
 
 void EarlyRejection::Expect(double epsilon) {

@@ -25,8 +25,9 @@ struct Linearisation {
 
 struct LevenbergMarquardtOptions {
   int max_steps = 10;
-  double min_relative_decrease = 1e-6;  ///< a smaller predicted decrease of the cost ends the search
-  double initial_damping = 1e-6;        ///< relative to the diagonal of H
+  double min_relative_decrease =
+      1e-6;                       ///< a smaller predicted decrease of the cost ends the search
+  double initial_damping = 1e-6;  ///< relative to the diagonal of H
 };
 
 /// Levenberg-Marquardt for a handful of unknowns (a pose).

@@ -6,16 +6,20 @@
 
 namespace orbweave {
 
-/// Cauchy loss rho(s) = c^2 log(1 + s / c^2) of a squared residual s; rho(s) ~ s for small s, and the
-/// influence of large residuals falls like 1 / r.
+/// Cauchy loss rho(s) = c^2 log(1 + s / c^2) of a squared residual s; rho(s) ~ s for small s, and
+/// the influence of large residuals falls like 1 / r.
 class CauchyLoss {
  public:
   /// `scale` c > 0 in units of the residual.
   explicit CauchyLoss(double scale) : squared_scale_(scale * scale) {}
 
-  [[nodiscard]] double Cost(double squared) const { return squared_scale_ * std::log1p(squared / squared_scale_); }
+  [[nodiscard]] double Cost(double squared) const {
+    return squared_scale_ * std::log1p(squared / squared_scale_);
+  }
   /// rho'(s), the weight of the residual in iteratively reweighted least squares: 1 at s = 0.
-  [[nodiscard]] double Weight(double squared) const { return squared_scale_ / (squared_scale_ + squared); }
+  [[nodiscard]] double Weight(double squared) const {
+    return squared_scale_ / (squared_scale_ + squared);
+  }
 
  private:
   double squared_scale_;

@@ -21,11 +21,12 @@ struct RansacOptions {
   double confidence = 0.9999;
   int min_trials = 1;  ///< drawn even when a good model turns up early
   int max_trials = 10000;
-  double min_inlier_share = 0.0;  ///< models with a smaller share are of no use and may go unnoticed
+  double min_inlier_share =
+      0.0;  ///< models with a smaller share are of no use and may go unnoticed
 };
 
-/// Truncated quadratic cost (MSAC): sum over all data of min(r^2, r_max^2). Torr and Zisserman, MLESAC,
-/// CVIU 2000.
+/// Truncated quadratic cost (MSAC): sum over all data of min(r^2, r_max^2). Torr and Zisserman,
+/// MLESAC, CVIU 2000.
 struct RansacScore {
   double cost = 0.0;
   uint32_t num_inliers = 0;
@@ -64,10 +65,10 @@ struct RansacResult {
   RansacReport report{};
 };
 
-/// RANSAC with local optimisation (Chum, Matas, Kittler, DAGM 2003): every model that beats the best so
-/// far is refined on its inliers. Trials are drawn until a sample free of outliers has been seen with
-/// probability options.confidence, given the share of inliers of the best model. Deterministic in
-/// context.seed. Cancelled when asked to stop, polled once a trial.
+/// RANSAC with local optimisation (Chum, Matas, Kittler, DAGM 2003): every model that beats the
+/// best so far is refined on its inliers. Trials are drawn until a sample free of outliers has been
+/// seen with probability options.confidence, given the share of inliers of the best model.
+/// Deterministic in context.seed. Cancelled when asked to stop, polled once a trial.
 template <RansacEstimator E>
 absl::StatusOr<RansacResult<typename E::Model>> Ransac(const E& estimator,
                                                        const RansacOptions& options,

@@ -20,6 +20,9 @@ void DrawSample(Random& random, uint32_t size, std::span<uint32_t> sample);
 
 /// Trials after which a sample of `sample_size` inliers was drawn with probability `confidence`:
 /// log(1 - confidence) / log(1 - share^sample_size), in [1, max_trials].
-[[nodiscard]] int RequiredTrials(double inlier_share, size_t sample_size, double confidence, int max_trials);
+[[nodiscard]] int RequiredTrials(double inlier_share,
+                                 size_t sample_size,
+                                 double confidence,
+                                 int max_trials);
 
 }  // namespace orbweave

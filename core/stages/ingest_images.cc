@@ -20,7 +20,9 @@ namespace {
 constexpr int kAspectTolerancePx = 1;
 constexpr double kUnknownAltitudeSigmaM = 100.0;
 constexpr double kFarthestFromMedianM = 1e6;
-constexpr double kOriginStepDeg = 1e-5;  ///< about a metre
+// Coarse, so that the frame does not move with the noise of the positions.
+constexpr double kOriginStepDeg = 1e-3;  ///< about 100 m
+constexpr double kOriginStepM = 10.0;
 constexpr size_t kNamesInWarning = 5;
 constexpr size_t kRowsInWarnings = 20;
 
@@ -163,6 +165,13 @@ absl::Status CheckNotSwapped(const std::vector<Candidate>& candidates,
       " rows agree with the images' own EXIF positions); exchange the two columns or their names"));
 }
 
+/// Whether the mask, scaled to the image's width, has its height within a pixel.
+bool HaveSameProportions(const SourceImage& source) {
+  const double height_px =
+      static_cast<double>(source.mask_height_px) * source.metadata.width_px / source.mask_width_px;
+  return std::abs(height_px - source.metadata.height_px) <= 1.0;
+}
+
 /// Size, mask and name of one image.
 ImageRecord RecordOf(const SourceImage& source, uint32_t index, ImageManifest& manifest) {
   ImageRecord record;
@@ -171,21 +180,20 @@ ImageRecord RecordOf(const SourceImage& source, uint32_t index, ImageManifest& m
   record.content = source.content;
   record.camera = {source.metadata.width_px, source.metadata.height_px};
   if (source.mask_path.empty()) return record;
-  const std::string mask_size = SizeText(source.mask_width_px, source.mask_height_px);
-  const std::string image_size = SizeText(record.camera.width_px, record.camera.height_px);
   if (source.mask_width_px == 0) {
     manifest.warnings.push_back(absl::StrCat(
         "the mask ", source.mask_path, " cannot be read; ", source.name, " is used without it"));
-  } else if (mask_size != image_size) {
-    manifest.warnings.push_back(absl::StrCat("the mask ",
-                                             source.mask_path,
-                                             " is ",
-                                             mask_size,
-                                             ", its image ",
-                                             image_size,
-                                             "; ",
-                                             source.name,
-                                             " is used without it"));
+  } else if (!HaveSameProportions(source)) {
+    manifest.warnings.push_back(
+        absl::StrCat("the mask ",
+                     source.mask_path,
+                     " is ",
+                     SizeText(source.mask_width_px, source.mask_height_px),
+                     ", its image ",
+                     SizeText(record.camera.width_px, record.camera.height_px),
+                     "; ",
+                     source.name,
+                     " is used without it"));
   } else {
     record.mask = source.mask;
   }
@@ -277,7 +285,7 @@ std::optional<GeodeticPosition> OriginOf(const std::vector<ImageRecord>& images)
   };
   return GeodeticPosition{rounded(Median(latitudes)),
                           rounded(WrappedDegrees(Median(longitudes) + reference_deg)),
-                          std::round(Median(altitudes))};
+                          std::round(Median(altitudes) / kOriginStepM) * kOriginStepM};
 }
 
 /// Fills position_in_enu; a position that is nowhere near the others is dropped with a warning.

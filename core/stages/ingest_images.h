@@ -37,8 +37,9 @@ struct IngestOptions {
 /// the rest in natural name order; joins GNSS rows by full name, else base name, else stem (where
 /// unique), else EXIF; puts the origin of the east-north-up frame at the rounded median position.
 /// Mixed sizes are allowed. Drives change with the table's drive column or a pause. GNSS rows
-/// without an image, images without a position, and masks of another size (then not used) become
-/// warnings. InvalidArgument: nothing is left (with the first reasons), or the table is wrong.
+/// without an image, images without a position, and masks of other proportions than their
+/// image (then not used) become warnings. InvalidArgument: nothing is left (with the first
+/// reasons), or the table is wrong.
 [[nodiscard]] absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
                                                          const IngestOptions& options,
                                                          const StageContext& context);

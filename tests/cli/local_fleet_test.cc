@@ -17,17 +17,17 @@
 
 #include "cli/exit_code.h"
 #include "cli/work_command.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command.h"
 #include "tests/support/toy_job.h"
-#include "tests/support/wait_until.h"
+#include "tests/support/wait_for_end.h"
 
 namespace orbweave {
 namespace {
 
 using testing::FindToyPlan;
 using testing::PrepareToyJob;
-using testing::ScratchFolder;
 using testing::Square;
+using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 
@@ -55,7 +55,7 @@ LocalFleetOptions FleetOptions(const std::string& state, uint32_t workers) {
 }
 
 TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
   ASSERT_TRUE(fleet.ok()) << fleet.status();
   const auto job = PrepareToyJob((*fleet)->coordinator(), "1 2 3 4 5 6 7 8", "toy.pause=true\n");
@@ -72,7 +72,7 @@ TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
 }
 
 TEST(LocalFleet, AWorkerKilledInTheMiddleOfATaskCostsNothingButTime) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   ::setenv("ORBWEAVE_TEST_MARKER", (folder / "killed").c_str(), 1);
   const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
   ASSERT_TRUE(fleet.ok()) << fleet.status();
@@ -88,7 +88,7 @@ TEST(LocalFleet, AWorkerKilledInTheMiddleOfATaskCostsNothingButTime) {
 }
 
 TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string numbers = "1 2 3 4 5 6";
   std::stop_source stop;
   {
@@ -113,7 +113,7 @@ TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
 }
 
 TEST(LocalFleet, WorksInAFolderWhosePathIsTooLongForASocket) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto fleet =
       LocalFleet::Start(FleetOptions(folder / (std::string(120, 'x') + "/state"), 1));
   ASSERT_TRUE(fleet.ok()) << fleet.status();
@@ -124,7 +124,7 @@ TEST(LocalFleet, WorksInAFolderWhosePathIsTooLongForASocket) {
 }
 
 TEST(LocalFleet, RefusesAStateFolderInUse) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto first = LocalFleet::Start(FleetOptions(folder / "state", 0));
   ASSERT_TRUE(first.ok());
   EXPECT_TRUE(

@@ -13,9 +13,9 @@
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
 #include "core/pipeline/build_version.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command.h"
 #include "tests/support/toy_job.h"
-#include "tests/support/wait_until.h"
+#include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
@@ -25,7 +25,7 @@ using ::testing::ElementsAre;
 using testing::FindToyPlan;
 using ::testing::HasSubstr;
 using testing::PrepareToyJob;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 using testing::WaitForEnd;
@@ -78,7 +78,7 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
     return Api().CompleteTask(session, lease, *result);
   }
 
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   SteadyClock clock_;
   testing::StageMap stages_ = ToyStages();
   std::unique_ptr<Coordinator> coordinator_;
@@ -292,17 +292,17 @@ INSTANTIATE_TEST_SUITE_P(Ways,
                          });
 
 TEST(GrpcServer, RefusesAnAddressThatOthersCanReach) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const SteadyClock clock;
-  const auto coordinator = Coordinator::Open({.state_dir = folder.path()}, clock);
+  const auto coordinator = Coordinator::Open({.state_dir = folder.Path()}, clock);
   ASSERT_TRUE(coordinator.ok());
   EXPECT_TRUE(absl::IsInvalidArgument(GrpcServer::Start(**coordinator, "0.0.0.0:0").status()));
 }
 
 TEST(GrpcServer, SaysSoWhenAPortIsTaken) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const SteadyClock clock;
-  const auto coordinator = Coordinator::Open({.state_dir = folder.path()}, clock);
+  const auto coordinator = Coordinator::Open({.state_dir = folder.Path()}, clock);
   ASSERT_TRUE(coordinator.ok());
   const auto first = GrpcServer::Start(**coordinator, "127.0.0.1:0");
   ASSERT_TRUE(first.ok());
@@ -310,7 +310,7 @@ TEST(GrpcServer, SaysSoWhenAPortIsTaken) {
 }
 
 TEST(GrpcCoordinatorClient, IsUnavailableWhileNobodyListens) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   GrpcCoordinatorClient client("unix:" + (folder / "nobody"));
   EXPECT_TRUE(absl::IsUnavailable(client.ListJobs().status()));
   EXPECT_TRUE(absl::IsUnavailable(client.Put("bytes").status()));

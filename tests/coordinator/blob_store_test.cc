@@ -9,24 +9,24 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command.h"
 
 namespace orbweave {
 namespace {
 
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 void Overwrite(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-std::string PathOf(const ScratchFolder& folder, const Digest& digest) {
+std::string PathOf(const TemporaryFolder& folder, const Digest& digest) {
   return folder / (digest.ToHex().substr(0, 2) + "/" + digest.ToHex());
 }
 
 TEST(BlobStore, GivesBackWhatWasPut) {
-  const ScratchFolder folder;
-  auto store = BlobStore::Open(folder.path());
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
   ASSERT_TRUE(store.ok());
   for (const std::string& bytes :
        {std::string("text"), std::string(), std::string(3'000'000, '\0')}) {
@@ -40,16 +40,16 @@ TEST(BlobStore, GivesBackWhatWasPut) {
 }
 
 TEST(BlobStore, SaysSoWhenABlobIsNotThere) {
-  const ScratchFolder folder;
-  auto store = BlobStore::Open(folder.path());
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
   ASSERT_TRUE(store.ok());
   EXPECT_TRUE(absl::IsNotFound(store->Get(DigestOf("nothing")).status()));
   EXPECT_FALSE(store->Has(DigestOf("nothing")));
 }
 
 TEST(BlobStore, NoticesDamageAndTakesTheBlobAgain) {
-  const ScratchFolder folder;
-  auto store = BlobStore::Open(folder.path());
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
   ASSERT_TRUE(store.ok());
   const Digest digest = *store->Put("precious");
   Overwrite(PathOf(folder, digest), "presious");
@@ -60,8 +60,8 @@ TEST(BlobStore, NoticesDamageAndTakesTheBlobAgain) {
 }
 
 TEST(BlobStore, VerifyNoticesATornFile) {
-  const ScratchFolder folder;
-  auto store = BlobStore::Open(folder.path());
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
   ASSERT_TRUE(store.ok());
   const Digest digest = *store->Put("precious");
   std::filesystem::resize_file(PathOf(folder, digest), 3);
@@ -71,7 +71,7 @@ TEST(BlobStore, VerifyNoticesATornFile) {
 }
 
 TEST(BlobStore, ReadsALinkedFileAndNoticesWhenItChanged) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = BlobStore::Open(folder / "blobs");
   ASSERT_TRUE(store.ok());
   const std::string image = folder / "image.jpg";
@@ -84,7 +84,7 @@ TEST(BlobStore, ReadsALinkedFileAndNoticesWhenItChanged) {
 }
 
 TEST(BlobStore, RefusesToLinkWhatIsNotTheFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = BlobStore::Open(folder / "blobs");
   ASSERT_TRUE(store.ok());
   Overwrite(folder / "image.jpg", "pixels");
@@ -94,10 +94,10 @@ TEST(BlobStore, RefusesToLinkWhatIsNotTheFile) {
 }
 
 TEST(BlobStore, LeavesNoScratchFilesBehind) {
-  const ScratchFolder folder;
-  ASSERT_TRUE(BlobStore::Open(folder.path()).ok());
+  const TemporaryFolder folder;
+  ASSERT_TRUE(BlobStore::Open(folder.Path()).ok());
   Overwrite(folder / "tmp/123.0", "half a blob of a process that was killed");
-  auto store = BlobStore::Open(folder.path());
+  auto store = BlobStore::Open(folder.Path());
   ASSERT_TRUE(store.ok());
   ASSERT_TRUE(store->Put("text").ok());
   EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));

@@ -11,9 +11,9 @@
 #include <fstream>
 
 #include "core/pipeline/build_version.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command.h"
 #include "tests/support/toy_job.h"
-#include "tests/support/wait_until.h"
+#include "tests/support/wait_for_end.h"
 
 namespace orbweave {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 using testing::FindToyPlan;
 using ::testing::HasSubstr;
 using testing::PrepareToyJob;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 using testing::WaitForEnd;
@@ -93,7 +93,7 @@ class CoordinatorTest : public ::testing::Test {
     return folder_ / ("state/blobs/" + digest.ToHex().substr(0, 2) + "/" + digest.ToHex());
   }
 
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   ManualClock clock_;
   testing::StageMap stages_ = ToyStages();
   std::unique_ptr<Coordinator> coordinator_;
@@ -260,7 +260,8 @@ TEST_F(CoordinatorTest, ServesTheOldestJobFirst) {
   const Digest older = Submit("1");
   Submit("2");
   const uint64_t session = Join("w");
-  ASSERT_TRUE(WaitUntil([&] { return coordinator_->GetJob(older)->stages[0].tasks_total == 1; }));
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator_->GetJob(older)->stages[0].tasks_total == 1; }, 20.0));
   const Lease lease = MustLease(session);
   EXPECT_THAT(lease.spec.inputs, ::testing::ElementsAre(DigestOf("1")));
 }

@@ -7,26 +7,26 @@
 
 #include <filesystem>
 
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command.h"
 
 namespace orbweave {
 namespace {
 
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 TEST(Journal, RemembersResultsAcrossGenerations) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Digest task = DigestOf("task");
   const TaskResult result{
       .outputs = {DigestOf("o")}, .recipes = {DigestOf("r")}, .report_json = "{}", .cpu_s = 1.5};
   {
-    auto journal = Journal::Open(folder.path());
+    auto journal = Journal::Open(folder.Path());
     ASSERT_TRUE(journal.ok());
     EXPECT_EQ(journal->generation(), 1U);
     EXPECT_TRUE(absl::IsNotFound(journal->LoadResult(task).status()));
     ASSERT_TRUE(journal->SaveResult(task, result).ok());
   }
-  auto journal = Journal::Open(folder.path());
+  auto journal = Journal::Open(folder.Path());
   ASSERT_TRUE(journal.ok());
   EXPECT_EQ(journal->generation(), 2U);
   const auto loaded = journal->LoadResult(task);
@@ -38,8 +38,8 @@ TEST(Journal, RemembersResultsAcrossGenerations) {
 }
 
 TEST(Journal, NoticesATornResult) {
-  const ScratchFolder folder;
-  auto journal = Journal::Open(folder.path());
+  const TemporaryFolder folder;
+  auto journal = Journal::Open(folder.Path());
   ASSERT_TRUE(journal.ok());
   const Digest task = DigestOf("task");
   ASSERT_TRUE(journal->SaveResult(task, {.outputs = {DigestOf("o")}}).ok());
@@ -49,8 +49,8 @@ TEST(Journal, NoticesATornResult) {
 }
 
 TEST(Journal, ListsJobsAsTheyWereSubmitted) {
-  const ScratchFolder folder;
-  auto journal = Journal::Open(folder.path());
+  const TemporaryFolder folder;
+  auto journal = Journal::Open(folder.Path());
   ASSERT_TRUE(journal.ok());
   for (uint64_t number = 5; number > 0; --number) {
     ASSERT_TRUE(

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/// The law of the sphere: turn a camera and its bearings, and every answer turns with them. Nothing may
-/// prefer the seam, the poles or the front. Each suite applies the law to one function over random turns.
+/// The law of the sphere: turn a camera and its bearings, and every answer turns with them. Nothing
+/// may prefer the seam, the poles or the front. Each suite applies the law to one function over
+/// random turns.
 
 #include <gtest/gtest.h>
 
@@ -49,12 +50,16 @@ std::vector<Vector3d> Turned(const Quaterniond& turn, std::vector<Vector3d> bear
 
 /// Whether every essential matrix of `after` is turn_b E turn_a^T of one in `before`, up to sign.
 template <typename Matrices>
-void ExpectTurned(const Matrices& before, const Matrices& after, const Quaterniond& turn_a, const Quaterniond& turn_b) {
+void ExpectTurned(const Matrices& before,
+                  const Matrices& after,
+                  const Quaterniond& turn_a,
+                  const Quaterniond& turn_b) {
   ASSERT_EQ(before.size(), after.size());
   for (const Matrix3d& E : after) {
     double least = 10.0;
     for (const Matrix3d& original : before) {
-      const Matrix3d expected = turn_b.toRotationMatrix() * original * turn_a.toRotationMatrix().transpose();
+      const Matrix3d expected =
+          turn_b.toRotationMatrix() * original * turn_a.toRotationMatrix().transpose();
       least = std::min({least, (E - expected).norm(), (E + expected).norm()});
     }
     EXPECT_LT(least, 1e-5);
@@ -80,7 +85,9 @@ TEST_P(RotationEquivariance, OfFivePoint) {
   const auto world = MakeTwoViewWorld(GetParam(), 5);
   const auto a = Turned(turn_a_, world.bearings_a);
   const auto b = Turned(turn_b_, world.bearings_b);
-  const auto first_five = [](const std::vector<Vector3d>& v) { return std::span<const Vector3d, 5>(v.data(), 5); };
+  const auto first_five = [](const std::vector<Vector3d>& v) {
+    return std::span<const Vector3d, 5>(v.data(), 5);
+  };
   ExpectTurned(SolveFivePoint(first_five(world.bearings_a), first_five(world.bearings_b)),
                SolveFivePoint(first_five(a), first_five(b)),
                turn_a_,
@@ -90,7 +97,8 @@ TEST_P(RotationEquivariance, OfFivePoint) {
 TEST_P(RotationEquivariance, OfEightPoint) {
   const auto world = MakeTwoViewWorld(GetParam(), 20, 0.0, 1e-3);
   const auto before = SolveEightPoint(world.bearings_a, world.bearings_b);
-  const auto after = SolveEightPoint(Turned(turn_a_, world.bearings_a), Turned(turn_b_, world.bearings_b));
+  const auto after =
+      SolveEightPoint(Turned(turn_a_, world.bearings_a), Turned(turn_b_, world.bearings_b));
   ASSERT_TRUE(before && after);
   ExpectTurned(std::vector{*before}, std::vector{*after}, turn_a_, turn_b_);
 }
@@ -120,7 +128,8 @@ TEST_P(RotationEquivariance, OfRayMaps) {
   const auto before = FitRayRotation(world.bearings_a, world.bearings_b);
   const auto after = FitRayRotation(a, b);
   ASSERT_TRUE(before && after);
-  const Matrix3d expected = turn_b_.toRotationMatrix() * *before * turn_a_.toRotationMatrix().transpose();
+  const Matrix3d expected =
+      turn_b_.toRotationMatrix() * *before * turn_a_.toRotationMatrix().transpose();
   EXPECT_LT((*after - expected).norm(), 1e-9);
 }
 
@@ -147,12 +156,15 @@ TEST_P(RotationEquivariance, OfTriangulationInATurnedWorld) {
 
 TEST_P(RotationEquivariance, OfAbsolutePose) {
   const auto world = MakeResectionWorld(GetParam(), 100, 0.3, 1e-3);
-  const auto before = EstimateAbsolutePose(world.bearings, world.points_in_world, kMaxErrorRad, {}, {});
-  const auto after =
-      EstimateAbsolutePose(Turned(turn_a_, world.bearings), world.points_in_world, kMaxErrorRad, {}, {});
+  const auto before =
+      EstimateAbsolutePose(world.bearings, world.points_in_world, kMaxErrorRad, {}, {});
+  const auto after = EstimateAbsolutePose(
+      Turned(turn_a_, world.bearings), world.points_in_world, kMaxErrorRad, {}, {});
   ASSERT_TRUE(before.ok() && after.ok() && *before && *after);
   EXPECT_EQ((*before)->is_inlier, (*after)->is_inlier);
-  EXPECT_LT(RotationError((*after)->cam_from_world.rotation, turn_a_ * (*before)->cam_from_world.rotation), 1e-5);
+  EXPECT_LT(RotationError((*after)->cam_from_world.rotation,
+                          turn_a_ * (*before)->cam_from_world.rotation),
+            1e-5);
   EXPECT_LT(((*after)->cam_from_world.Centre() - (*before)->cam_from_world.Centre()).norm(), 1e-4);
 }
 
@@ -161,7 +173,8 @@ TEST_P(RotationEquivariance, OfTwoViewGeometry) {
   std::vector<FeatureMatch> matches;
   for (uint32_t i = 0; i < 150; ++i) matches.push_back({i, i});
   const ImagePair pair = {ImageId(0), ImageId(1)};
-  const auto before = EstimateTwoView(pair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, {}, {});
+  const auto before =
+      EstimateTwoView(pair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, {}, {});
   const auto after = EstimateTwoView(pair,
                                      Turned(turn_a_, world.bearings_a),
                                      Turned(turn_b_, world.bearings_b),
@@ -172,8 +185,11 @@ TEST_P(RotationEquivariance, OfTwoViewGeometry) {
   ASSERT_TRUE(before.ok() && after.ok());
   EXPECT_EQ(before->kind, after->kind);
   EXPECT_EQ(before->inliers, after->inliers);
-  EXPECT_LT(RotationError(after->b_from_a.rotation, turn_b_ * before->b_from_a.rotation * turn_a_.conjugate()), 1e-4);
-  EXPECT_LT(AngleBetween(after->b_from_a.translation, turn_b_ * before->b_from_a.translation), 1e-4);
+  EXPECT_LT(RotationError(after->b_from_a.rotation,
+                          turn_b_ * before->b_from_a.rotation * turn_a_.conjugate()),
+            1e-4);
+  EXPECT_LT(AngleBetween(after->b_from_a.translation, turn_b_ * before->b_from_a.translation),
+            1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, RotationEquivariance, ::testing::Range(uint64_t{0}, uint64_t{20}));

@@ -46,7 +46,8 @@ inline Eigen::Vector3d WithNoise(Random& random, const Eigen::Vector3d& bearing,
 }
 
 /// Unit bearing at which a camera sees a point.
-inline Eigen::Vector3d BearingOf(const Rigid3& cam_from_world, const Eigen::Vector3d& point_in_world) {
+inline Eigen::Vector3d BearingOf(const Rigid3& cam_from_world,
+                                 const Eigen::Vector3d& point_in_world) {
   return (cam_from_world * point_in_world).normalized();
 }
 
@@ -65,7 +66,10 @@ struct TwoViewWorld {
   size_t num_outliers = 0;
 };
 
-inline TwoViewWorld MakeTwoViewWorld(uint64_t seed, size_t count, double outlier_share = 0.0, double sigma_rad = 0.0) {
+inline TwoViewWorld MakeTwoViewWorld(uint64_t seed,
+                                     size_t count,
+                                     double outlier_share = 0.0,
+                                     double sigma_rad = 0.0) {
   Random random(seed);
   TwoViewWorld world;
   world.b_from_a = {RandomRotation(random), RandomDirection(random)};
@@ -75,7 +79,8 @@ inline TwoViewWorld MakeTwoViewWorld(uint64_t seed, size_t count, double outlier
     world.points_in_a.push_back(X);
     world.bearings_a.push_back(WithNoise(random, X.normalized(), sigma_rad));
     const Eigen::Vector3d seen = BearingOf(world.b_from_a, X);
-    world.bearings_b.push_back(i < world.num_outliers ? RandomDirection(random) : WithNoise(random, seen, sigma_rad));
+    world.bearings_b.push_back(i < world.num_outliers ? RandomDirection(random)
+                                                      : WithNoise(random, seen, sigma_rad));
   }
   return world;
 }
@@ -102,7 +107,8 @@ inline ResectionWorld MakeResectionWorld(uint64_t seed,
     const Eigen::Vector3d P = centre + RandomPoint(random, 2.0, 30.0);
     world.points_in_world.push_back(P);
     const Eigen::Vector3d seen = BearingOf(world.cam_from_world, P);
-    world.bearings.push_back(i < world.num_outliers ? RandomDirection(random) : WithNoise(random, seen, sigma_rad));
+    world.bearings.push_back(i < world.num_outliers ? RandomDirection(random)
+                                                    : WithNoise(random, seen, sigma_rad));
   }
   return world;
 }
@@ -121,8 +127,8 @@ inline TrackWorld MakeTrackWorld(uint64_t seed, size_t count, double sigma_rad =
   for (size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d centre = world.point_in_world + RandomPoint(random, 3.0, 12.0);
     world.cams_from_world.push_back(Rigid3::FromCentre(RandomRotation(random), centre));
-    world.bearings.push_back(
-        WithNoise(random, BearingOf(world.cams_from_world.back(), world.point_in_world), sigma_rad));
+    world.bearings.push_back(WithNoise(
+        random, BearingOf(world.cams_from_world.back(), world.point_in_world), sigma_rad));
   }
   return world;
 }

@@ -13,9 +13,9 @@
 
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command.h"
 #include "tests/support/toy_job.h"
-#include "tests/support/wait_until.h"
+#include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
@@ -24,7 +24,7 @@ namespace {
 using testing::FindToyPlan;
 using testing::LookupIn;
 using testing::PrepareToyJob;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 using testing::WaitForEnd;
@@ -54,7 +54,7 @@ class RunningWorker {
       end_ = RunWorker(api, LookupIn(stages_), options_, clock_, stop_.get_token());
     });
   }
-  ~RunningWorker() { Stop(); }
+  ~RunningWorker() { (void)Stop(); }
   RunningWorker(const RunningWorker&) = delete;
   RunningWorker& operator=(const RunningWorker&) = delete;
 
@@ -86,12 +86,12 @@ class WorkerLoopTest : public ::testing::Test {
     return *api.SubmitJob(*PrepareToyJob(api, numbers, options_text));
   }
 
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   SteadyClock clock_;
 };
 
 TEST_F(WorkerLoopTest, DoesAJobWithSeveralWorkersAndSlots) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
   RunningWorker one(*coordinator, ToyStages(), "one");
   RunningWorker two(*coordinator, ToyStages(), "two", 3);
   const Digest job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10");
@@ -99,17 +99,17 @@ TEST_F(WorkerLoopTest, DoesAJobWithSeveralWorkersAndSlots) {
   EXPECT_EQ(*ToyAnswer(*coordinator, job), "385");
   EXPECT_TRUE(one.Stop().ok());
   EXPECT_TRUE(two.Stop().ok());
-  for (const WorkerStatus& worker : coordinator->GetJob(job)->workers)
-    EXPECT_FALSE(worker.alive) << worker.name;
+  const auto status = coordinator->GetJob(job);
+  for (const WorkerStatus& worker : status->workers) EXPECT_FALSE(worker.alive) << worker.name;
 }
 
 TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
   const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
   const auto is_squaring = [&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; };
   {
     RunningWorker leaver(*coordinator, ToyStages(), "leaver");
-    ASSERT_TRUE(WaitUntil(is_squaring));
+    ASSERT_TRUE(WaitUntil(is_squaring, 20.0));
     EXPECT_TRUE(leaver.Stop().ok());
   }
   const auto status = coordinator->GetJob(job);
@@ -117,21 +117,22 @@ TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
   EXPECT_EQ(status->stages[1].tasks_running, 0U);
   EXPECT_EQ(status->stages[1].retries, 0U);
   RunningWorker next(*coordinator, ToyStages(), "next");
-  EXPECT_TRUE(WaitUntil(is_squaring));
+  EXPECT_TRUE(WaitUntil(is_squaring, 20.0));
 }
 
 TEST_F(WorkerLoopTest, StopsATaskOfACancelledJobAndTakesTheNext) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_, 2.0);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_, 2.0);
   RunningWorker worker(*coordinator, ToyStages(), "w");
   const Digest slow = Submit(*coordinator, "1", "toy.slow=true\n");
-  ASSERT_TRUE(WaitUntil([&] { return coordinator->GetJob(slow)->stages[1].tasks_running == 1; }));
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(slow)->stages[1].tasks_running == 1; }, 20.0));
   ASSERT_TRUE(coordinator->CancelJob(slow).ok());
   const Digest quick = Submit(*coordinator, "2");
   EXPECT_EQ(WaitForEnd(*coordinator, quick)->state, JobState::kDone);
 }
 
 TEST_F(WorkerLoopTest, RetriesWhatFailedForAWhile) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
   std::atomic<int> attempts{0};
   testing::StageMap stages = ToyStages();
   stages["split"] = [&attempts](
@@ -146,7 +147,7 @@ TEST_F(WorkerLoopTest, RetriesWhatFailedForAWhile) {
 }
 
 TEST_F(WorkerLoopTest, ReportsAPermanentErrorOnce) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
   std::atomic<int> attempts{0};
   testing::StageMap stages = ToyStages();
   stages["split"] =
@@ -162,15 +163,15 @@ TEST_F(WorkerLoopTest, ReportsAPermanentErrorOnce) {
 }
 
 TEST_F(WorkerLoopTest, ReportsProgressWithItsHeartbeats) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_, 2.0);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_, 2.0);
   RunningWorker worker(*coordinator, ToyStages(), "w");
   const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
   EXPECT_TRUE(
-      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].fraction_running == 0.5; }));
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].fraction_running == 0.5; }, 20.0));
 }
 
 TEST_F(WorkerLoopTest, LeavesWhenTheCoordinatorShutsDown) {
-  const auto coordinator = OpenCoordinator(folder_.path(), clock_, 2.0);
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_, 2.0);
   RunningWorker worker(*coordinator, ToyStages(), "w");
   const Digest job = Submit(*coordinator, "1");
   EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);

@@ -19,7 +19,8 @@ constexpr double kSigmaRad = 1e-3;
 constexpr double kMaxErrorRad = 4.7e-3;  // 4 px of a panorama 5376 px wide
 
 std::optional<AbsolutePose> Estimate(const ResectionWorld& world, uint64_t seed = 1) {
-  const auto pose = EstimateAbsolutePose(world.bearings, world.points_in_world, kMaxErrorRad, {}, {.seed = seed});
+  const auto pose =
+      EstimateAbsolutePose(world.bearings, world.points_in_world, kMaxErrorRad, {}, {.seed = seed});
   EXPECT_TRUE(pose.ok()) << pose.status();
   return *pose;
 }
@@ -42,7 +43,8 @@ TEST_P(EstimateAbsolutePoseWithOutliers, IsRightForEverySeed) {
     const ResectionWorld world = MakeResectionWorld(seed, 300, GetParam(), kSigmaRad);
     const auto pose = Estimate(world);
     ASSERT_TRUE(pose.has_value());
-    EXPECT_LT(RotationError(pose->cam_from_world.rotation, world.cam_from_world.rotation), 1e-3) << seed;
+    EXPECT_LT(RotationError(pose->cam_from_world.rotation, world.cam_from_world.rotation), 1e-3)
+        << seed;
     EXPECT_LT((pose->cam_from_world.Centre() - world.cam_from_world.Centre()).norm(), 2e-2) << seed;
     const auto num_right = static_cast<double>(300 - world.num_outliers);
     EXPECT_GT(pose->num_inliers, 0.98 * num_right) << seed;
@@ -50,7 +52,9 @@ TEST_P(EstimateAbsolutePoseWithOutliers, IsRightForEverySeed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, EstimateAbsolutePoseWithOutliers, ::testing::Values(0.3, 0.5, 0.7));
+INSTANTIATE_TEST_SUITE_P(Shares,
+                         EstimateAbsolutePoseWithOutliers,
+                         ::testing::Values(0.3, 0.5, 0.7));
 
 TEST(EstimateAbsolutePose, IsDeterministic) {
   const ResectionWorld world = MakeResectionWorld(3, 200, 0.5, kSigmaRad);
@@ -99,8 +103,11 @@ TEST(EstimateAbsolutePose, StopsOnRequest) {
   std::stop_source source;
   source.request_stop();
   const ResectionWorld world = MakeResectionWorld(1, 50);
-  const auto pose = EstimateAbsolutePose(
-      world.bearings, world.points_in_world, kMaxErrorRad, {}, {.stop = source.get_token(), .seed = 1});
+  const auto pose = EstimateAbsolutePose(world.bearings,
+                                         world.points_in_world,
+                                         kMaxErrorRad,
+                                         {},
+                                         {.stop = source.get_token(), .seed = 1});
   EXPECT_EQ(pose.status().code(), absl::StatusCode::kCancelled);
 }
 
@@ -109,7 +116,8 @@ TEST(RefineAbsolutePose, PullsADisturbedPoseBack) {
   Rigid3 start = world.cam_from_world;
   start.rotation = RotationFromVector({0.02, -0.03, 0.01}) * start.rotation;
   start.translation += Vector3d(0.1, -0.2, 0.1);
-  const Rigid3 refined = RefineAbsolutePose(start, world.bearings, world.points_in_world, {}, kMaxErrorRad);
+  const Rigid3 refined =
+      RefineAbsolutePose(start, world.bearings, world.points_in_world, {}, kMaxErrorRad);
   EXPECT_LT(RotationError(refined.rotation, world.cam_from_world.rotation), 1e-6);
   EXPECT_LT((refined.Centre() - world.cam_from_world.Centre()).norm(), 1e-5);
 }
@@ -120,7 +128,8 @@ TEST(RefineAbsolutePose, UsesOnlyTheInliers) {
   std::fill_n(is_inlier.begin(), world.num_outliers, 0);
   Rigid3 start = world.cam_from_world;
   start.translation += Vector3d(0.05, -0.05, 0.05);
-  const Rigid3 refined = RefineAbsolutePose(start, world.bearings, world.points_in_world, is_inlier, kMaxErrorRad);
+  const Rigid3 refined =
+      RefineAbsolutePose(start, world.bearings, world.points_in_world, is_inlier, kMaxErrorRad);
   EXPECT_LT((refined.Centre() - world.cam_from_world.Centre()).norm(), 1e-5);
 }
 

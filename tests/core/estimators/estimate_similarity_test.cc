@@ -24,15 +24,20 @@ struct PairedPoints {
   size_t num_outliers = 0;
 };
 
-PairedPoints MakePairs(uint64_t seed, size_t count, double outlier_share = 0.0, double sigma = 0.0) {
+PairedPoints MakePairs(uint64_t seed,
+                       size_t count,
+                       double outlier_share = 0.0,
+                       double sigma = 0.0) {
   Random random(seed);
   PairedPoints pairs;
-  pairs.b_from_a = {std::exp(random.Uniform(-2.0, 2.0)), RandomRotation(random), RandomPoint(random, 0.0, 50.0)};
+  pairs.b_from_a = {
+      std::exp(random.Uniform(-2.0, 2.0)), RandomRotation(random), RandomPoint(random, 0.0, 50.0)};
   pairs.num_outliers = static_cast<size_t>(outlier_share * static_cast<double>(count));
   for (size_t i = 0; i < count; ++i) {
     pairs.a.push_back(RandomPoint(random, 0.0, 20.0));
     const Vector3d noise = sigma * Vector3d(random.Normal(), random.Normal(), random.Normal());
-    pairs.b.push_back(i < pairs.num_outliers ? RandomPoint(random, 0.0, 60.0) : pairs.b_from_a * pairs.a[i] + noise);
+    pairs.b.push_back(i < pairs.num_outliers ? RandomPoint(random, 0.0, 60.0)
+                                             : pairs.b_from_a * pairs.a[i] + noise);
   }
   return pairs;
 }
@@ -54,7 +59,8 @@ TEST(FitSimilarity, IsExactOnCleanPairs) {
 
 TEST(FitSimilarity, NeverReflects) {
   PairedPoints pairs = MakePairs(1, 10);
-  for (size_t i = 0; i < pairs.a.size(); ++i) pairs.b[i] = Vector3d(pairs.a[i].x(), pairs.a[i].y(), -pairs.a[i].z());
+  for (size_t i = 0; i < pairs.a.size(); ++i)
+    pairs.b[i] = Vector3d(pairs.a[i].x(), pairs.a[i].y(), -pairs.a[i].z());
   const auto found = FitSimilarity(pairs.a, pairs.b, {});
   ASSERT_TRUE(found.has_value());
   EXPECT_NEAR(found->rotation.toRotationMatrix().determinant(), 1.0, 1e-9);
@@ -89,7 +95,8 @@ TEST(FitSimilarity, RefusesTooFewEqualAndCollinearPoints) {
 TEST(FitSimilarity, AcceptsALongNarrowStreet) {
   PairedPoints pairs = MakePairs(4, 50);
   for (size_t i = 0; i < pairs.a.size(); ++i) {
-    pairs.a[i] = Vector3d(20.0 * static_cast<double>(i), 0.5 * pairs.a[i].y(), 0.1 * pairs.a[i].z());
+    pairs.a[i] =
+        Vector3d(20.0 * static_cast<double>(i), 0.5 * pairs.a[i].y(), 0.1 * pairs.a[i].z());
     pairs.b[i] = pairs.b_from_a * pairs.a[i];
   }
   const auto found = FitSimilarity(pairs.a, pairs.b, {});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 
 #include "tests/support/random_world.h"
 
@@ -34,8 +35,8 @@ std::vector<FeatureMatch> MatchesInOrder(size_t count) {
 
 TwoViewGeometry Estimate(const TwoViewWorld& world, const TwoViewOptions& options = {}) {
   const auto matches = MatchesInOrder(world.bearings_a.size());
-  const auto geometry =
-      EstimateTwoView(kPair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, options, {.seed = 1});
+  const auto geometry = EstimateTwoView(
+      kPair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, options, {.seed = 1});
   EXPECT_TRUE(geometry.ok()) << geometry.status();
   return *geometry;
 }
@@ -45,18 +46,22 @@ double DirectionError(const TwoViewGeometry& geometry, const TwoViewWorld& world
 }
 
 /// Image b sees the points from the same centre, turned.
-TwoViewWorld MakePureRotationWorld(uint64_t seed, size_t count, double outlier_share, double sigma_rad) {
+TwoViewWorld MakePureRotationWorld(uint64_t seed,
+                                   size_t count,
+                                   double outlier_share,
+                                   double sigma_rad) {
   TwoViewWorld world = MakeTwoViewWorld(seed, count, outlier_share, sigma_rad);
   Random random(seed + 1000);
   world.b_from_a.translation.setZero();
   for (size_t i = world.num_outliers; i < count; ++i) {
-    world.bearings_b[i] = WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), sigma_rad);
+    world.bearings_b[i] =
+        WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), sigma_rad);
   }
   return world;
 }
 
-/// Points on a facade 3 baselines away, the first `num_off_plane` before and behind it. From a plane alone
-/// two poses fit equally well; the few others decide.
+/// Points on a facade 3 baselines away, the first `num_off_plane` before and behind it. From a
+/// plane alone two poses fit equally well; the few others decide.
 TwoViewWorld MakePlanarWorld(uint64_t seed, size_t count, size_t num_off_plane, double sigma_rad) {
   Random random(seed);
   TwoViewWorld world;
@@ -91,6 +96,10 @@ struct Case {
   double outlier_share;
 };
 
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << internal::ValueToText(c.solver) << " with " << 100.0 * c.outlier_share << " % outliers";
+}
+
 class EstimateTwoViewWithOutliers : public ::testing::TestWithParam<Case> {};
 
 TEST_P(EstimateTwoViewWithOutliers, IsRightForEverySeed) {
@@ -120,11 +129,14 @@ TEST(EstimateTwoView, UprightSolverNeedsFewTrialsAndBearsATilt) {
     TwoViewWorld world = MakeTwoViewWorld(seed, 300, 0.7, kSigmaRad);
     const Eigen::Quaterniond tilt = RotationFromVector(0.003 * RandomDirection(random));
     const double heading_rad = random.Uniform(-3.2, 3.2);
-    world.b_from_a.rotation = tilt * Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Vector3d::UnitY()));
+    world.b_from_a.rotation =
+        tilt * Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Vector3d::UnitY()));
     for (size_t i = world.num_outliers; i < 300; ++i) {
-      world.bearings_b[i] = WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), kSigmaRad);
+      world.bearings_b[i] =
+          WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), kSigmaRad);
     }
-    const TwoViewGeometry geometry = Estimate(world, {.solver = TwoViewSolver::kUprightThreePoint, .max_trials = 400});
+    const TwoViewGeometry geometry =
+        Estimate(world, {.solver = TwoViewSolver::kUprightThreePoint, .max_trials = 400});
     EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 2e-3) << seed;
     EXPECT_LT(DirectionError(geometry, world), 1e-2) << seed;
   }
@@ -141,7 +153,9 @@ TEST(EstimateTwoView, CommutesWithRotationsOfEitherCamera) {
   for (Vector3d& bearing : turned.bearings_b) bearing = turn_b * bearing;
   const TwoViewGeometry after = Estimate(turned);
   EXPECT_EQ(after.inliers, before.inliers);
-  EXPECT_LT(RotationError(after.b_from_a.rotation, turn_b * before.b_from_a.rotation * turn_a.conjugate()), 1e-4);
+  EXPECT_LT(RotationError(after.b_from_a.rotation,
+                          turn_b * before.b_from_a.rotation * turn_a.conjugate()),
+            1e-4);
   EXPECT_LT(AngleBetween(after.b_from_a.translation, turn_b * before.b_from_a.translation), 1e-4);
   EXPECT_NEAR(after.median_angle_rad, before.median_angle_rad, 1e-4);
 }
@@ -192,8 +206,8 @@ TEST(EstimateTwoView, ReportsParallaxSpreadAndSortedInliers) {
   const TwoViewWorld world = MakeTwoViewWorld(2, 500, 0.2, kSigmaRad);
   auto matches = MatchesInOrder(500);
   std::reverse(matches.begin(), matches.end());
-  const auto geometry =
-      EstimateTwoView(kPair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, {}, {.seed = 1});
+  const auto geometry = EstimateTwoView(
+      kPair, world.bearings_a, world.bearings_b, matches, kMaxErrorRad, {}, {.seed = 1});
   ASSERT_TRUE(geometry.ok());
   EXPECT_EQ(geometry->pair, kPair);
   EXPECT_TRUE(std::is_sorted(geometry->inliers.begin(), geometry->inliers.end()));
@@ -213,7 +227,8 @@ TEST(EstimateTwoView, HasNoAnswerWithoutSupport) {
   EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 1.0)).kind, TwoViewKind::kNone);
   EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 14)).kind, TwoViewKind::kNone);
   EXPECT_EQ(Estimate({}).kind, TwoViewKind::kNone);
-  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 0.6), {.min_inlier_share = 0.5}).kind, TwoViewKind::kNone);
+  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 0.6), {.min_inlier_share = 0.5}).kind,
+            TwoViewKind::kNone);
   EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 1.0)).num_putative, 100U);
 }
 

@@ -29,7 +29,8 @@ TEST(ExplainByRotation, HoldsForATurnedPanorama) {
     TwoViewWorld world = MakeTwoViewWorld(seed, 200);
     Random random(seed);
     for (size_t i = 10; i < 200; ++i) {
-      world.bearings_b[i] = WithNoise(random, world.b_from_a.rotation * world.bearings_a[i], kSigmaRad);
+      world.bearings_b[i] =
+          WithNoise(random, world.b_from_a.rotation * world.bearings_a[i], kSigmaRad);
     }
     const auto map = ExplainByRotation(Arrange(world), kMaxErrorRad, 0.9, {.seed = seed});
     ASSERT_TRUE(map.ok());
@@ -39,7 +40,8 @@ TEST(ExplainByRotation, HoldsForATurnedPanorama) {
 }
 
 TEST(ExplainByRotation, FailsForAMovedPanorama) {
-  const auto map = ExplainByRotation(Arrange(MakeTwoViewWorld(1, 200)), kMaxErrorRad, 0.9, {.seed = 1});
+  const auto map =
+      ExplainByRotation(Arrange(MakeTwoViewWorld(1, 200)), kMaxErrorRad, 0.9, {.seed = 1});
   ASSERT_TRUE(map.ok());
   EXPECT_LT(map->inliers.size(), 40U);
 }
@@ -54,7 +56,8 @@ TEST(ExplainByHomography, HoldsForAPlaneAndFailsForAScene) {
     for (size_t i = 0; i < 200; ++i) {
       const Vector3d X(2.0 * world.points_in_a[i].x(), 2.0 * world.points_in_a[i].y(), 4.0);
       world.bearings_a[i] = WithNoise(random, X.normalized(), 0.3 * kSigmaRad);
-      world.bearings_b[i] = WithNoise(random, testing::BearingOf(world.b_from_a, X), 0.3 * kSigmaRad);
+      world.bearings_b[i] =
+          WithNoise(random, testing::BearingOf(world.b_from_a, X), 0.3 * kSigmaRad);
     }
     const auto plane = ExplainByHomography(Arrange(world), kMaxErrorRad, 0.9, {.seed = seed});
     ASSERT_TRUE(plane.ok());

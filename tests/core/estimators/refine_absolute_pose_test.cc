@@ -28,7 +28,8 @@ TEST(MovePose, MovesPointsAsDocumented) {
   delta << 0.3, -0.2, 0.4, 1.0, 2.0, -3.0;
   const Eigen::Vector3d v = world.cam_from_world * world.points_in_world[0];
   const Eigen::Vector3d expected = RotationFromVector(delta.head<3>()) * (v - delta.tail<3>());
-  EXPECT_LT((MovePose(world.cam_from_world, delta) * world.points_in_world[0] - expected).norm(), 1e-12);
+  EXPECT_LT((MovePose(world.cam_from_world, delta) * world.points_in_world[0] - expected).norm(),
+            1e-12);
 }
 
 TEST(LineariseTangentResiduals, HasTheGradientOfItsCost) {
@@ -38,10 +39,12 @@ TEST(LineariseTangentResiduals, HasTheGradientOfItsCost) {
     const auto cost = [&](const VectorXd& delta) -> VectorXd {
       const Rigid3 moved = MovePose(pose, delta);
       return VectorXd::Constant(
-          1, LineariseTangentResiduals(moved, world.bearings, world.points_in_world, loss_scale).cost);
+          1,
+          LineariseTangentResiduals(moved, world.bearings, world.points_in_world, loss_scale).cost);
     };
     const VectorXd numeric = 0.5 * NumericJacobian(cost, VectorXd::Zero(6)).transpose();
-    const auto analytic = LineariseTangentResiduals(pose, world.bearings, world.points_in_world, loss_scale);
+    const auto analytic =
+        LineariseTangentResiduals(pose, world.bearings, world.points_in_world, loss_scale);
     EXPECT_LT((numeric - analytic.g).norm(), 1e-5 * analytic.g.norm()) << loss_scale;
   }
 }
@@ -54,7 +57,8 @@ TEST(LineariseTangentResiduals, HasTheHessianOfItsCostWhereTheDataFit) {
         .g;
   };
   const Eigen::MatrixXd numeric = NumericJacobian(gradient, VectorXd::Zero(6));
-  const auto analytic = LineariseTangentResiduals(world.cam_from_world, world.bearings, world.points_in_world, 0.1);
+  const auto analytic =
+      LineariseTangentResiduals(world.cam_from_world, world.bearings, world.points_in_world, 0.1);
   const Eigen::MatrixXd H = analytic.H.selfadjointView<Eigen::Lower>();
   EXPECT_LT((numeric - H).norm(), 1e-5 * H.norm());
 }
@@ -62,8 +66,11 @@ TEST(LineariseTangentResiduals, HasTheHessianOfItsCostWhereTheDataFit) {
 TEST(MinimiseTangentResiduals, ReturnsFromAfar) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const ResectionWorld world = MakeResectionWorld(seed, 50);
-    const Rigid3 refined = MinimiseTangentResiduals(
-        Disturbed(world.cam_from_world), world.bearings, world.points_in_world, 0.1, kMaxRefinementSteps);
+    const Rigid3 refined = MinimiseTangentResiduals(Disturbed(world.cam_from_world),
+                                                    world.bearings,
+                                                    world.points_in_world,
+                                                    0.1,
+                                                    kMaxRefinementSteps);
     EXPECT_LT(RotationError(refined.rotation, world.cam_from_world.rotation), 1e-7) << seed;
     EXPECT_LT((refined.Centre() - world.cam_from_world.Centre()).norm(), 1e-6) << seed;
   }
@@ -74,7 +81,8 @@ TEST(MinimiseTangentResiduals, PullsPointsFromTheAntipodeToTheRightSide) {
   const ResectionWorld world = MakeResectionWorld(4, 50);
   Rigid3 turned = world.cam_from_world;
   turned = Rigid3{RotationFromVector({0.0, 2.8, 0.0}), Eigen::Vector3d::Zero()} * turned;
-  const Rigid3 refined = MinimiseTangentResiduals(turned, world.bearings, world.points_in_world, 10.0, 100);
+  const Rigid3 refined =
+      MinimiseTangentResiduals(turned, world.bearings, world.points_in_world, 10.0, 100);
   EXPECT_LT(RotationError(refined.rotation, world.cam_from_world.rotation), 1e-3);
 }
 

@@ -32,10 +32,12 @@ TEST(MoveRelativePose, KeepsTheUnitBaseline) {
 
 TEST(LineariseEpipolarResiduals, MeasuresTheSymmetricEpipolarAngle) {
   const TwoViewWorld world = MakeTwoViewWorld(1, 1, 1.0);
-  const double sine = std::sin(SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[0], world.bearings_b[0]));
-  EXPECT_NEAR(LineariseEpipolarResiduals(world.b_from_a, world.bearings_a, world.bearings_b, 1e4).cost,
-              sine * sine,
-              1e-8);
+  const double sine =
+      std::sin(SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[0], world.bearings_b[0]));
+  EXPECT_NEAR(
+      LineariseEpipolarResiduals(world.b_from_a, world.bearings_a, world.bearings_b, 1e4).cost,
+      sine * sine,
+      1e-8);
 }
 
 TEST(LineariseEpipolarResiduals, HasTheGradientOfItsCost) {
@@ -45,27 +47,32 @@ TEST(LineariseEpipolarResiduals, HasTheGradientOfItsCost) {
     const auto cost = [&](const VectorXd& delta) -> VectorXd {
       const Rigid3 moved = MoveRelativePose(pose, delta);
       return VectorXd::Constant(
-          1, LineariseEpipolarResiduals(moved, world.bearings_a, world.bearings_b, loss_scale).cost);
+          1,
+          LineariseEpipolarResiduals(moved, world.bearings_a, world.bearings_b, loss_scale).cost);
     };
     const VectorXd numeric = 0.5 * NumericJacobian(cost, VectorXd::Zero(5)).transpose();
-    const auto analytic = LineariseEpipolarResiduals(pose, world.bearings_a, world.bearings_b, loss_scale);
+    const auto analytic =
+        LineariseEpipolarResiduals(pose, world.bearings_a, world.bearings_b, loss_scale);
     EXPECT_LT((numeric - analytic.g).norm(), 1e-5 * analytic.g.norm()) << loss_scale;
   }
 }
 
 TEST(LineariseEpipolarResiduals, IsTheSameForAllPosesOfAnEssentialMatrix) {
   const TwoViewWorld world = MakeTwoViewWorld(3, 30, 0.3, 1e-3);
-  const double cost = LineariseEpipolarResiduals(world.b_from_a, world.bearings_a, world.bearings_b, 0.01).cost;
+  const double cost =
+      LineariseEpipolarResiduals(world.b_from_a, world.bearings_a, world.bearings_b, 0.01).cost;
   for (const Rigid3& pose : PosesFromEssential(EssentialFromPose(world.b_from_a))) {
-    EXPECT_NEAR(LineariseEpipolarResiduals(pose, world.bearings_a, world.bearings_b, 0.01).cost, cost, 1e-9 * cost);
+    EXPECT_NEAR(LineariseEpipolarResiduals(pose, world.bearings_a, world.bearings_b, 0.01).cost,
+                cost,
+                1e-9 * cost);
   }
 }
 
 TEST(MinimiseEpipolarResiduals, ReturnsToThePoseOfCleanData) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const TwoViewWorld world = MakeTwoViewWorld(seed, 100);
-    const Rigid3 refined =
-        MinimiseEpipolarResiduals(Disturbed(world.b_from_a), world.bearings_a, world.bearings_b, 0.1, 20);
+    const Rigid3 refined = MinimiseEpipolarResiduals(
+        Disturbed(world.b_from_a), world.bearings_a, world.bearings_b, 0.1, 20);
     EXPECT_LT(RotationError(refined.rotation, world.b_from_a.rotation), 1e-7) << seed;
     EXPECT_LT(AngleBetween(refined.translation, world.b_from_a.translation), 1e-7) << seed;
   }
@@ -75,7 +82,8 @@ TEST(MinimiseEpipolarResiduals, StaysFiniteWhenTheBaselineIsFree) {
   const TwoViewWorld world = MakeTwoViewWorld(4, 50);
   std::vector<Eigen::Vector3d> turned;
   for (const auto& bearing : world.bearings_a) turned.push_back(world.b_from_a.rotation * bearing);
-  const Rigid3 refined = MinimiseEpipolarResiduals(Disturbed(world.b_from_a), world.bearings_a, turned, 0.1, 20);
+  const Rigid3 refined =
+      MinimiseEpipolarResiduals(Disturbed(world.b_from_a), world.bearings_a, turned, 0.1, 20);
   EXPECT_TRUE(refined.translation.allFinite());
   EXPECT_LT(RotationError(refined.rotation, world.b_from_a.rotation), 1e-6);
 }

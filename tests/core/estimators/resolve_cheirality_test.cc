@@ -38,13 +38,14 @@ TEST(ResolveCheirality, FindsTheTruePoseFromAnyOfTheFour) {
 
 TEST(InFrontOfBoth, DropsPairsOnTheWrongSideButNotFarPoints) {
   TwoViewWorld world = MakeTwoViewWorld(1, 10);
-  world.bearings_b[3] *= -1.0;                                           // wrong side
+  world.bearings_b[3] *= -1.0;                                          // wrong side
   world.bearings_b[5] = world.b_from_a.rotation * world.bearings_a[5];  // at infinity
   const BearingPairs pairs = Arrange(world);
   std::vector<uint32_t> all(10);
   for (uint32_t i = 0; i < 10; ++i) all[i] = i;
   std::vector<uint32_t> kept;
-  for (const uint32_t i : InFrontOfBoth(pairs, all, world.b_from_a, kMaxErrorRad)) kept.push_back(pairs.order[i]);
+  for (const uint32_t i : InFrontOfBoth(pairs, all, world.b_from_a, kMaxErrorRad))
+    kept.push_back(pairs.order[i]);
   std::sort(kept.begin(), kept.end());
   EXPECT_EQ(kept, (std::vector<uint32_t>{0, 1, 2, 4, 5, 6, 7, 8, 9}));
 }

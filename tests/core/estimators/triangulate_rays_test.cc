@@ -39,8 +39,10 @@ TEST(TriangulateRays, RecoversThePointOfCleanRays) {
 
 TEST(TriangulateRays, RecoversPointBehindTheCamera) {
   // Behind, at the seam, above and below: directions where a pinhole or the pixel grid ends.
-  for (const Vector3d& X : {Vector3d(0, 0, -5), Vector3d(1e-9, 0, -5), Vector3d(0, -5, 0), Vector3d(0, 5, 0)}) {
-    const std::vector<Rigid3> cams = {Rigid3{}, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0.2, 0.1})};
+  for (const Vector3d& X :
+       {Vector3d(0, 0, -5), Vector3d(1e-9, 0, -5), Vector3d(0, -5, 0), Vector3d(0, 5, 0)}) {
+    const std::vector<Rigid3> cams = {
+        Rigid3{}, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0.2, 0.1})};
     const std::vector<Vector3d> bearings = {BearingOf(cams[0], X), BearingOf(cams[1], X)};
     const auto found = TriangulateRays(cams, bearings);
     ASSERT_TRUE(found.has_value());
@@ -66,7 +68,8 @@ TEST(TriangulateRays, LosesNoDigitsFarFromTheOrigin) {
   TrackWorld world = MakeTrackWorld(5, 4, 1e-3);
   const auto near = TriangulateRays(world.cams_from_world, world.bearings);
   const Vector3d shift(4e5, 5e6, 300);  // a projected national grid
-  for (Rigid3& cam : world.cams_from_world) cam = Rigid3::FromCentre(cam.rotation, cam.Centre() + shift);
+  for (Rigid3& cam : world.cams_from_world)
+    cam = Rigid3::FromCentre(cam.rotation, cam.Centre() + shift);
   const auto far = TriangulateRays(world.cams_from_world, world.bearings);
   ASSERT_TRUE(near && far);
   EXPECT_LT((*near + shift - *far).norm(), 1e-6);
@@ -87,7 +90,8 @@ TEST(TriangulateRays, MinimisesTheAngularError) {
 }
 
 TEST(TriangulateRays, RefusesParallelOppositeAndSingleRays) {
-  const std::vector<Rigid3> cams = {Rigid3{}, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
+  const std::vector<Rigid3> cams = {Rigid3{},
+                                    Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
   const Vector3d z = Vector3d::UnitZ();
   const Vector3d x = Vector3d::UnitX();
   EXPECT_FALSE(TriangulateRays(cams, std::vector<Vector3d>{z, z}).has_value());
@@ -97,8 +101,10 @@ TEST(TriangulateRays, RefusesParallelOppositeAndSingleRays) {
 }
 
 TEST(TriangulateRays, RefusesAPointBehindARay) {
-  const std::vector<Rigid3> cams = {Rigid3{}, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
-  const std::vector<Vector3d> diverging = {Vector3d(-0.1, 0, 1).normalized(), Vector3d(0.1, 0, 1).normalized()};
+  const std::vector<Rigid3> cams = {Rigid3{},
+                                    Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
+  const std::vector<Vector3d> diverging = {Vector3d(-0.1, 0, 1).normalized(),
+                                           Vector3d(0.1, 0, 1).normalized()};
   EXPECT_FALSE(TriangulateRays(cams, diverging).has_value());
 }
 
@@ -111,7 +117,9 @@ TEST(TriangulateRays, RefusesRaysFromOneCentre) {
 TEST(MaxTriangulationAngle, IsTheWidestOfAllPairs) {
   const std::vector<Vector3d> centres = {{1, 0, 0}, {1, 1, 0}, {-1, 1e-9, 0}};
   EXPECT_NEAR(MaxTriangulationAngle(Vector3d::Zero(), centres), std::numbers::pi, 1e-6);
-  EXPECT_NEAR(MaxTriangulationAngle(Vector3d::Zero(), std::span(centres).first(2)), std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(MaxTriangulationAngle(Vector3d::Zero(), std::span(centres).first(2)),
+              std::numbers::pi / 4,
+              1e-12);
   EXPECT_EQ(MaxTriangulationAngle(Vector3d::Zero(), std::span(centres).first(1)), 0.0);
 }
 
@@ -126,7 +134,8 @@ TEST(TriangulateRobustly, FindsTheInliersAmongWrongRays) {
       ASSERT_TRUE(found.has_value()) << count << " rays, seed " << seed;
       EXPECT_LT((found->point_in_world - world.point_in_world).norm(), 0.05);
       EXPECT_EQ(found->num_inliers, count - num_wrong) << count << " rays, seed " << seed;
-      EXPECT_EQ(std::count(found->is_inlier.begin(), found->is_inlier.end(), 1), found->num_inliers);
+      EXPECT_EQ(std::count(found->is_inlier.begin(), found->is_inlier.end(), 1),
+                found->num_inliers);
     }
   }
 }
@@ -140,14 +149,16 @@ TEST(TriangulateRobustly, KeepsAllCleanRays) {
 
 TEST(TriangulateRobustly, RefusesSmallAngles) {
   const Vector3d X(0, 0, 100);
-  const std::vector<Rigid3> cams = {Rigid3{}, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
+  const std::vector<Rigid3> cams = {Rigid3{},
+                                    Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
   const std::vector<Vector3d> bearings = {BearingOf(cams[0], X), BearingOf(cams[1], X)};
   EXPECT_TRUE(TriangulateRobustly(cams, bearings, 1e-3, 0.009).has_value());
   EXPECT_FALSE(TriangulateRobustly(cams, bearings, 1e-3, 0.011).has_value());
 }
 
 TEST(TriangulateRobustly, RefusesRaysThatDoNotMeet) {
-  const std::vector<Rigid3> cams = {Rigid3{}, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
+  const std::vector<Rigid3> cams = {Rigid3{},
+                                    Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1, 0, 0})};
   const std::vector<Vector3d> bearings = {Vector3d::UnitZ(), Vector3d(-0.1, 0.5, 1).normalized()};
   EXPECT_FALSE(TriangulateRobustly(cams, bearings, 1e-3, 0.01).has_value());
   EXPECT_FALSE(TriangulateRobustly({}, {}, 1e-3, 0.01).has_value());

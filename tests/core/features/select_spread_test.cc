@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <functional>
+#include <vector>
 
 #include "core/base/random.h"
 
@@ -31,13 +33,33 @@ TEST(SelectSpread, KeepsAllWhenThereAreFew) {
   EXPECT_TRUE(SelectSpread(kCamera, {}, 100).empty());
 }
 
-TEST(SelectSpread, SparesAWeakRegionFromAStrongOne) {
-  std::vector<SiftCandidate> candidates = RandomCandidates(4000, 2);
-  for (SiftCandidate& c : candidates) c.response += c.keypoint.x_px < 500.0F ? 10.0F : 0.0F;
+TEST(SelectSpread, GivesAWeakRegionMoreThanItsStrengthAlone) {
+  std::vector<SiftCandidate> candidates = RandomCandidates(8000, 2);
+  for (SiftCandidate& c : candidates) c.response *= c.keypoint.x_px < 500.0F ? 2.0F : 1.0F;
+  std::vector<float> responses;
+  for (const SiftCandidate& c : candidates) responses.push_back(c.response);
+  std::nth_element(responses.begin(), responses.begin() + 1000, responses.end(), std::greater<>());
+  const float strongest_thousand = responses[1000];
   size_t weak = 0;
+  size_t weak_by_strength = 0;
   for (const SiftCandidate& c : SelectSpread(kCamera, candidates, 1000))
-    weak += c.response < 10.0F ? 1 : 0;
-  EXPECT_NEAR(static_cast<double>(weak), 500.0, 100.0);
+    weak += c.keypoint.x_px >= 500.0F ? 1 : 0;
+  for (const SiftCandidate& c : candidates) {
+    weak_by_strength += c.response > strongest_thousand && c.keypoint.x_px >= 500.0F ? 1 : 0;
+  }
+  EXPECT_EQ(weak_by_strength, 0U);
+  EXPECT_GT(weak, 50U);
+  EXPECT_LT(weak, 500U);
+}
+
+TEST(SelectSpread, PrefersCoarseScalesOfEqualContrast) {
+  std::vector<SiftCandidate> candidates = RandomCandidates(1000, 4);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].response = 1.0F;
+    candidates[i].keypoint.scale_px = i % 2 == 0 ? 1.0F : 4.0F;
+  }
+  for (const SiftCandidate& c : SelectSpread(kCamera, candidates, 300))
+    EXPECT_EQ(c.keypoint.scale_px, 4.0F);
 }
 
 TEST(SelectSpread, TakesTheStrongestOfEveryPlace) {

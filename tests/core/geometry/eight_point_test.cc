@@ -17,7 +17,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using testing::MakeTwoViewWorld;
 
-double Distance(const Matrix3d& a, const Matrix3d& b) { return std::min((a - b).norm(), (a + b).norm()); }
+double Distance(const Matrix3d& a, const Matrix3d& b) {
+  return std::min((a - b).norm(), (a + b).norm());
+}
 
 TEST(SolveEightPoint, IsExactFromEightPairsAndFromMany) {
   for (const size_t count : {8, 9, 100}) {
@@ -37,7 +39,9 @@ TEST(SolveEightPoint, AveragesNoiseOut) {
 
 TEST(SolveEightPoint, RefusesFewPairsEqualBearingsAndPureRotation) {
   const auto world = MakeTwoViewWorld(1, 20);
-  EXPECT_FALSE(SolveEightPoint(std::span(world.bearings_a).first(7), std::span(world.bearings_b).first(7)).has_value());
+  EXPECT_FALSE(
+      SolveEightPoint(std::span(world.bearings_a).first(7), std::span(world.bearings_b).first(7))
+          .has_value());
   const std::vector<Vector3d> equal(20, Vector3d::UnitX());
   EXPECT_FALSE(SolveEightPoint(equal, equal).has_value());
   EXPECT_FALSE(SolveEightPoint(world.bearings_a, world.bearings_a).has_value());

@@ -34,21 +34,25 @@ TEST(EpipolarAngle, IsTheAngleToThePlane) {
 }
 
 TEST(EpipolarAngle, HasNoPlaneAtTheEpipole) {
-  EXPECT_EQ(EpipolarAngle(EssentialFromPose(kSideways), Vector3d::UnitX(), Vector3d::UnitY()), std::numbers::pi / 2);
+  EXPECT_EQ(EpipolarAngle(EssentialFromPose(kSideways), Vector3d::UnitX(), Vector3d::UnitY()),
+            std::numbers::pi / 2);
 }
 
 TEST(SymmetricEpipolarAngle, VanishesForRaysOfAPoint) {
   const auto world = MakeTwoViewWorld(1, 100);
   for (size_t i = 0; i < 100; ++i) {
-    EXPECT_LT(SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]), 1e-10);
+    EXPECT_LT(SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]),
+              1e-10);
   }
 }
 
 TEST(SymmetricEpipolarAngle, IsTheSameFromEitherImage) {
   const auto world = MakeTwoViewWorld(2, 100, 1.0);
   for (size_t i = 0; i < 100; ++i) {
-    const double forth = SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]);
-    const double back = SymmetricEpipolarAngle(world.b_from_a.Inverse(), world.bearings_b[i], world.bearings_a[i]);
+    const double forth =
+        SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]);
+    const double back =
+        SymmetricEpipolarAngle(world.b_from_a.Inverse(), world.bearings_b[i], world.bearings_a[i]);
     EXPECT_NEAR(forth, back, 1e-9);
   }
 }
@@ -59,7 +63,8 @@ TEST(SymmetricEpipolarAngle, LiesBetweenTheAnglesInTheTwoImages) {
   for (size_t i = 0; i < 100; ++i) {
     const double in_b = EpipolarAngle(E, world.bearings_a[i], world.bearings_b[i]);
     const double in_a = EpipolarAngle(E.transpose(), world.bearings_b[i], world.bearings_a[i]);
-    const double symmetric = SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]);
+    const double symmetric =
+        SymmetricEpipolarAngle(world.b_from_a, world.bearings_a[i], world.bearings_b[i]);
     EXPECT_GE(symmetric, std::min(in_a, in_b) - 1e-12);
     EXPECT_LE(symmetric, std::max(in_a, in_b) + 1e-12);
   }
@@ -74,8 +79,8 @@ TEST(SymmetricEpipolarAngle, StaysAtTheNoiseLevelNearTheEpipole) {
     for (int trial = 0; trial < kTrials; ++trial) {
       const Vector3d p_a(std::cos(from_epipole), std::sin(from_epipole), 0.0);
       const Vector3d p_b(std::cos(3.0 * from_epipole), std::sin(3.0 * from_epipole), 0.0);
-      const double e =
-          SymmetricEpipolarAngle(kSideways, WithNoise(random, p_a, sigma), WithNoise(random, p_b, sigma));
+      const double e = SymmetricEpipolarAngle(
+          kSideways, WithNoise(random, p_a, sigma), WithNoise(random, p_b, sigma));
       sum += e * e;
     }
     EXPECT_NEAR(std::sqrt(sum / kTrials) / sigma, std::sqrt(2.0), 0.1) << from_epipole;

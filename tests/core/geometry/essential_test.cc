@@ -23,7 +23,8 @@ using testing::RotationError;
 TEST(EssentialFromPose, MakesRaysOfAPointCoplanar) {
   const auto world = MakeTwoViewWorld(1, 100);
   const Matrix3d E = EssentialFromPose(world.b_from_a);
-  for (size_t i = 0; i < 100; ++i) EXPECT_NEAR(world.bearings_b[i].dot(E * world.bearings_a[i]), 0.0, 1e-12);
+  for (size_t i = 0; i < 100; ++i)
+    EXPECT_NEAR(world.bearings_b[i].dot(E * world.bearings_a[i]), 0.0, 1e-12);
 }
 
 TEST(PosesFromEssential, HoldTheTruePoseForAnyScaleAndSign) {
@@ -34,7 +35,8 @@ TEST(PosesFromEssential, HoldTheTruePoseForAnyScaleAndSign) {
     double least = std::numeric_limits<double>::infinity();
     for (const Rigid3& pose : PosesFromEssential(scale * EssentialFromPose(truth))) {
       least = std::min(least,
-                       RotationError(pose.rotation, truth.rotation) + (pose.translation - truth.translation).norm());
+                       RotationError(pose.rotation, truth.rotation) +
+                           (pose.translation - truth.translation).norm());
     }
     EXPECT_LT(least, 1e-7) << trial;
   }
@@ -62,8 +64,8 @@ TEST(NearestEssential, KeepsEssentialMatricesAndRepairsOthers) {
   EXPECT_LT((NearestEssential(E) - E).norm(), 1e-12);
   const Matrix3d repaired = NearestEssential(E + 0.1 * Matrix3d::Identity());
   EXPECT_NEAR(repaired.determinant(), 0.0, 1e-12);
-  const Matrix3d trace_constraint =
-      2.0 * repaired * repaired.transpose() * repaired - (repaired * repaired.transpose()).trace() * repaired;
+  const Matrix3d trace_constraint = 2.0 * repaired * repaired.transpose() * repaired -
+                                    (repaired * repaired.transpose()).trace() * repaired;
   EXPECT_LT(trace_constraint.norm(), 1e-12);
 }
 

@@ -20,11 +20,15 @@ using Eigen::Vector3d;
 using testing::MakeTwoViewWorld;
 using testing::TwoViewWorld;
 
-std::span<const Vector3d, 5> FirstFive(const std::vector<Vector3d>& v) { return std::span<const Vector3d, 5>(v.data(), 5); }
+std::span<const Vector3d, 5> FirstFive(const std::vector<Vector3d>& v) {
+  return std::span<const Vector3d, 5>(v.data(), 5);
+}
 
-double DistanceToNearest(const Matrix3d& truth, const absl::InlinedVector<Matrix3d, 10>& solutions) {
+double DistanceToNearest(const Matrix3d& truth,
+                         const absl::InlinedVector<Matrix3d, 10>& solutions) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Matrix3d& E : solutions) least = std::min({least, (E - truth).norm(), (E + truth).norm()});
+  for (const Matrix3d& E : solutions)
+    least = std::min({least, (E - truth).norm(), (E + truth).norm()});
   return least;
 }
 
@@ -51,7 +55,8 @@ TEST(SolveFivePoint, EverySolutionIsEssentialAndFitsTheBearings) {
     for (const Matrix3d& E : solutions) {
       EXPECT_NEAR(E.norm(), std::sqrt(2.0), 1e-9);
       EXPECT_NEAR(E.determinant(), 0.0, 1e-4) << seed;
-      for (int i = 0; i < 5; ++i) EXPECT_NEAR(world.bearings_b[i].dot(E * world.bearings_a[i]), 0.0, 1e-9) << seed;
+      for (int i = 0; i < 5; ++i)
+        EXPECT_NEAR(world.bearings_b[i].dot(E * world.bearings_a[i]), 0.0, 1e-9) << seed;
     }
   }
 }
@@ -80,11 +85,15 @@ TEST(SolveFivePoint, WorksOnPlanarScenes) {
 }
 
 TEST(SolveFivePoint, GivesOnlyFiniteMatricesForDegenerateBearings) {
-  const std::array<Vector3d, 5> equal = {
-      Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ()};
+  const std::array<Vector3d, 5> equal = {Vector3d::UnitZ(),
+                                         Vector3d::UnitZ(),
+                                         Vector3d::UnitZ(),
+                                         Vector3d::UnitZ(),
+                                         Vector3d::UnitZ()};
   for (const Matrix3d& E : SolveFivePoint(equal, equal)) EXPECT_TRUE(E.allFinite());
   const TwoViewWorld world = MakeTwoViewWorld(1, 5);
-  for (const Matrix3d& E : SolveFivePoint(FirstFive(world.bearings_a), FirstFive(world.bearings_a))) {
+  for (const Matrix3d& E :
+       SolveFivePoint(FirstFive(world.bearings_a), FirstFive(world.bearings_a))) {
     EXPECT_TRUE(E.allFinite());
   }
 }

@@ -62,7 +62,8 @@ TEST(FitRayHomography, RefusesFewAndCollinearBearings) {
   const auto world = testing::MakeTwoViewWorld(1, 3);
   EXPECT_FALSE(FitRayHomography(world.bearings_a, world.bearings_b).has_value());
   std::vector<Vector3d> on_a_circle;
-  for (const double angle : {0.1, 0.7, 1.5, 2.0, 4.0}) on_a_circle.push_back({std::cos(angle), std::sin(angle), 0.0});
+  for (const double angle : {0.1, 0.7, 1.5, 2.0, 4.0})
+    on_a_circle.push_back({std::cos(angle), std::sin(angle), 0.0});
   EXPECT_FALSE(FitRayHomography(on_a_circle, on_a_circle).has_value());
 }
 

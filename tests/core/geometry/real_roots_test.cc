@@ -19,7 +19,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// Coefficients of prod (x - root) times prod (x^2 + c^2).
-std::vector<double> FromRoots(const std::vector<double>& roots, const std::vector<double>& imaginary = {}) {
+std::vector<double> FromRoots(const std::vector<double>& roots,
+                              const std::vector<double>& imaginary = {}) {
   std::vector<double> c = {1.0};
   const auto multiply = [&c](const std::vector<double>& factor) {
     std::vector<double> product(c.size() + factor.size() - 1, 0.0);
@@ -39,7 +40,8 @@ TEST(RealRoots, FindsAllRootsOfRandomPolynomials) {
     std::vector<double> roots(1 + random.Index(6));
     for (double& root : roots) root = random.Uniform(-3.0, 3.0);
     std::sort(roots.begin(), roots.end());
-    const auto close = std::adjacent_find(roots.begin(), roots.end(), [](double a, double b) { return b - a < 0.05; });
+    const auto close = std::adjacent_find(
+        roots.begin(), roots.end(), [](double a, double b) { return b - a < 0.05; });
     if (close != roots.end()) continue;
     const auto found = RealRoots(FromRoots(roots, {0.7, 1.9}));
     ASSERT_EQ(found.size(), roots.size()) << trial;
@@ -49,7 +51,10 @@ TEST(RealRoots, FindsAllRootsOfRandomPolynomials) {
 
 TEST(RealRoots, FindsRootsOfVeryDifferentSize) {
   EXPECT_THAT(RealRoots(FromRoots({-1e4, 1e-4, 2.0, 1e4})),
-              ElementsAre(DoubleNear(-1e4, 1e-4), DoubleNear(1e-4, 1e-9), DoubleNear(2, 1e-9), DoubleNear(1e4, 1e-4)));
+              ElementsAre(DoubleNear(-1e4, 1e-4),
+                          DoubleNear(1e-4, 1e-9),
+                          DoubleNear(2, 1e-9),
+                          DoubleNear(1e4, 1e-4)));
 }
 
 TEST(RealRoots, FindsZeroAndDoubleRootsOnce) {
@@ -60,7 +65,8 @@ TEST(RealRoots, FindsZeroAndDoubleRootsOnce) {
 }
 
 TEST(RealRoots, IgnoresLeadingZeros) {
-  EXPECT_THAT(RealRoots(std::vector<double>{-2.0, 1.0, 0.0, 0.0}), ElementsAre(DoubleNear(2.0, 1e-12)));
+  EXPECT_THAT(RealRoots(std::vector<double>{-2.0, 1.0, 0.0, 0.0}),
+              ElementsAre(DoubleNear(2.0, 1e-12)));
 }
 
 TEST(RealRoots, HasNoneForConstantsAndComplexPairs) {

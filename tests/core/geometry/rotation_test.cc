@@ -55,7 +55,8 @@ TEST(TangentBasis, IsOrthonormalEverywhere) {
   const auto expect_orthonormal = [](const Vector3d& b) {
     Eigen::Matrix3d frame;
     frame << TangentBasis(b), b;
-    EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm(), 1e-12) << b.transpose();
+    EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm(), 1e-12)
+        << b.transpose();
   };
   for (int trial = 0; trial < 1000; ++trial) expect_orthonormal(RandomDirection(random));
   for (int k = 0; k < 3; ++k) {
@@ -67,8 +68,11 @@ TEST(TangentBasis, IsOrthonormalEverywhere) {
 TEST(AngleBetween, IsAccurateForTinyAndFlatAngles) {
   const Vector3d x = Vector3d::UnitX();
   for (const double angle : {1e-12, 1e-8, 1e-3, 1.0}) {
-    EXPECT_NEAR(AngleBetween(x, Vector3d(std::cos(angle), std::sin(angle), 0.0)) / angle, 1.0, 1e-9);
-    EXPECT_NEAR((pi - AngleBetween(x, Vector3d(-std::cos(angle), std::sin(angle), 0.0))) / angle, 1.0, 1e-3);
+    EXPECT_NEAR(
+        AngleBetween(x, Vector3d(std::cos(angle), std::sin(angle), 0.0)) / angle, 1.0, 1e-9);
+    EXPECT_NEAR((pi - AngleBetween(x, Vector3d(-std::cos(angle), std::sin(angle), 0.0))) / angle,
+                1.0,
+                1e-3);
   }
 }
 

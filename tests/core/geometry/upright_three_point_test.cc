@@ -29,7 +29,8 @@ struct UprightWorld {
 
 UprightWorld MakeUprightWorld(Random& random, double heading_rad) {
   UprightWorld world;
-  world.b_from_a = {Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Vector3d::UnitY())), RandomDirection(random)};
+  world.b_from_a = {Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Vector3d::UnitY())),
+                    RandomDirection(random)};
   for (size_t i = 0; i < 3; ++i) {
     const Vector3d X = RandomPoint(random, 2.0, 10.0);
     world.a[i] = X.normalized();
@@ -63,7 +64,8 @@ TEST(SolveUprightThreePoint, FindsThePoseForRandomHeadings) {
 
 TEST(SolveUprightThreePoint, FindsPanoramasThatLookTheSameAndTheOppositeWay) {
   Random random(2);
-  for (const double heading : {0.0, std::numbers::pi, -std::numbers::pi / 2, std::numbers::pi / 2}) {
+  for (const double heading :
+       {0.0, std::numbers::pi, -std::numbers::pi / 2, std::numbers::pi / 2}) {
     EXPECT_LT(DistanceToNearest(MakeUprightWorld(random, heading)), 1e-6) << heading;
   }
 }
@@ -77,7 +79,8 @@ TEST(SolveUprightThreePoint, TurnsAboutTheVerticalOnlyAndFitsTheBearings) {
     for (const Rigid3& pose : poses) {
       EXPECT_LT((pose.rotation * Vector3d::UnitY() - Vector3d::UnitY()).norm(), 1e-9);
       for (size_t i = 0; i < 3; ++i) {
-        EXPECT_NEAR(world.b[i].dot(pose.translation.cross(pose.rotation * world.a[i])), 0.0, 1e-6) << trial;
+        EXPECT_NEAR(world.b[i].dot(pose.translation.cross(pose.rotation * world.a[i])), 0.0, 1e-6)
+            << trial;
       }
     }
   }

@@ -254,10 +254,15 @@ TEST_F(DatabaseFile, RefusesWhatIsNoDatabase) {
                 "this is a text file that is longer than a header, honestly it is, by several "
                 "words and more");
   EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
+  int refused = 0;
   for (size_t size = 0; size < intact.size(); size += 3000) {
     folder_.Write("database.db", intact.substr(0, size));
-    EXPECT_FALSE(ReadStatus().ok()) << size;
+    // Pages at the end may hold what is not read (descriptors): refused, or unchanged.
+    const absl::StatusOr<ColmapDatabase> database = ReadColmapDatabase(path_);
+    if (database.ok()) ExpectSameJob(*database, job_);
+    refused += database.ok() ? 0 : 1;
   }
+  EXPECT_GT(refused, 10);
 }
 
 TEST_F(DatabaseFile, BecomesSourcesInTheSameOrder) {

@@ -88,14 +88,15 @@ TEST(IngestImages, JoinsTheTableAndFillsTheLocalFrame) {
       "0,0,,\n";
   const ImageManifest manifest = Ingest(sources);
   ASSERT_TRUE(manifest.origin);
-  EXPECT_NEAR(manifest.origin->latitude_deg, 47.6101, 1e-9);
-  EXPECT_DOUBLE_EQ(manifest.origin->altitude_m, 61.0);
+  EXPECT_LT(EnuFromGeodetic(*manifest.origin, {47.6101, -122.32, 61.0}).norm(), 100.0);
   const PosePrior& prior = manifest.images[0].prior;
   EXPECT_DOUBLE_EQ(prior.horizontal_sigma_m, 0.1);
   EXPECT_DOUBLE_EQ(prior.vertical_sigma_m, 0.2);
   EXPECT_EQ(prior.heading_deg, 90.0);
-  EXPECT_NEAR(prior.position_in_enu->y(), -11.118, 0.01);
-  EXPECT_NEAR(prior.position_in_enu->z(), -1.0, 0.01);
+  const Eigen::Vector3d step = *manifest.images[1].prior.position_in_enu - *prior.position_in_enu;
+  EXPECT_NEAR(step.x(), 0.0, 0.01);
+  EXPECT_NEAR(step.y(), 11.118, 0.01);
+  EXPECT_NEAR(step.z(), 1.0, 0.01);
   EXPECT_DOUBLE_EQ(manifest.images[1].prior.horizontal_sigma_m, 5.0);
   EXPECT_DOUBLE_EQ(manifest.images[1].prior.vertical_sigma_m, 10.0);
   EXPECT_TRUE(manifest.images[2].prior.position_in_enu);
@@ -154,7 +155,7 @@ TEST(IngestImages, TreatsTheDateLineLikeAnyOtherPlace) {
         GeodeticPosition{-17.0, i % 2 == 0 ? 179.9999 : -179.9999, 10.0};
   const ImageManifest manifest = Ingest(sources);
   for (const ImageRecord& image : manifest.images)
-    EXPECT_LT(image.prior.position_in_enu->norm(), 50.0) << image.name;
+    EXPECT_LT(image.prior.position_in_enu->norm(), 200.0) << image.name;
 }
 
 TEST(IngestImages, TakesLocalMetresAsTheyAre) {
@@ -191,8 +192,8 @@ TEST(IngestImages, FollowsTheTablesDrives) {
   EXPECT_THAT(drives, ElementsAre(0, 1, 2, 0));
 }
 
-TEST(IngestImages, DoesNotUseAMaskOfAnotherSize) {
-  ImageSources sources = GoodSources(3);
+TEST(IngestImages, DoesNotUseAMaskOfOtherProportions) {
+  ImageSources sources = GoodSources(4);
   for (SourceImage& image : sources.images) {
     image.mask_path = "/masks/" + image.name + ".png";
     image.mask = DigestOf("mask of " + image.name);
@@ -201,10 +202,13 @@ TEST(IngestImages, DoesNotUseAMaskOfAnotherSize) {
   }
   sources.images[1].mask_width_px = 1024;
   sources.images[2].mask_width_px = 0;
+  sources.images[3].mask_width_px = 1280;  // scaled: the same panorama
+  sources.images[3].mask_height_px = 640;
   const ImageManifest manifest = Ingest(sources);
   EXPECT_EQ(manifest.images[0].mask, sources.images[0].mask);
   EXPECT_TRUE(manifest.images[1].mask.IsZero());
   EXPECT_TRUE(manifest.images[2].mask.IsZero());
+  EXPECT_EQ(manifest.images[3].mask, sources.images[3].mask);
   EXPECT_THAT(
       manifest.warnings,
       ElementsAre(HasSubstr("is 1024x1024, its image 2048x1024"), HasSubstr("cannot be read")));
@@ -230,7 +234,7 @@ TEST(IngestImages, TakesAFolderOfRealFiles) {
   EXPECT_THAT(manifest.warnings, IsEmpty());
   for (const ImageRecord& image : manifest.images) {
     ASSERT_TRUE(image.prior.position_in_enu) << image.name;
-    EXPECT_LT(image.prior.position_in_enu->norm(), 40.0) << image.name;
+    EXPECT_LT(image.prior.position_in_enu->norm(), 200.0) << image.name;
     EXPECT_TRUE(image.prior.heading_deg && image.prior.pitch_deg && image.capture_time_s)
         << image.name;
     EXPECT_EQ(image.drive, 0U);

@@ -35,7 +35,8 @@ TEST(MinimiseLevenbergMarquardt, FindsTheEndOfRosenbrocksValley) {
 TEST(MinimiseLevenbergMarquardt, NeverReturnsAWorseState) {
   for (int max_steps = 0; max_steps < 20; ++max_steps) {
     const Vector2d start(-1.2, 1.0);
-    const Vector2d x = MinimiseLevenbergMarquardt<2>(start, Rosenbrock, Add, {.max_steps = max_steps});
+    const Vector2d x =
+        MinimiseLevenbergMarquardt<2>(start, Rosenbrock, Add, {.max_steps = max_steps});
     EXPECT_LE(Rosenbrock(x).cost, Rosenbrock(start).cost);
   }
 }

@@ -19,7 +19,8 @@ TEST(CauchyLoss, WeightIsTheDerivativeOfTheCost) {
   const CauchyLoss loss(0.7);
   for (const double squared : {0.01, 0.3, 2.0, 50.0}) {
     const double h = 1e-6 * squared;
-    EXPECT_NEAR((loss.Cost(squared + h) - loss.Cost(squared - h)) / (2.0 * h), loss.Weight(squared), 1e-7);
+    EXPECT_NEAR(
+        (loss.Cost(squared + h) - loss.Cost(squared - h)) / (2.0 * h), loss.Weight(squared), 1e-7);
   }
 }
 

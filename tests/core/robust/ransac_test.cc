@@ -26,7 +26,8 @@ class LineEstimator {
     for (size_t i = 0; i < count; ++i) {
       x_.push_back(random.Uniform(-1.0, 1.0));
       const bool outlier = random.Uniform() < outlier_share;
-      y_.push_back(outlier ? random.Uniform(-5.0, 5.0) : 2.0 * x_[i] + 1.0 + 0.01 * random.Normal());
+      y_.push_back(outlier ? random.Uniform(-5.0, 5.0)
+                           : 2.0 * x_[i] + 1.0 + 0.01 * random.Normal());
     }
   }
 
@@ -37,7 +38,8 @@ class LineEstimator {
     models.push_back({slope, y_[sample[0]] - slope * x_[sample[0]]});
   }
 
-  [[nodiscard]] std::optional<RansacScore> Score(const Line& line, const EarlyRejection& gate) const {
+  [[nodiscard]] std::optional<RansacScore> Score(const Line& line,
+                                                 const EarlyRejection& gate) const {
     RansacScore score;
     for (size_t i = 0; i < Size(); ++i) {
       const double squared = std::pow(y_[i] - line.slope * x_[i] - line.offset, 2);

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "core/synthetic/texture.h"
+
+namespace orbweave {
+
+/// A wall of a house: plaster or brick with noise and stains of its own at every scale, floors of
+/// equal windows (the repetition that misleads matching), and a ground floor of doors, shop
+/// windows, posters and lettered signs that tells houses apart. Proportions and colours follow
+/// from `seed`.
+[[nodiscard]] Colour FacadeColour(const TexturePoint& point, uint32_t seed);
+
+}  // namespace orbweave

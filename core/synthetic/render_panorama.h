@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/equirectangular_camera.h"
+#include "core/geometry/rigid3.h"
+#include "core/scene/features.h"
+#include "core/synthetic/street_world.h"
+
+namespace orbweave {
+
+/// One shot of the camera on its carrier.
+struct PanoramaView {
+  EquirectangularCamera camera{};
+  Rigid3 cam_from_street{};
+  double exposure = 1.0;       ///< gain of this panorama
+  double noise_levels = 1.2;   ///< sensor noise, standard deviation of an 8-bit value
+  bool mask_traffic = true;    ///< moving cars are ignored, too
+  uint32_t seed = 0;           ///< of the sensor noise
+};
+
+/// Row-major pixels, and 255 where they are to be ignored: the carrier's roof, moving cars.
+struct RenderedPanorama {
+  EquirectangularCamera camera{};
+  std::vector<Rgb> pixels{};
+  std::vector<uint8_t> ignored{};
+};
+
+/// Casts a ray through the middle (i + 0.5, j + 0.5) of every pixel; textures filter themselves to
+/// the pixel's size, and pixels beside another surface or shadow are averaged over 3 x 3 rays.
+/// The carrier's roof is fixed in the camera frame below the camera.
+[[nodiscard]] RenderedPanorama RenderPanorama(const StreetWorld& world,
+                                              const Traffic& traffic,
+                                              const PanoramaView& view);
+
+}  // namespace orbweave

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/synthetic/texture.h"
+
+namespace orbweave {
+
+/// The sky in a unit direction of the world (z up) for pixels of `pixel_rad`: hills on the horizon
+/// and clouds, both at infinity.
+[[nodiscard]] Colour SkyColour(const Eigen::Vector3d& direction, double pixel_rad, uint32_t seed);
+
+}  // namespace orbweave

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/synthetic/street_world.h"
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/synthetic/ground_texture.h"
+#include "core/synthetic/sky_texture.h"
+#include "core/synthetic/solid_texture.h"
+#include "core/synthetic/street_solids.h"
+
+namespace orbweave {
+namespace {
+
+constexpr uint32_t kSurfacesPerSolid = 8;
+constexpr double kFarthest_m = 400.0;
+
+Eigen::Vector3d ToSun() { return Eigen::Vector3d(0.45, -0.55, 0.80).normalized(); }
+
+/// Whether sunlight reaches a point of a surface.
+bool IsInSun(const StreetWorld& world,
+             const Traffic& traffic,
+             const Eigen::Vector3d& point,
+             const Eigen::Vector3d& normal) {
+  constexpr double kOffSurface_m = 1e-4;
+  const Eigen::Vector3d to_sun = ToSun();
+  if (normal.dot(to_sun) <= 0.0) return false;
+  const Ray ray{point + kOffSurface_m * normal, to_sun};
+  return !world.grid.IsHit(ray) && !traffic.grid.IsHit(ray);
+}
+
+SurfaceHit SolidSurface(const std::vector<Solid>& solids, const GridHit& found, const Ray& ray, bool moving) {
+  SurfaceHit hit{.solid = found.solid, .face = found.hit.face, .moving = moving};
+  hit.surface = 2 + kSurfacesPerSolid * found.solid + static_cast<uint32_t>(found.hit.face) +
+                (moving ? 1U << 31 : 0U);
+  hit.distance_m = found.hit.distance_m;
+  hit.point = ray.origin + hit.distance_m * ray.direction;
+  hit.normal = SurfaceNormal(solids[found.solid], found.hit.face, hit.point);
+  return hit;
+}
+
+}  // namespace
+
+StreetWorld MakeStreetWorld(double length_m, uint64_t seed) {
+  StreetWorld world{.layout = MakeStreetLayout(length_m)};
+  world.seed = static_cast<uint32_t>(Random(seed).Next() >> 32);
+  world.solids = MakeStreetSolids(world.layout, seed);
+  world.grid = SolidGrid(world.solids);
+  return world;
+}
+
+SurfaceHit Trace(const StreetWorld& world, const Traffic& traffic, const Ray& ray) {
+  double limit_m = kFarthest_m;
+  SurfaceHit hit;
+  if (ray.direction.z() < 0.0) {
+    const double ground_m = (kStreetGround_m - ray.origin.z()) / ray.direction.z();
+    if (ground_m < limit_m) {
+      limit_m = ground_m;
+      hit.surface = SurfaceHit::kGround;
+      hit.distance_m = ground_m;
+      hit.point = ray.origin + ground_m * ray.direction;
+    }
+  }
+  const GridHit standing = world.grid.Nearest(ray, limit_m);
+  const GridHit moving = traffic.grid.Nearest(ray, limit_m);
+  if (moving.hit.distance_m < standing.hit.distance_m) {
+    hit = SolidSurface(traffic.cars, moving, ray, true);
+  } else if (standing.hit.face >= 0) {
+    hit = SolidSurface(world.solids, standing, ray, false);
+  }
+  if (hit.surface != SurfaceHit::kSky) hit.in_sun = IsInSun(world, traffic, hit.point, hit.normal);
+  return hit;
+}
+
+Colour Shade(const StreetWorld& world,
+             const Traffic& traffic,
+             const Ray& ray,
+             const SurfaceHit& hit,
+             double pixel_rad) {
+  if (hit.surface == SurfaceHit::kSky) return SkyColour(ray.direction, pixel_rad, world.seed + 5);
+  const double pixel_m = pixel_rad * hit.distance_m;
+  Colour colour;
+  if (hit.surface == SurfaceHit::kGround) {
+    const double footprint_m = pixel_m / std::abs(ray.direction.z());
+    colour = GroundColour(world.layout, hit.point.head<2>(), footprint_m, world.seed);
+  } else {
+    const Solid& solid = hit.moving ? traffic.cars[hit.solid] : world.solids[hit.solid];
+    colour = SolidColour(solid, hit.face, hit.point, ray.direction, pixel_m);
+  }
+  const double sky_light = 0.62 + 0.08 * hit.normal.z();
+  const double sun_light = hit.in_sun ? 0.62 * hit.normal.dot(ToSun()) : 0.0;
+  return colour * (sky_light + sun_light);
+}
+
+}  // namespace orbweave

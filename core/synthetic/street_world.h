@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/synthetic/solid.h"
+#include "core/synthetic/solid_grid.h"
+#include "core/synthetic/street_layout.h"
+#include "core/synthetic/texture.h"
+
+namespace orbweave {
+
+/// A street that stands still, in its own frame (street_layout.h).
+struct StreetWorld {
+  StreetLayout layout;
+  std::vector<Solid> solids{};
+  SolidGrid grid{};  ///< of `solids`
+  uint32_t seed = 0;
+};
+
+/// The street that a drive of `length_m` goes round; long enough drives meet their start.
+[[nodiscard]] StreetWorld MakeStreetWorld(double length_m, uint64_t seed);
+
+/// What moves while one panorama is taken.
+struct Traffic {
+  explicit Traffic(const std::vector<Solid>& moving) : cars(moving), grid(moving) {}
+
+  std::vector<Solid> cars;
+  SolidGrid grid;
+};
+
+/// What a ray meets first.
+struct SurfaceHit {
+  static constexpr uint32_t kSky = 0;
+  static constexpr uint32_t kGround = 1;
+
+  uint32_t surface = kSky;  ///< one number per face of every solid
+  uint32_t solid = 0;       ///< index into the world's solids, or the traffic's cars
+  int face = 0;
+  bool moving = false;
+  bool in_sun = false;
+  double distance_m = 0.0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+
+  /// Whether a pixel between two such hits needs more than one ray.
+  [[nodiscard]] bool LooksLike(const SurfaceHit& other) const {
+    return surface == other.surface && in_sun == other.in_sun;
+  }
+};
+
+[[nodiscard]] SurfaceHit Trace(const StreetWorld& world, const Traffic& traffic, const Ray& ray);
+
+/// Colour of a hit for a pixel of `pixel_rad`: texture times sunlight and shadow.
+[[nodiscard]] Colour Shade(const StreetWorld& world,
+                           const Traffic& traffic,
+                           const Ray& ray,
+                           const SurfaceHit& hit,
+                           double pixel_rad);
+
+}  // namespace orbweave

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// `serve`, `work`, `status` and `cancel` as real processes: this executable plays the command, with
+// the stages of the toy job.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/cancel_command.h"
+#include "cli/exit_code.h"
+#include "cli/serve_command.h"
+#include "cli/status_command.h"
+#include "cli/work_command.h"
+#include "tests/support/command.h"
+#include "tests/support/toy_job.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+using testing::Command;
+using testing::CommandOutcome;
+using ::testing::HasSubstr;
+using testing::RunCommand;
+using testing::TemporaryFolder;
+using testing::WaitUntil;
+
+std::vector<std::string> Orbweave(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "/proc/self/exe");
+  return arguments;
+}
+
+/// A coordinator process on a socket in a folder of its own.
+class ServiceCommands : public ::testing::Test {
+ protected:
+  ServiceCommands()
+      : serve_(Orbweave(
+            {"serve", "--listen", address_, "--state", folder_ / "state", "--lease", "2"})) {
+    EXPECT_TRUE(
+        WaitUntil([this] { return serve_.ErrSoFar().find("ready") != std::string::npos; }, 20.0));
+  }
+
+  TemporaryFolder folder_;
+  std::string address_ = "unix:" + (folder_ / "s");
+  Command serve_;
+};
+
+TEST_F(ServiceCommands, ServeEndsCleanlyWhenAskedTo) {
+  serve_.Signal(SIGTERM);
+  EXPECT_EQ(serve_.Wait().exit_code, kExitOk);
+}
+
+TEST_F(ServiceCommands, ASecondServeOnTheSameStateIsRefused) {
+  const CommandOutcome second =
+      RunCommand(Orbweave({"serve", "--listen", "127.0.0.1:0", "--state", folder_ / "state"}));
+  EXPECT_EQ(second.exit_code, kExitUsage);
+  EXPECT_THAT(second.err, HasSubstr("in use by another coordinator"));
+}
+
+TEST_F(ServiceCommands, ServeRefusesAnAddressThatOthersCanReach) {
+  const CommandOutcome open =
+      RunCommand(Orbweave({"serve", "--listen", "0.0.0.0:7171", "--state", folder_ / "other"}));
+  EXPECT_EQ(open.exit_code, kExitUsage);
+  EXPECT_THAT(open.err, HasSubstr("without TLS"));
+}
+
+TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
+  Command worker(Orbweave({"work", "--join", address_, "--name", "w", "--slots", "2"}));
+  EXPECT_TRUE(WaitUntil(
+      [this] {
+        return serve_.ErrSoFar().find("worker joined worker=w slots=2") != std::string::npos;
+      },
+      20.0));
+  worker.Signal(SIGTERM);
+  EXPECT_EQ(worker.Wait().exit_code, kExitOk);
+  EXPECT_TRUE(WaitUntil(
+      [this] { return serve_.ErrSoFar().find("worker left worker=w") != std::string::npos; },
+      20.0));
+}
+
+TEST_F(ServiceCommands, StatusAndCancelFollowAJob) {
+  EXPECT_THAT(RunCommand(Orbweave({"status", "--coordinator", address_})).out,
+              HasSubstr("no jobs"));
+  GrpcCoordinatorClient client(address_);
+  JobSpec spec{.kind = "sparse", .label = "street"};
+  spec.inputs.push_back(*client.Put("sources"));
+  const auto id = client.SubmitJob(spec);
+  ASSERT_TRUE(id.ok()) << id.status();
+  const CommandOutcome running = RunCommand(Orbweave({"status", "--coordinator", address_}));
+  EXPECT_EQ(running.exit_code, kExitOk);
+  EXPECT_THAT(running.out, HasSubstr("job " + id->ToShortHex() + "  running"));
+  const CommandOutcome cancelled =
+      RunCommand(Orbweave({"cancel", "--coordinator", address_, id->ToShortHex()}));
+  EXPECT_EQ(cancelled.exit_code, kExitOk) << cancelled.err;
+  const CommandOutcome json = RunCommand(Orbweave({"status", "--coordinator", address_, "--json"}));
+  EXPECT_THAT(json.out, HasSubstr("\"state\":\"cancelled\""));
+  EXPECT_EQ(RunCommand(Orbweave({"cancel", "--coordinator", address_, "ffff"})).exit_code,
+            kExitUsage);
+}
+
+TEST_F(ServiceCommands, JobsSurviveAKilledCoordinator) {
+  const auto submit = [this] {
+    GrpcCoordinatorClient client(address_);
+    JobSpec spec{.kind = "sparse", .label = "street"};
+    spec.inputs.push_back(*client.Put("sources"));
+    return client.SubmitJob(spec);
+  };
+  ASSERT_TRUE(submit().ok());
+  serve_.Signal(SIGKILL);
+  EXPECT_EQ(serve_.Wait().exit_code, 128 + SIGKILL);
+  Command again(Orbweave({"serve", "--listen", address_, "--state", folder_ / "state"}));
+  ASSERT_TRUE(
+      WaitUntil([&again] { return again.ErrSoFar().find("ready") != std::string::npos; }, 20.0));
+  EXPECT_THAT(RunCommand(Orbweave({"status", "--coordinator", address_})).out,
+              HasSubstr("running"));
+}
+
+TEST(StatusCommand, SaysSoWhenNobodyAnswers) {
+  const TemporaryFolder folder;
+  const CommandOutcome outcome =
+      RunCommand(Orbweave({"status", "--coordinator", "unix:" + (folder / "nobody")}));
+  EXPECT_EQ(outcome.exit_code, kExitUnavailable);
+  EXPECT_THAT(outcome.err, HasSubstr("no coordinator answers at"));
+}
+
+/// What `orbweave` would do with these arguments.
+int BeTheCommand(int argc, char** argv) {
+  const testing::StageMap stages = testing::ToyStages();
+  const StageLookup lookup = testing::LookupIn(stages);
+  CLI::App app;
+  SelectedCommand selected;
+  AddServeCommand(app, selected);
+  AddWorkCommand(app, selected, lookup);
+  AddStatusCommand(app, selected);
+  AddCancelCommand(app, selected);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError&) {
+    return kExitUsage;
+  }
+  return selected.run();
+}
+
+}  // namespace
+}  // namespace orbweave
+
+int main(int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "proto/codec/coordinator_codec.h"
+
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
+  const JobStatus status{.id = DigestOf("job"),
+                         .state = JobState::kFailed,
+                         .error = "why",
+                         .spec = {.kind = "sparse",
+                                  .inputs = {DigestOf("a")},
+                                  .options_text = "x.y=1\n",
+                                  .label = "street"},
+                         .elapsed_s = 1.5,
+                         .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}},
+                         .workers = {{"w", 2, 3, false}}};
+  const auto back = FromProto(ToProto(status));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->id, status.id);
+  EXPECT_EQ(back->state, status.state);
+  EXPECT_EQ(back->error, status.error);
+  EXPECT_EQ(back->spec.Id(), status.spec.Id());
+  EXPECT_EQ(back->spec.label, "street");
+  EXPECT_EQ(back->elapsed_s, 1.5);
+  const StageStatus& stage = back->stages.at(0);
+  EXPECT_EQ(stage.stage, "align");
+  EXPECT_EQ(stage.tasks_total, 9U);
+  EXPECT_EQ(stage.tasks_done, 8U);
+  EXPECT_EQ(stage.tasks_reused, 7U);
+  EXPECT_EQ(stage.tasks_running, 1U);
+  EXPECT_EQ(stage.retries, 2U);
+  EXPECT_EQ(stage.wall_s, 3.5);
+  EXPECT_EQ(stage.cpu_s, 4.5);
+  EXPECT_EQ(stage.fraction_running, 0.25);
+  EXPECT_EQ(back->workers.at(0).name, "w");
+  EXPECT_EQ(back->workers.at(0).slots, 2U);
+  EXPECT_EQ(back->workers.at(0).tasks_done, 3U);
+  EXPECT_FALSE(back->workers.at(0).alive);
+}
+
+TEST(CoordinatorCodec, LeaseSurvivesTheRoundTrip) {
+  const Lease lease{
+      DigestOf("t"), 1ULL << 33, {"stage", {DigestOf("a"), DigestOf("b")}, "o.p=1\n", 4}, 3};
+  const auto back = FromProto(ToProto(lease));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->task, lease.task);
+  EXPECT_EQ(back->epoch, lease.epoch);
+  EXPECT_EQ(back->slot, 3U);
+  EXPECT_EQ(back->spec.Id(), lease.spec.Id());
+  EXPECT_EQ(back->spec.part, 4U);
+}
+
+TEST(CoordinatorCodec, RefusesADigestOfAnotherLength) {
+  v1::Lease lease = ToProto(Lease{DigestOf("t"), 1, {"stage", {DigestOf("a")}, "", 0}, 0});
+  lease.mutable_spec()->set_inputs(0, "short");
+  EXPECT_TRUE(absl::IsInvalidArgument(FromProto(lease).status()));
+  EXPECT_TRUE(absl::IsInvalidArgument(DigestFromProto("").status()));
+}
+
+TEST(CoordinatorCodec, RefusesAnUnknownJobState) {
+  EXPECT_TRUE(JobStateFromProto(3).ok());
+  EXPECT_TRUE(absl::IsInvalidArgument(JobStateFromProto(4).status()));
+}
+
+}  // namespace
+}  // namespace orbweave
