@@ -11,8 +11,7 @@ namespace {
 constexpr size_t kNamesShown = 5;
 
 std::string GnssLine(const ReportGnss& gnss) {
-  if (gnss.num_priors == 0) return "none";
-  if (!gnss.used) return absl::StrCat("not used: ", gnss.reason);
+  if (!gnss.used) return gnss.reason.empty() ? "none" : absl::StrCat("not used: ", gnss.reason);
   return absl::StrFormat("%u of %u positions agree, %.2f m RMS", gnss.num_inliers, gnss.num_priors,
                          gnss.residual_rms_inliers_m);
 }

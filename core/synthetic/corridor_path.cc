@@ -69,6 +69,19 @@ StreetPath MakePath(const CorridorOptions& options, double length_m) {
   return {BendCorners(length_m, static_cast<uint64_t>(options.seed)), kCornerRadiusM, false};
 }
 
+/// Moves the street so that the median of its places is the origin: where a reader of its GNSS positions
+/// puts the origin as well.
+void Centre(std::vector<PathPlace>& places) {
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> values;
+    for (const PathPlace& place : places) values.push_back(place.position[axis]);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    const double median = *middle;
+    for (PathPlace& place : places) place.position[axis] -= median;
+  }
+}
+
 }  // namespace
 
 std::vector<PathPlace> CorridorPlaces(const CorridorOptions& options) {
@@ -78,6 +91,7 @@ std::vector<PathPlace> CorridorPlaces(const CorridorOptions& options) {
   std::vector<PathPlace> places;
   places.reserve(static_cast<size_t>(options.panoramas));
   for (int i = 0; i < options.panoramas; ++i) places.push_back(path.At(i * step_m));
+  Centre(places);
   return places;
 }
 

@@ -59,11 +59,11 @@ Colour Asphalt(const StreetLayout& layout,
                double from_axis_m,
                double footprint_m,
                uint32_t seed) {
-  const double grain = FractalNoise(place.x(), place.y(), {4.0, 0.02}, footprint_m, seed);
-  Colour colour = Colour(0.36, 0.36, 0.37) * (1.0 + 0.65 * grain);
+  const double grain = FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed);
+  Colour colour = Colour(0.37, 0.37, 0.38) * (1.0 + 0.42 * grain);
   colour = Mix(colour, 0.68 * colour, PatchCover(place, footprint_m, seed + 20));
   colour = WithManhole(colour, place, footprint_m, seed + 30);
-  return WithLaneMarks(colour, layout, place, from_axis_m, 1.2 * grain, footprint_m);
+  return WithLaneMarks(colour, layout, place, from_axis_m, 0.8 * grain, footprint_m);
 }
 
 /// Slabs of half a metre, each of its own tone.
@@ -73,11 +73,11 @@ Colour Pavement(const Eigen::Vector2d& place, double footprint_m, uint32_t seed)
   const double j = std::floor(place.y() / kSlab_m);
   const double visible = std::clamp(2.0 - footprint_m / (0.4 * kSlab_m), 0.0, 1.0);
   const double tone = UniformOf(static_cast<int32_t>(i), static_cast<int32_t>(j), seed) - 0.5;
-  const double grain = FractalNoise(place.x(), place.y(), {4.0, 0.02}, footprint_m, seed + 1);
+  const double grain = FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed + 1);
   const double joint =
       std::max(CoverInterval(place.x() - i * kSlab_m, 0.0, 0.015, footprint_m),
                CoverInterval(place.y() - j * kSlab_m, 0.0, 0.015, footprint_m));
-  const Colour slab = Colour(0.60, 0.58, 0.55) * (1.0 + 0.25 * visible * tone + 0.5 * grain);
+  const Colour slab = Colour(0.60, 0.58, 0.55) * (1.0 + 0.22 * visible * tone + 0.34 * grain);
   return Mix(slab, 0.55 * slab, visible * joint);
 }
 
@@ -95,7 +95,7 @@ Colour GroundColour(const StreetLayout& layout,
   Colour colour = Pavement(place, footprint_m, seed + 1000);
   if (kerb > 0.0) {
     const double grain = FractalNoise(place.x(), place.y(), {2.0, 0.03}, footprint_m, seed + 2000);
-    colour = Mix(colour, Colour::Constant(0.66 * (1.0 + 0.6 * grain)), kerb);
+    colour = Mix(colour, Colour::Constant(0.66 * (1.0 + 0.4 * grain)), kerb);
   }
   return road > 0.0 ? Mix(colour, Asphalt(layout, place, d, footprint_m, seed), road) : colour;
 }

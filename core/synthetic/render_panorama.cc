@@ -19,9 +19,9 @@ struct Sample {
 
 /// The carrier's roof: a rounded rectangle one metre below the camera.
 constexpr double kRoofBelow_m = 1.0;
-constexpr double kRoofHalfWidth_m = 0.85;
-constexpr double kRoofFront_m = 0.9;
-constexpr double kRoofBack_m = -1.6;
+constexpr double kRoofHalfWidth_m = 0.72;
+constexpr double kRoofFront_m = 0.55;
+constexpr double kRoofBack_m = -1.1;
 
 /// Signed distance of a place from the roof's outline, negative on the roof.
 double FromRoof(const Eigen::Vector2d& place) {
@@ -36,8 +36,8 @@ double FromRoof(const Eigen::Vector2d& place) {
 /// White sheet with ribs, rails and scratches.
 Colour RoofColour(const Eigen::Vector2d& place, double footprint_m) {
   const double scratches = FractalNoise(place.x(), place.y(), {0.5, 0.01}, footprint_m, 4711);
-  Colour colour = Colour(0.74, 0.75, 0.76) * (1.0 + 0.12 * scratches);
-  for (const double x : {-0.68, -0.3, 0.0, 0.3, 0.68}) {
+  Colour colour = Colour(0.74, 0.75, 0.76) * (1.0 + 0.1 * scratches);
+  for (const double x : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
     const double width_m = std::abs(x) > 0.5 ? 0.04 : 0.012;
     colour = Mix(colour, 0.4 * colour, CoverInterval(place.x(), x - width_m, x + width_m, footprint_m));
   }

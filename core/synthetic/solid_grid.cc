@@ -56,12 +56,12 @@ SolidGrid::SolidGrid(const std::vector<Solid>& solids) : solids_(solids) {
   rows_ = static_cast<int>((high.y() - low_.y()) / kCell_m) + 1;
   std::vector<std::pair<uint32_t, uint32_t>> entries;  // (cell, solid)
   for (uint32_t s = 0; s < solids.size(); ++s) {
-    const Eigen::Vector2d centre = solids[s].centre.head<2>() - low_;
+    const Eigen::Vector2d middle = solids[s].centre.head<2>() - low_;
     const Eigen::Vector2d half = PlanHalf(solids[s]);
-    const auto cell_of = [](double x) { return static_cast<int>(std::floor(x / kCell_m)); };
-    for (int row = cell_of(centre.y() - half.y()); row <= cell_of(centre.y() + half.y()); ++row) {
-      for (int column = cell_of(centre.x() - half.x()); column <= cell_of(centre.x() + half.x());
-           ++column) {
+    const Eigen::Vector2i first = CellOf(middle - half);
+    const Eigen::Vector2i last = CellOf(middle + half);
+    for (int row = first.y(); row <= last.y(); ++row) {
+      for (int column = first.x(); column <= last.x(); ++column) {
         entries.emplace_back(static_cast<uint32_t>(row * columns_ + column), s);
       }
     }
@@ -75,6 +75,13 @@ SolidGrid::SolidGrid(const std::vector<Solid>& solids) : solids_(solids) {
   for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
 }
 
+Eigen::Vector2i SolidGrid::CellOf(const Eigen::Vector2d& from_low) const {
+  const auto index = [](double x, int count) {
+    return std::clamp(static_cast<int>(std::floor(x / kCell_m)), 0, count - 1);
+  };
+  return {index(from_low.x(), columns_), index(from_low.y(), rows_)};
+}
+
 template <typename Visitor>
 void SolidGrid::Walk(const Ray& ray, double max_distance_m, Visitor&& visit) const {
   if (solids_.empty()) return;
@@ -82,14 +89,12 @@ void SolidGrid::Walk(const Ray& ray, double max_distance_m, Visitor&& visit) con
   auto [t, t_end] = ClipToRectangle(ray, low_, high);
   t_end = std::min(t_end, max_distance_m);
   if (t > t_end) return;
-  const int size[2] = {columns_, rows_};
-  int cell[2];
+  const Eigen::Vector2i size(columns_, rows_);
+  Eigen::Vector2i cell = CellOf((ray.origin + t * ray.direction).head<2>() - low_);
   int step[2];
   double next[2];   // ray parameter at which the next cell begins
   double delta[2];  // between cells
   for (int axis = 0; axis < 2; ++axis) {
-    const double start = ray.origin[axis] + t * ray.direction[axis] - low_[axis];
-    cell[axis] = std::clamp(static_cast<int>(std::floor(start / kCell_m)), 0, size[axis] - 1);
     const double d = ray.direction[axis];
     step[axis] = d < 0.0 ? -1 : 1;
     const double border = (cell[axis] + (d < 0.0 ? 0 : 1)) * kCell_m + low_[axis];

@@ -29,6 +29,10 @@ class SolidGrid {
   [[nodiscard]] bool IsHit(const Ray& ray) const;
 
  private:
+  /// Column and row of a place relative to `low_`, clamped to the grid.
+  [[nodiscard]] Eigen::Vector2i CellOf(const Eigen::Vector2d& from_low) const;
+  /// Calls visit(solid, distance at which the cell ends) for the solids of each cell along the ray,
+  /// then visit(none, the same) at the cell's end, until a call returns true.
   template <typename Visitor>
   void Walk(const Ray& ray, double max_distance_m, Visitor&& visit) const;
 

@@ -36,10 +36,10 @@ TexturePoint OnFace(const Solid& solid,
 uint32_t FaceSeed(const Solid& solid, int face) { return HashOf(face, 3, solid.seed); }
 
 Colour Leaves(const Eigen::Vector3d& local, double pixel_m, uint32_t seed) {
-  const NoiseBand band{0.8, 0.05};
+  const NoiseBand band{0.4, 0.04};
   const double a = FractalNoise(local.x() + 0.7 * local.z(), local.y(), band, 1.5 * pixel_m, seed);
   const double b = FractalNoise(local.y() + 0.6 * local.x(), local.z(), band, 1.5 * pixel_m, seed + 50);
-  return Tinted({0.24, 0.34, 0.15}, 0.25, seed) * std::max(0.2, 1.0 + 1.1 * (a + b));
+  return Tinted({0.24, 0.34, 0.15}, 0.25, seed) * std::max(0.15, 1.0 + 1.2 * (a + b));
 }
 
 Colour Paint(uint32_t seed) {
@@ -91,12 +91,12 @@ Colour CarCabin(const TexturePoint& p, int face, uint32_t seed) {
 }
 
 Colour Rough(const Colour& base, const TexturePoint& p, uint32_t seed) {
-  return base * (1.0 + 0.55 * FractalNoise(p.u_m, p.v_m, {1.0, 0.02}, p.Footprint(), seed));
+  return base * (1.0 + 0.4 * FractalNoise(p.u_m, p.v_m, {1.0, 0.02}, p.Footprint(), seed));
 }
 
 /// Grilles, boards and boxes on walls: a frame round slats of random tone.
 Colour Fixture(const TexturePoint& p, uint32_t seed) {
-  const Colour base = Tinted({0.62, 0.60, 0.56}, 0.4, seed);
+  const Colour base = Tinted({0.58, 0.57, 0.55}, 0.5, seed);
   const auto slat = static_cast<int32_t>(std::floor(p.v_m / 0.07));
   const double visible = std::clamp(2.0 - p.dv_m / 0.035, 0.0, 1.0);
   const double tone = 1.0 + 0.7 * visible * (UniformOf(slat, 0, seed) - 0.5);

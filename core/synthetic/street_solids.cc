@@ -125,14 +125,14 @@ void AppendTree(const Eigen::Vector2d& place, Random& random, std::vector<Solid>
   const double trunk_m = random.Uniform(2.6, 3.4);
   solids.push_back(
       Upright(SolidKind::kPole, place, along, {0.25, 0.25, trunk_m + 0.4}, 0.0, random));
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d shift(random.Uniform(-0.6, 0.6), random.Uniform(-0.6, 0.6));
-    const double size_m = random.Uniform(1.5, 2.2);
+  for (int i = 0; i < 9; ++i) {
+    const Eigen::Vector2d shift(random.Uniform(-0.9, 0.9), random.Uniform(-0.9, 0.9));
+    const double size_m = random.Uniform(0.8, 1.6);
     solids.push_back(Upright(SolidKind::kCrown,
                              place + shift,
                              along,
                              {size_m, size_m, 0.9 * size_m},
-                             trunk_m + random.Uniform(-0.3, 1.0),
+                             trunk_m + random.Uniform(-0.4, 1.3),
                              random));
   }
 }
