@@ -14,6 +14,8 @@ namespace orbweave {
 namespace {
 
 constexpr int kPlanarLevels = 4;
+/// In a distant scene half of the matches may show no depth, and the others carry the seed.
+constexpr double kMinAngleShare = 0.25;
 
 /// Halvings of `wanted` until `value` suffices.
 int Halvings(double wanted, double value) {
@@ -58,7 +60,7 @@ std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
     const TwoViewGeometry& geometry = problem.pairs[pair.index];
     const double angle_deg = geometry.median_angle_rad * 180.0 / std::numbers::pi;
     if (available[pair.a] == 0 || available[pair.b] == 0 ||
-        geometry.kind == TwoViewKind::kPureRotation || !(angle_deg >= options.min_angle_deg) ||
+        geometry.kind == TwoViewKind::kPureRotation || !(angle_deg >= kMinAngleShare * options.min_angle_deg) ||
         geometry.inliers.size() < static_cast<size_t>(options.min_inliers)) {
       continue;
     }

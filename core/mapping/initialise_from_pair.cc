@@ -13,7 +13,7 @@
 namespace orbweave {
 namespace {
 
-constexpr double kMinKeptShare = 0.25;
+constexpr double kMinKeptShare = 0.1;
 constexpr double kMaxMedianShare = 0.5;
 
 void TriangulateMatches(MappingState& state, const LinkedPair& pair, const TrackLimits& limits) {

@@ -73,7 +73,6 @@ PointIndex CreatePoint(MappingState& state,
                        std::span<const Node> others,
                        const TrackLimits& limits) {
   if (others.empty()) return kNoPoint;
-  if (others.size()==1 && state.Graph().Neighbours(node).size()==1 && state.Graph().Neighbours(others[0]).size()==1) return kNoPoint;
   std::vector<Node> nodes(others.begin(), others.end());
   nodes.push_back(node);
   std::sort(nodes.begin(), nodes.end());

@@ -52,9 +52,8 @@ Colour Bricks(const Colour& wall, const TexturePoint& p, uint32_t seed) {
   const double visible = std::clamp(2.0 - p.Footprint() / (0.5 * kHeight_m), 0.0, 1.0);
   const double tone =
       UniformOf(static_cast<int32_t>(column), static_cast<int32_t>(course), seed) - 0.5;
-  const double joint =
-      std::max(CoverInterval(p.v_m - course * kHeight_m, 0.0, 0.012, p.dv_m),
-               CoverInterval(shifted_m - column * kLength_m, 0.0, 0.012, p.du_m));
+  const double joint = std::max(CoverInterval(p.v_m - course * kHeight_m, 0.0, 0.012, p.dv_m),
+                                CoverInterval(shifted_m - column * kLength_m, 0.0, 0.012, p.du_m));
   const Colour brick = Colour(0.56, 0.33, 0.26) * (1.0 + 0.45 * visible * tone);
   return Mix(Mix(brick, wall, 0.25), Colour(0.70, 0.67, 0.62), visible * joint);
 }
@@ -68,7 +67,12 @@ Colour Weathered(const Colour& colour, const TexturePoint& p, uint32_t seed) {
 }
 
 /// Glass with mullions, frame and sill about (0, 0) .. (.., height); x from the window's axis.
-Colour Window(const Colour& wall, double x, double y, const TexturePoint& p, const FacadeStyle& style, uint32_t id) {
+Colour Window(const Colour& wall,
+              double x,
+              double y,
+              const TexturePoint& p,
+              const FacadeStyle& style,
+              uint32_t id) {
   const double w = style.window_half_m;
   const double h = style.window_height_m;
   const auto cover = [&](double left, double right, double low, double high) {
@@ -84,7 +88,12 @@ Colour Window(const Colour& wall, double x, double y, const TexturePoint& p, con
 }
 
 /// A board with letters: black-on-colour blocks on a 5 x 7 raster, different for every house.
-Colour Sign(const Colour& wall, double x, double y, double half_width_m, const TexturePoint& p, uint32_t id) {
+Colour Sign(const Colour& wall,
+            double x,
+            double y,
+            double half_width_m,
+            const TexturePoint& p,
+            uint32_t id) {
   const double on_board = CoverInterval(x, -half_width_m, half_width_m, p.du_m) *
                           CoverInterval(y, kSignLow_m, kSignHigh_m, p.dv_m);
   if (on_board == 0.0) return wall;
@@ -110,7 +119,8 @@ Colour Motley(const TexturePoint& p, uint32_t id) {
 }
 
 /// Door, shop window, poster or bare wall between the axes x = +-bay / 2 of a bay at street level.
-Colour GroundFloor(const Colour& wall, double x, const TexturePoint& p, const FacadeStyle& style, uint32_t id) {
+Colour GroundFloor(
+    const Colour& wall, double x, const TexturePoint& p, const FacadeStyle& style, uint32_t id) {
   const auto cover = [&](double half, double low, double high, double inset) {
     return CoverInterval(x, -half + inset, half - inset, p.du_m) *
            CoverInterval(p.v_m, low + inset, high - inset, p.dv_m);

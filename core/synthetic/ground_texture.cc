@@ -25,7 +25,10 @@ double PatchCover(const Eigen::Vector2d& place, double footprint_m, uint32_t see
 }
 
 /// Iron lids of 60 cm with rings, one in some cells of a 7 m raster.
-Colour WithManhole(const Colour& asphalt, const Eigen::Vector2d& place, double footprint_m, uint32_t seed) {
+Colour WithManhole(const Colour& asphalt,
+                   const Eigen::Vector2d& place,
+                   double footprint_m,
+                   uint32_t seed) {
   constexpr double kCell_m = 7.0;
   const auto i = static_cast<int32_t>(std::floor(place.x() / kCell_m));
   const auto j = static_cast<int32_t>(std::floor(place.y() / kCell_m));
@@ -49,8 +52,10 @@ Colour WithLaneMarks(const Colour& asphalt,
   const Eigen::Vector2d beyond = place.cwiseAbs() - layout.half_m;
   const double along_m = beyond.y() > beyond.x() ? place.x() : place.y();
   const double in_dash_m = along_m - 3.0 * std::floor(along_m / 3.0);
-  const double mark = CoverInterval(from_axis_m, Profile::kLaneMark_m - 0.07, Profile::kLaneMark_m + 0.07, footprint_m) *
-                      CoverInterval(in_dash_m, 0.4, 2.0, footprint_m);
+  const double mark =
+      CoverInterval(
+          from_axis_m, Profile::kLaneMark_m - 0.07, Profile::kLaneMark_m + 0.07, footprint_m) *
+      CoverInterval(in_dash_m, 0.4, 2.0, footprint_m);
   return Mix(asphalt, {0.85, 0.85, 0.82}, mark * std::clamp(0.8 + wear, 0.0, 1.0));
 }
 
@@ -74,9 +79,8 @@ Colour Pavement(const Eigen::Vector2d& place, double footprint_m, uint32_t seed)
   const double visible = std::clamp(2.0 - footprint_m / (0.4 * kSlab_m), 0.0, 1.0);
   const double tone = UniformOf(static_cast<int32_t>(i), static_cast<int32_t>(j), seed) - 0.5;
   const double grain = FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed + 1);
-  const double joint =
-      std::max(CoverInterval(place.x() - i * kSlab_m, 0.0, 0.015, footprint_m),
-               CoverInterval(place.y() - j * kSlab_m, 0.0, 0.015, footprint_m));
+  const double joint = std::max(CoverInterval(place.x() - i * kSlab_m, 0.0, 0.015, footprint_m),
+                                CoverInterval(place.y() - j * kSlab_m, 0.0, 0.015, footprint_m));
   const Colour slab = Colour(0.60, 0.58, 0.55) * (1.0 + 0.22 * visible * tone + 0.34 * grain);
   return Mix(slab, 0.55 * slab, visible * joint);
 }
@@ -90,8 +94,9 @@ Colour GroundColour(const StreetLayout& layout,
   constexpr double kKerbWidth_m = 0.18;
   const double d = layout.DistanceFromAxis(place);
   const double road = CoverInterval(d, Profile::kInnerKerb_m, Profile::kOuterKerb_m, footprint_m);
-  const double kerb = CoverInterval(d, Profile::kInnerKerb_m - kKerbWidth_m, Profile::kInnerKerb_m, footprint_m) +
-                      CoverInterval(d, Profile::kOuterKerb_m, Profile::kOuterKerb_m + kKerbWidth_m, footprint_m);
+  const double kerb =
+      CoverInterval(d, Profile::kInnerKerb_m - kKerbWidth_m, Profile::kInnerKerb_m, footprint_m) +
+      CoverInterval(d, Profile::kOuterKerb_m, Profile::kOuterKerb_m + kKerbWidth_m, footprint_m);
   Colour colour = Pavement(place, footprint_m, seed + 1000);
   if (kerb > 0.0) {
     const double grain = FractalNoise(place.x(), place.y(), {2.0, 0.03}, footprint_m, seed + 2000);

@@ -25,8 +25,7 @@ double ValueNoise(double u, double v, uint32_t seed) {
   return 2.0 * std::lerp(low, high, b) - 1.0;
 }
 
-double FractalNoise(
-    double u, double v, const NoiseBand& band, double footprint_m, uint32_t seed) {
+double FractalNoise(double u, double v, const NoiseBand& band, double footprint_m, uint32_t seed) {
   constexpr double kSumOfEqualOctaves = 0.45;
   double sum = 0.0;
   for (double length_m = band.longest_m; length_m >= band.shortest_m; length_m *= 0.5) {

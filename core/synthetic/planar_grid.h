@@ -22,7 +22,7 @@ class PlanarGrid {
  private:
   [[nodiscard]] int64_t CellOf(double coordinate_m) const;
 
-  std::vector<Eigen::Vector2d> positions_;             // in the order of cells_
+  std::vector<Eigen::Vector2d> positions_;            // in the order of cells_
   std::vector<std::pair<uint64_t, uint32_t>> cells_;  // (cell key, index of the point), sorted
   double cell_m_;
 };

@@ -39,7 +39,8 @@ Colour RoofColour(const Eigen::Vector2d& place, double footprint_m) {
   Colour colour = Colour(0.74, 0.75, 0.76) * (1.0 + 0.1 * scratches);
   for (const double x : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
     const double width_m = std::abs(x) > 0.5 ? 0.04 : 0.012;
-    colour = Mix(colour, 0.4 * colour, CoverInterval(place.x(), x - width_m, x + width_m, footprint_m));
+    colour =
+        Mix(colour, 0.4 * colour, CoverInterval(place.x(), x - width_m, x + width_m, footprint_m));
   }
   return colour;
 }

@@ -16,10 +16,10 @@ namespace orbweave {
 struct PanoramaView {
   EquirectangularCamera camera{};
   Rigid3 cam_from_street{};
-  double exposure = 1.0;       ///< gain of this panorama
-  double noise_levels = 1.2;   ///< sensor noise, standard deviation of an 8-bit value
-  bool mask_traffic = true;    ///< moving cars are ignored, too
-  uint32_t seed = 0;           ///< of the sensor noise
+  double exposure = 1.0;      ///< gain of this panorama
+  double noise_levels = 1.2;  ///< sensor noise, standard deviation of an 8-bit value
+  bool mask_traffic = true;   ///< moving cars are ignored, too
+  uint32_t seed = 0;          ///< of the sensor noise
 };
 
 /// Row-major pixels, and 255 where they are to be ignored: the carrier's roof, moving cars.

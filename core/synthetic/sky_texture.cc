@@ -21,11 +21,13 @@ Colour SkyColour(const Eigen::Vector3d& direction, double pixel_rad, uint32_t se
   Colour colour = Mix({0.78, 0.84, 0.90}, {0.34, 0.52, 0.80}, std::sqrt(up));
   // A layer of clouds on a shell: the plane coordinate stays finite at the horizon.
   const double scale = 1.0 / (up + 0.25);
-  const double cloud = FractalNoise(scale * direction.x(), scale * direction.y(), {1.2, 0.02}, 1.5 * scale * pixel_rad, seed);
+  const double cloud = FractalNoise(
+      scale * direction.x(), scale * direction.y(), {1.2, 0.02}, 1.5 * scale * pixel_rad, seed);
   colour = Mix(colour, {0.95, 0.95, 0.96}, std::clamp(1.6 * cloud + 0.35, 0.0, 0.95));
   if (up > 0.3) return colour;
   const double elevation = std::asin(direction.z());
-  const double hill = CoverInterval(elevation, -2.0, CrestOf(direction, pixel_rad, seed + 99), pixel_rad);
+  const double hill =
+      CoverInterval(elevation, -2.0, CrestOf(direction, pixel_rad, seed + 99), pixel_rad);
   return Mix(colour, {0.42, 0.50, 0.50}, hill);
 }
 

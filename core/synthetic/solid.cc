@@ -10,7 +10,9 @@ namespace orbweave {
 namespace {
 
 /// Slabs: Kay and Kajiya, SIGGRAPH 1986.
-SolidHit IntersectBox(const Eigen::Vector3d& o, const Eigen::Vector3d& d, const Eigen::Vector3d& half) {
+SolidHit IntersectBox(const Eigen::Vector3d& o,
+                      const Eigen::Vector3d& d,
+                      const Eigen::Vector3d& half) {
   double enter = -std::numeric_limits<double>::infinity();
   double leave = std::numeric_limits<double>::infinity();
   int face = -1;
@@ -31,7 +33,9 @@ SolidHit IntersectBox(const Eigen::Vector3d& o, const Eigen::Vector3d& d, const 
   return enter > 0.0 && enter < leave ? SolidHit{enter, face} : SolidHit{};
 }
 
-SolidHit IntersectEllipsoid(const Eigen::Vector3d& o, const Eigen::Vector3d& d, const Eigen::Vector3d& half) {
+SolidHit IntersectEllipsoid(const Eigen::Vector3d& o,
+                            const Eigen::Vector3d& d,
+                            const Eigen::Vector3d& half) {
   const Eigen::Vector3d p = o.cwiseQuotient(half);
   const Eigen::Vector3d q = d.cwiseQuotient(half);
   const double a = q.squaredNorm();

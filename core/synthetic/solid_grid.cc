@@ -98,7 +98,8 @@ void SolidGrid::Walk(const Ray& ray, double max_distance_m, Visitor&& visit) con
     const double d = ray.direction[axis];
     step[axis] = d < 0.0 ? -1 : 1;
     const double border = (cell[axis] + (d < 0.0 ? 0 : 1)) * kCell_m + low_[axis];
-    next[axis] = d == 0.0 ? std::numeric_limits<double>::infinity() : (border - ray.origin[axis]) / d;
+    next[axis] =
+        d == 0.0 ? std::numeric_limits<double>::infinity() : (border - ray.origin[axis]) / d;
     delta[axis] = d == 0.0 ? std::numeric_limits<double>::infinity() : kCell_m / std::abs(d);
   }
   while (t <= t_end) {

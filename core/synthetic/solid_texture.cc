@@ -38,7 +38,8 @@ uint32_t FaceSeed(const Solid& solid, int face) { return HashOf(face, 3, solid.s
 Colour Leaves(const Eigen::Vector3d& local, double pixel_m, uint32_t seed) {
   const NoiseBand band{0.4, 0.04};
   const double a = FractalNoise(local.x() + 0.7 * local.z(), local.y(), band, 1.5 * pixel_m, seed);
-  const double b = FractalNoise(local.y() + 0.6 * local.x(), local.z(), band, 1.5 * pixel_m, seed + 50);
+  const double b =
+      FractalNoise(local.y() + 0.6 * local.x(), local.z(), band, 1.5 * pixel_m, seed + 50);
   return Tinted({0.24, 0.34, 0.15}, 0.25, seed) * std::max(0.15, 1.0 + 1.2 * (a + b));
 }
 
@@ -69,14 +70,17 @@ Colour CarBody(const TexturePoint& p, int face, uint32_t seed) {
       colour = Mix(colour, 0.6 * bright, DiscCover(p, u, 0.1, 0.19));
     }
     for (const double u : {0.33, 0.52, 0.68}) {
-      colour = Mix(colour, 0.4 * paint, CoverInterval(p.u_m, u * p.width_m, u * p.width_m + 0.015, p.du_m));
+      colour = Mix(
+          colour, 0.4 * paint, CoverInterval(p.u_m, u * p.width_m, u * p.width_m + 0.015, p.du_m));
     }
     return colour;
   }
   if (face / 2 == 0) {
-    const double plate = CoverInterval(p.u_m, 0.63, 1.15, p.du_m) * CoverInterval(p.v_m, 0.2, 0.32, p.dv_m);
+    const double plate =
+        CoverInterval(p.u_m, 0.63, 1.15, p.du_m) * CoverInterval(p.v_m, 0.2, 0.32, p.dv_m);
     const Colour lamp = face % 2 == 1 ? bright : Colour(0.6, 0.08, 0.06);
-    const double lamps = DiscCover(p, 0.25, 0.45, 0.13) + DiscCover(p, p.width_m - 0.25, 0.45, 0.13);
+    const double lamps =
+        DiscCover(p, 0.25, 0.45, 0.13) + DiscCover(p, p.width_m - 0.25, 0.45, 0.13);
     return Mix(Mix(paint, bright, plate), lamp, lamps);
   }
   return paint;
@@ -87,7 +91,8 @@ Colour CarCabin(const TexturePoint& p, int face, uint32_t seed) {
   if (face / 2 == 2) return paint;
   const double pane = CoverInterval(p.u_m, 0.1, 0.5 * p.width_m - 0.04, p.du_m) +
                       CoverInterval(p.u_m, 0.5 * p.width_m + 0.04, p.width_m - 0.1, p.du_m);
-  return Mix(paint, {0.10, 0.12, 0.14}, pane * CoverInterval(p.v_m, 0.05, p.height_m - 0.08, p.dv_m));
+  return Mix(
+      paint, {0.10, 0.12, 0.14}, pane * CoverInterval(p.v_m, 0.05, p.height_m - 0.08, p.dv_m));
 }
 
 Colour Rough(const Colour& base, const TexturePoint& p, uint32_t seed) {

@@ -101,7 +101,9 @@ Street MakeStreet(const StreetOptions& options) {
   return street;
 }
 
-RenderedPanorama RenderStreetPanorama(const Street& street, const StreetOptions& options, size_t i) {
+RenderedPanorama RenderStreetPanorama(const Street& street,
+                                      const StreetOptions& options,
+                                      size_t i) {
   Random random = RandomFor(options, "shot", i);
   const Rigid3 enu_from_street{Eigen::Quaterniond::Identity(), street.street_in_enu};
   const PanoramaView view{

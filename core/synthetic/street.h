@@ -33,16 +33,37 @@ struct StreetOptions {
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("panoramas", self.panoramas, "number of panoramas", Range{1, 10000});
-    visit("width_px", self.width_px, "width of a panorama; its height is half of it", Range{64, 16384});
+    visit("width_px",
+          self.width_px,
+          "width of a panorama; its height is half of it",
+          Range{64, 16384});
     visit("spacing_m", self.spacing_m, "distance between panoramas", Range{0.2, 20});
-    visit("tilt_sigma_deg", self.tilt_sigma_deg, "pitch, roll and yaw of the carrier", Range{0, 10});
-    visit("exposure_spread", self.exposure_spread, "largest change of gain between panoramas", Range{0, 0.5});
+    visit(
+        "tilt_sigma_deg", self.tilt_sigma_deg, "pitch, roll and yaw of the carrier", Range{0, 10});
+    visit("exposure_spread",
+          self.exposure_spread,
+          "largest change of gain between panoramas",
+          Range{0, 0.5});
     visit("noise_levels", self.noise_levels, "sensor noise in 8-bit levels", Range{0, 50});
-    visit("gnss_sigma_m", self.gnss_sigma_m, "horizontal GNSS noise; 1.5 times as much vertically", Range{0, 100});
-    visit("gnss_bias_m", self.gnss_bias_m, "constant horizontal GNSS error of the drive", Range{0, 100});
-    visit("gnss_outlier_share", self.gnss_outlier_share, "share of positions that are 15 to 60 m off", Range{0, 0.5});
-    visit("gnss_gap_share", self.gnss_gap_share, "share of the drive without reception", Range{0, 0.9});
-    visit("mask_moving_cars", self.mask_moving_cars, "masks cover moving cars as well as the carrier's roof");
+    visit("gnss_sigma_m",
+          self.gnss_sigma_m,
+          "horizontal GNSS noise; 1.5 times as much vertically",
+          Range{0, 100});
+    visit("gnss_bias_m",
+          self.gnss_bias_m,
+          "constant horizontal GNSS error of the drive",
+          Range{0, 100});
+    visit("gnss_outlier_share",
+          self.gnss_outlier_share,
+          "share of positions that are 15 to 60 m off",
+          Range{0, 0.5});
+    visit("gnss_gap_share",
+          self.gnss_gap_share,
+          "share of the drive without reception",
+          Range{0, 0.9});
+    visit("mask_moving_cars",
+          self.mask_moving_cars,
+          "masks cover moving cars as well as the carrier's roof");
     visit("seed", self.seed, "another seed, another street", Range{0, 2147483647});
   }
 };
@@ -51,8 +72,8 @@ struct StreetOptions {
 /// `origin`, which differs from the street's frame by a translation.
 struct Street {
   StreetWorld world;
-  std::vector<std::string> names{};  ///< street_0000.jpg, ...
-  std::vector<double> stations_m{};  ///< arc length along the axis
+  std::vector<std::string> names{};                         ///< street_0000.jpg, ...
+  std::vector<double> stations_m{};                         ///< arc length along the axis
   Eigen::Vector3d street_in_enu = Eigen::Vector3d::Zero();  ///< origin of the street's frame
   std::vector<Rigid3> cams_from_enu{};                      ///< truth
   /// Median of the measured positions: the origin that an honest reader of the GNSS table would

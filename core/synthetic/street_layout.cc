@@ -15,7 +15,8 @@ constexpr double kShortestLoop_m = 110.0;
 constexpr double kAspect = 1.5;
 
 std::vector<Eigen::Vector2d> Clockwise(const Eigen::Vector2d& half) {
-  return {{-half.x(), half.y()}, {half.x(), half.y()}, {half.x(), -half.y()}, {-half.x(), -half.y()}};
+  return {
+      {-half.x(), half.y()}, {half.x(), half.y()}, {half.x(), -half.y()}, {-half.x(), -half.y()}};
 }
 
 }  // namespace
@@ -27,8 +28,8 @@ double StreetLayout::DistanceFromAxis(const Eigen::Vector2d& place) const {
 
 StreetLayout MakeStreetLayout(double length_m) {
   // Rounding four corners shortens the rectangle's perimeter by (8 - 2 pi) r.
-  const double perimeter_m = std::max(length_m, kShortestLoop_m) +
-                             (8.0 - 2.0 * std::numbers::pi) * kCornerRadius_m;
+  const double perimeter_m =
+      std::max(length_m, kShortestLoop_m) + (8.0 - 2.0 * std::numbers::pi) * kCornerRadius_m;
   const double half_height_m = perimeter_m / (4.0 * (1.0 + kAspect));
   const Eigen::Vector2d half(kAspect * half_height_m, half_height_m);
   return {half, StreetPath(Clockwise(half), kCornerRadius_m, true)};

@@ -163,12 +163,8 @@ void AppendKerbside(const StreetLayout& layout, Random& random, std::vector<Soli
           Upright(SolidKind::kPole, kerb, place.direction, {0.16, 0.16, height_m}, 0.0, random));
     } else {
       const Eigen::Vector3d size(random.Uniform(1.0, 2.5), 0.5, random.Uniform(0.5, 1.1));
-      solids.push_back(Upright(SolidKind::kHedge,
-                               kerb - 0.3 * place.Left(),
-                               place.direction,
-                               size,
-                               0.0,
-                               random));
+      solids.push_back(Upright(
+          SolidKind::kHedge, kerb - 0.3 * place.Left(), place.direction, size, 0.0, random));
     }
   }
 }

@@ -31,7 +31,10 @@ bool IsInSun(const StreetWorld& world,
   return !world.grid.IsHit(ray) && !traffic.grid.IsHit(ray);
 }
 
-SurfaceHit SolidSurface(const std::vector<Solid>& solids, const GridHit& found, const Ray& ray, bool moving) {
+SurfaceHit SolidSurface(const std::vector<Solid>& solids,
+                        const GridHit& found,
+                        const Ray& ray,
+                        bool moving) {
   SurfaceHit hit{.solid = found.solid, .face = found.hit.face, .moving = moving};
   hit.surface = 2 + kSurfacesPerSolid * found.solid + static_cast<uint32_t>(found.hit.face) +
                 (moving ? 1U << 31 : 0U);

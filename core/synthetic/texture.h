@@ -41,7 +41,8 @@ inline Colour Mix(const Colour& below, const Colour& above, double share) {
 /// third of that.
 inline Colour Tinted(const Colour& base, double amount, uint32_t seed) {
   Colour colour = base * (1.0 + amount * (2.0 * UniformOf(3, 17, seed) - 1.0));
-  for (int c = 0; c < 3; ++c) colour[c] *= 1.0 + amount / 3.0 * (2.0 * UniformOf(c, 17, seed) - 1.0);
+  for (int c = 0; c < 3; ++c)
+    colour[c] *= 1.0 + amount / 3.0 * (2.0 * UniformOf(c, 17, seed) - 1.0);
   return colour.cwiseMin(1.0);
 }
 

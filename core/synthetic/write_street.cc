@@ -44,7 +44,9 @@ absl::Status WriteImage(const fs::path& path, const cv::Mat& image, const std::v
   return WriteBytes(path, reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-absl::Status WritePanorama(RenderedPanorama panorama, const std::string& name, const fs::path& folder) {
+absl::Status WritePanorama(RenderedPanorama panorama,
+                           const std::string& name,
+                           const fs::path& folder) {
   const int width = panorama.camera.width_px;
   const int height = panorama.camera.height_px;
   const cv::Mat rgb(height, width, CV_8UC3, panorama.pixels.data());
@@ -72,7 +74,14 @@ std::string TruthCsv(const Street& street) {
     const Eigen::Vector3d c = street.cams_from_enu[i].Centre();
     const Eigen::Quaterniond& q = street.cams_from_enu[i].rotation;
     csv += Line("%s,%.6f,%.6f,%.6f,%.12f,%.12f,%.12f,%.12f\n",
-                street.names[i].c_str(), c.x(), c.y(), c.z(), q.w(), q.x(), q.y(), q.z());
+                street.names[i].c_str(),
+                c.x(),
+                c.y(),
+                c.z(),
+                q.w(),
+                q.x(),
+                q.y(),
+                q.z());
   }
   return csv;
 }
@@ -93,8 +102,12 @@ std::string GnssCsv(const Street& street, const StreetOptions& options) {
     if (!street.measured_in_enu[i]) continue;
     const GeodeticPosition p = GeodeticFromEnu(street.origin, *street.measured_in_enu[i]);
     csv += Line("%s,%.9f,%.9f,%.4f,%.2f,%.1f\n",
-                street.names[i].c_str(), p.latitude_deg, p.longitude_deg, p.altitude_m,
-                std::max(0.5, options.gnss_sigma_m), std::fmod(heading, 360.0));
+                street.names[i].c_str(),
+                p.latitude_deg,
+                p.longitude_deg,
+                p.altitude_m,
+                std::max(0.5, options.gnss_sigma_m),
+                std::fmod(heading, 360.0));
   }
   return csv;
 }
@@ -103,7 +116,9 @@ std::string OriginJson(const GeodeticPosition& origin) {
   return Line(
       "{\n  \"latitude\": %.9f,\n  \"longitude\": %.9f,\n  \"altitude\": %.4f,\n"
       "  \"axes\": \"east north up\",\n  \"unit\": \"metre\"\n}\n",
-      origin.latitude_deg, origin.longitude_deg, origin.altitude_m);
+      origin.latitude_deg,
+      origin.longitude_deg,
+      origin.altitude_m);
 }
 
 /// Samples from all panoramas, in order.
@@ -115,7 +130,8 @@ SurfaceSamples SampleStreet(const Street& street, const StageContext& context) {
   });
   SurfaceSamples all;
   for (const SurfaceSamples& part : parts) {
-    all.points_in_enu.insert(all.points_in_enu.end(), part.points_in_enu.begin(), part.points_in_enu.end());
+    all.points_in_enu.insert(
+        all.points_in_enu.end(), part.points_in_enu.begin(), part.points_in_enu.end());
     all.colors.insert(all.colors.end(), part.colors.begin(), part.colors.end());
   }
   return all;
@@ -148,11 +164,14 @@ absl::Status WriteStreet(const StreetOptions& options,
   for (const char* part : {"images", "masks"}) {
     std::error_code error;
     fs::create_directories(folder / part, error);
-    if (error) return absl::UnavailableError("cannot make " + (folder / part).string() + ": " + error.message());
+    if (error)
+      return absl::UnavailableError("cannot make " + (folder / part).string() + ": " +
+                                    error.message());
   }
   const Street street = MakeStreet(options);
   ORBWEAVE_RETURN_IF_ERROR(WritePanoramas(street, options, folder, context));
-  ORBWEAVE_RETURN_IF_ERROR(WriteText(folder / "surface.ply", PlyFromSamples(SampleStreet(street, context))));
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteText(folder / "surface.ply", PlyFromSamples(SampleStreet(street, context))));
   ORBWEAVE_RETURN_IF_ERROR(WriteText(folder / "gnss.csv", GnssCsv(street, options)));
   ORBWEAVE_RETURN_IF_ERROR(WriteText(folder / "truth_origin.json", OriginJson(street.origin)));
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/manifest_codec.h"
 
+#include <filesystem>
+
 #include "proto/codec/pack.h"
 
 namespace orbweave {
@@ -66,6 +68,7 @@ void ToProto(const SourceImage& value, v1::SourceImage* proto) {
   proto->set_size_bytes(value.size_bytes);
   ToProto(value.metadata, proto->mutable_metadata());
   proto->set_mask(codec::PackDigest(value.mask));
+  proto->set_mask_name(std::filesystem::path(value.mask_path).filename().string());
   proto->set_mask_width_px(value.mask_width_px);
   proto->set_mask_height_px(value.mask_height_px);
   if (value.position_in_local) ToProto(*value.position_in_local, proto->mutable_position_in_local());
@@ -80,6 +83,7 @@ absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
   SourceImage value{.name = proto.name(), .size_bytes = proto.size_bytes(), .metadata = FromProto(proto.metadata())};
   ORBWEAVE_ASSIGN_OR_RETURN(value.content, codec::UnpackDigest(proto.content()));
   ORBWEAVE_ASSIGN_OR_RETURN(value.mask, codec::UnpackDigest(proto.mask()));
+  value.mask_path = proto.mask_name();
   value.mask_width_px = proto.mask_width_px();
   value.mask_height_px = proto.mask_height_px();
   if (proto.has_position_in_local()) value.position_in_local = FromProto(proto.position_in_local());

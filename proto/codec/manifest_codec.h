@@ -11,6 +11,7 @@
 
 namespace orbweave {
 
+/// Paths are not written: a decoded source knows its mask by file name alone.
 [[nodiscard]] std::string EncodeImageSources(const ImageSources& sources);
 [[nodiscard]] absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes);
 

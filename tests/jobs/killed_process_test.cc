@@ -26,17 +26,18 @@ size_t FinishedTasks(const std::string& output) {
   return files;
 }
 
-uint32_t ReusedTasks(const std::string& output) {
-  uint32_t reused = 0;
-  for (const auto& stage : ReportOf(output)["stages"]) reused += stage["tasks_reused"].get<uint32_t>();
-  return reused;
+/// Sum over stages of `key`: "tasks_reused" or "tasks_computed".
+uint32_t SumOverStages(const std::string& output, const char* key) {
+  const nlohmann::json report = ReportOf(output);
+  EXPECT_FALSE(report["stages"].empty());
+  uint32_t sum = 0;
+  for (const auto& stage : report["stages"]) sum += stage[key].get<uint32_t>();
+  return sum;
 }
 
-uint32_t ComputedTasks(const std::string& output) {
-  uint32_t computed = 0;
-  for (const auto& stage : ReportOf(output)["stages"]) computed += stage["tasks_computed"].get<uint32_t>();
-  return computed;
-}
+uint32_t ReusedTasks(const std::string& output) { return SumOverStages(output, "tasks_reused"); }
+
+uint32_t ComputedTasks(const std::string& output) { return SumOverStages(output, "tasks_computed"); }
 
 TEST(KilledProcess, AWorkerKilledInTheMiddleOfTheJobIsReplaced) {
   const TemporaryFolder folder;

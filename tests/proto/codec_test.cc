@@ -179,6 +179,35 @@ TEST(RecipesCodec, RefusesAPairWithoutItsImages) {
   EXPECT_FALSE(DecodeMatchRecipe(EncodeMatchRecipe(match)).ok());
 }
 
+TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
+  ImageSources in{.mask_ignores_white = false, .gnss_text = "name,latitude", .gnss_name = "g.csv", .warnings = {"w"}};
+  SourceImage image{.name = "a.jpg", .path = "/somewhere/a.jpg", .content = DigestOf("a"), .size_bytes = 7};
+  image.metadata = {.width_px = 100, .height_px = 50};
+  image.metadata.position = GeodeticPosition{47.0, 8.0, 400.0};
+  image.mask_path = "/somewhere/masks/a.png";
+  image.mask = DigestOf("m");
+  image.mask_width_px = 100;
+  image.mask_height_px = 50;
+  image.position_in_local = Eigen::Vector3d(1, 2, 3);
+  image.position_sigma_m = Eigen::Vector2d(0.5, 1.0);
+  in.images.push_back(image);
+  const std::string bytes = EncodeImageSources(in);
+  EXPECT_EQ(bytes.find("somewhere"), std::string::npos);
+  const auto out = DecodeImageSources(bytes);
+  ASSERT_TRUE(out.ok()) << out.status();
+  ASSERT_EQ(out->images.size(), 1U);
+  EXPECT_EQ(out->images[0].mask, image.mask);
+  EXPECT_EQ(out->images[0].mask_path, "a.png");
+  EXPECT_EQ(out->images[0].mask_width_px, 100);
+  EXPECT_EQ(out->images[0].metadata.width_px, 100);
+  EXPECT_EQ(out->images[0].metadata.position->altitude_m, 400.0);
+  EXPECT_EQ(out->images[0].position_in_local, image.position_in_local);
+  EXPECT_EQ(out->images[0].position_sigma_m, image.position_sigma_m);
+  EXPECT_EQ(out->gnss_text, in.gnss_text);
+  EXPECT_FALSE(out->mask_ignores_white);
+  EXPECT_EQ(EncodeImageSources(*out), bytes);
+}
+
 TEST(ManifestCodec, RoundTrips) {
   ImageManifest in{.excluded = {{"c.jpg", "not 2:1"}}, .warnings = {"row 3"}, .mask_ignores_white = false};
   in.origin = GeodeticPosition{47.5, 8.5, 400.0};

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -109,11 +110,15 @@ class Command {
 
 inline CommandOutcome RunCommand(const std::vector<std::string>& arguments) { return Command(arguments).Wait(); }
 
-/// Process ids of the children of `parent`, in order.
+/// Process ids of the children of `parent`, whichever of its threads started them, in order.
 inline std::vector<pid_t> ChildrenOf(pid_t parent) {
   std::vector<pid_t> children;
-  std::istringstream list(ReadAll("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children"));
-  for (pid_t child = 0; list >> child;) children.push_back(child);
+  std::error_code gone;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(parent) + "/task", gone)) {
+    std::istringstream list(ReadAll((thread.path() / "children").string()));
+    for (pid_t child = 0; list >> child;) children.push_back(child);
+  }
+  std::sort(children.begin(), children.end());
   return children;
 }
 

@@ -65,7 +65,7 @@ TEST(FindSeedPairs, RelaxesAngleAndMatchesStepByStep) {
 TEST(FindSeedPairs, LeavesOutRotationsSmallAnglesAndTakenImages) {
   ClusterProblem problem = ProblemOfImages(4);
   AddPair(problem, 0, 1, 300, 20.0, TwoViewKind::kPureRotation);
-  AddPair(problem, 0, 2, 300, 1.0);
+  AddPair(problem, 0, 2, 300, 0.3);
   AddPair(problem, 0, 3, 300, 20.0);
   AddPair(problem, 1, 2, 300, 20.0);
   EXPECT_EQ(Find(problem, {}, {1, 1, 1, 0}), (std::vector<ImagePair>{Pair(1, 2)}));

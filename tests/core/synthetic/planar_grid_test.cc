@@ -13,7 +13,8 @@ namespace {
 TEST(PlanarGrid, FindsWhatLookingAtAllPointsFinds) {
   Random random(7);
   std::vector<Eigen::Vector2d> points;
-  for (int i = 0; i < 500; ++i) points.emplace_back(random.Uniform(-90, 90), random.Uniform(-90, 90));
+  for (int i = 0; i < 500; ++i)
+    points.emplace_back(random.Uniform(-90, 90), random.Uniform(-90, 90));
   const PlanarGrid grid(points, 10.0);
   for (const double radius_m : {0.0, 4.0, 25.0}) {
     for (int k = 0; k < 50; ++k) {
@@ -27,7 +28,9 @@ TEST(PlanarGrid, FindsWhatLookingAtAllPointsFinds) {
   }
 }
 
-TEST(PlanarGrid, IsEmptyWithoutPoints) { EXPECT_TRUE(PlanarGrid({}, 1.0).Within({0, 0}, 5.0).empty()); }
+TEST(PlanarGrid, IsEmptyWithoutPoints) {
+  EXPECT_TRUE(PlanarGrid({}, 1.0).Within({0, 0}, 5.0).empty());
+}
 
 }  // namespace
 }  // namespace orbweave

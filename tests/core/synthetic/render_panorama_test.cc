@@ -22,21 +22,23 @@ PanoramaView ViewFrom(const Eigen::Vector3d& centre, double heading_rad) {
   Eigen::Matrix3d R;
   R << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   const Eigen::Quaterniond turn = RotationFromVector({0.0, heading_rad, 0.0});
-  return {.camera = kCamera,
-          .cam_from_street = Rigid3::FromCentre((turn * Eigen::Quaterniond(R)).normalized(), centre),
-          .noise_levels = 0.0};
+  return {
+      .camera = kCamera,
+      .cam_from_street = Rigid3::FromCentre((turn * Eigen::Quaterniond(R)).normalized(), centre),
+      .noise_levels = 0.0};
 }
 
 int Difference(const Rgb& a, const Rgb& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-/// Mean position of the pixels that differ; columns as angles, so that the seam is nowhere special.
+/// Mean position of the pixels above the horizon that differ (below it shadows do, too); columns
+/// as angles, so that the seam is nowhere special.
 Eigen::Vector2d MiddleOfChange(const RenderedPanorama& a, const RenderedPanorama& b) {
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();
   double rows = 0.0;
   double count = 0.0;
-  for (int j = 0; j < kCamera.height_px; ++j) {
+  for (int j = 0; j < kCamera.height_px / 2; ++j) {
     for (int i = 0; i < kCamera.width_px; ++i) {
       const auto k = static_cast<size_t>(j * kCamera.width_px + i);
       if (Difference(a.pixels[k], b.pixels[k]) < 12) continue;
@@ -65,7 +67,8 @@ TEST(RenderPanorama, ShowsABallWhereItsCentreProjects) {
     StreetWorld world = empty;
     world.solids = {ball};
     world.grid = SolidGrid(world.solids);
-    const Eigen::Vector2d seen = MiddleOfChange(RenderPanorama(empty, none, view), RenderPanorama(world, none, view));
+    const Eigen::Vector2d seen =
+        MiddleOfChange(RenderPanorama(empty, none, view), RenderPanorama(world, none, view));
     const Eigen::Vector2d expected = kCamera.PixelFromBearing(view.cam_from_street * ball.centre);
     const double across = std::remainder(seen.x() - expected.x(), kCamera.width_px);
     EXPECT_NEAR(across, 0.0, 0.25) << heading;
@@ -79,8 +82,8 @@ TEST(RenderPanorama, TurningTheCameraByWholePixelsShiftsColumns) {
   constexpr int kShift = 37;
   const Eigen::Vector3d centre(0.0, world.layout.half_m.y(), 0.0);
   const RenderedPanorama plain = RenderPanorama(world, none, ViewFrom(centre, 0.4));
-  const RenderedPanorama turned =
-      RenderPanorama(world, none, ViewFrom(centre, 0.4 + 2.0 * std::numbers::pi * kShift / kCamera.width_px));
+  const RenderedPanorama turned = RenderPanorama(
+      world, none, ViewFrom(centre, 0.4 + 2.0 * std::numbers::pi * kShift / kCamera.width_px));
   size_t different = 0;
   for (int j = 0; j < kCamera.height_px / 2; ++j) {  // below is the carrier, which turns along
     for (int i = 0; i < kCamera.width_px; ++i) {
@@ -97,11 +100,14 @@ TEST(RenderPanorama, IgnoresTheRoofBelowAndMovingCarsOnRequest) {
   const StreetWorld world = MakeStreetWorld(120.0, 1);
   const Eigen::Vector3d centre(0.0, world.layout.half_m.y(), 0.0);
   PanoramaView view = ViewFrom(centre, 0.0);
-  const Solid car{.kind = SolidKind::kCarBody, .centre = centre + Eigen::Vector3d(6.0, 0.0, -1.5), .half = {2.0, 0.9, 0.8}};
+  const Solid car{.kind = SolidKind::kCarBody,
+                  .centre = centre + Eigen::Vector3d(6.0, 0.0, -1.5),
+                  .half = {2.0, 0.9, 0.8}};
   const Traffic traffic({car});
   const auto count = [](const RenderedPanorama& image, int first_row, int last_row) {
     int n = 0;
-    for (int k = first_row * kCamera.width_px; k < last_row * kCamera.width_px; ++k) n += image.ignored[static_cast<size_t>(k)] != 0;
+    for (int k = first_row * kCamera.width_px; k < last_row * kCamera.width_px; ++k)
+      n += image.ignored[static_cast<size_t>(k)] != 0;
     return n;
   };
   const int h = kCamera.height_px;
@@ -110,7 +116,8 @@ TEST(RenderPanorama, IgnoresTheRoofBelowAndMovingCarsOnRequest) {
   EXPECT_GT(count(masked, h / 2, 3 * h / 4), 10);
   EXPECT_EQ(count(masked, 0, h / 2 - 4), 0);
   view.mask_traffic = false;
-  EXPECT_LT(count(RenderPanorama(world, traffic, view), h / 2, 3 * h / 4), count(masked, h / 2, 3 * h / 4));
+  EXPECT_LT(count(RenderPanorama(world, traffic, view), h / 2, 3 * h / 4),
+            count(masked, h / 2, 3 * h / 4));
 }
 
 }  // namespace

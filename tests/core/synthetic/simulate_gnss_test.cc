@@ -31,7 +31,8 @@ TEST(SimulateGnss, BiasIsOneForTheWholeDrive) {
 
 TEST(SimulateGnss, OutliersAreFarOffAndAsManyAsAsked) {
   int far = 0;
-  for (const Eigen::Vector3d& p : SimulateGnss(kStanding, {.sigma_m = 0.0, .outlier_share = 0.1}, 3)) {
+  for (const Eigen::Vector3d& p :
+       SimulateGnss(kStanding, {.sigma_m = 0.0, .outlier_share = 0.1}, 3)) {
     const double error_m = (p - kStanding[0]).norm();
     if (error_m == 0.0) continue;
     EXPECT_GE(error_m, 15.0 - 1e-9);

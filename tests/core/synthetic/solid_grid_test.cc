@@ -19,10 +19,11 @@ std::vector<Solid> RandomSolids(Random& random) {
   std::vector<Solid> solids;
   for (int i = 0; i < 60; ++i) {
     const double yaw = random.Uniform(0.0, 6.28);
-    solids.push_back({.kind = i % 4 == 0 ? SolidKind::kCrown : SolidKind::kBuilding,
-                      .centre = {random.Uniform(-40, 40), random.Uniform(-25, 25), random.Uniform(-2, 5)},
-                      .half = {random.Uniform(0.1, 4), random.Uniform(0.1, 4), random.Uniform(0.1, 4)},
-                      .along = {std::cos(yaw), std::sin(yaw)}});
+    solids.push_back(
+        {.kind = i % 4 == 0 ? SolidKind::kCrown : SolidKind::kBuilding,
+         .centre = {random.Uniform(-40, 40), random.Uniform(-25, 25), random.Uniform(-2, 5)},
+         .half = {random.Uniform(0.1, 4), random.Uniform(0.1, 4), random.Uniform(0.1, 4)},
+         .along = {std::cos(yaw), std::sin(yaw)}});
   }
   return solids;
 }

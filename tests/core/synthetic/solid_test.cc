@@ -35,7 +35,8 @@ TEST(Solid, NormalsPointAgainstTheRay) {
 
 TEST(Solid, EllipsoidTouchesItsBox) {
   const Solid crown{.kind = SolidKind::kCrown, .centre = {5.0, 0.0, 0.0}, .half = {2.0, 1.0, 1.0}};
-  EXPECT_NEAR(Intersect({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()}, crown).distance_m, 3.0, 1e-12);
+  EXPECT_NEAR(
+      Intersect({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()}, crown).distance_m, 3.0, 1e-12);
   EXPECT_EQ(Intersect({{0.0, 0.99, 0.99}, Eigen::Vector3d::UnitX()}, crown).face, -1);
 }
 

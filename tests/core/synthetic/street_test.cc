@@ -44,7 +44,8 @@ std::vector<SharedPoint> SharedPoints(const Street& street, const Equirectangula
     const Eigen::Vector3d point = point_in_enu - street.street_in_enu;
     const Eigen::Vector3d ray = point - cam1.Centre();
     const SurfaceHit hit = Trace(street.world, none, {cam1.Centre(), ray.normalized()});
-    const SharedPoint seen = {camera.PixelFromBearing(cam0 * point), camera.PixelFromBearing(cam1 * point)};
+    const SharedPoint seen = {camera.PixelFromBearing(cam0 * point),
+                              camera.PixelFromBearing(cam1 * point)};
     const bool clear_of_poles = std::abs(seen[0].y() / camera.height_px - 0.5) < 0.22 &&
                                 std::abs(seen[1].y() / camera.height_px - 0.5) < 0.22;
     if (clear_of_poles && std::abs(hit.distance_m - ray.norm()) < 1e-6) shared.push_back(seen);
@@ -53,7 +54,8 @@ std::vector<SharedPoint> SharedPoints(const Street& street, const Equirectangula
 }
 
 TEST(Street, TextureStaysAtItsPlaceBetweenPanoramas) {
-  const StreetOptions options{.panoramas = 48, .width_px = 768, .spacing_m = 2.5, .exposure_spread = 0.0};
+  const StreetOptions options{
+      .panoramas = 48, .width_px = 768, .spacing_m = 2.5, .exposure_spread = 0.0};
   const Street street = MakeStreet(options);
   const RenderedPanorama first = RenderStreetPanorama(street, options, 0);
   const RenderedPanorama second = RenderStreetPanorama(street, options, 1);
@@ -62,7 +64,9 @@ TEST(Street, TextureStaysAtItsPlaceBetweenPanoramas) {
   const auto disagreement = [&](double dx, double dy) {
     double sum = 0.0;
     for (const SharedPoint& p : shared) {
-      sum += std::min(20.0, std::abs(BrightnessAt(first, p[0]) - BrightnessAt(second, p[1] + Eigen::Vector2d(dx, dy))));
+      sum += std::min(20.0,
+                      std::abs(BrightnessAt(first, p[0]) -
+                               BrightnessAt(second, p[1] + Eigen::Vector2d(dx, dy))));
     }
     return sum / static_cast<double>(shared.size());
   };
@@ -89,7 +93,8 @@ TEST(Street, TheLoopClosesWithEvenSteps) {
 TEST(Street, ShortDrivesDoNotGoRound) {
   const StreetOptions options{.panoramas = 6};
   const Street street = MakeStreet(options);
-  const double end_to_end_m = (street.cams_from_enu[0].Centre() - street.cams_from_enu[5].Centre()).norm();
+  const double end_to_end_m =
+      (street.cams_from_enu[0].Centre() - street.cams_from_enu[5].Centre()).norm();
   EXPECT_GT(end_to_end_m, 5.0);
   EXPECT_LT(end_to_end_m, 6 * options.spacing_m);
 }
@@ -103,7 +108,8 @@ TEST(Street, MeasurementsScatterAboutTheTruthAndHaveTheirMedianAtTheOrigin) {
     if (!street.measured_in_enu[i]) continue;
     const Eigen::Vector3d error = *street.measured_in_enu[i] - street.cams_from_enu[i].Centre();
     errors_m.push_back(error.head<2>().norm());
-    for (int axis = 0; axis < 3; ++axis) below[static_cast<size_t>(axis)] += (*street.measured_in_enu[i])[axis] < 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      below[static_cast<size_t>(axis)] += (*street.measured_in_enu[i])[axis] < 0.0;
   }
   EXPECT_EQ(errors_m.size(), 400U - 32U);
   for (const int count : below) EXPECT_NEAR(count, 184, 1);

@@ -64,7 +64,8 @@ TEST_F(WriteStreetTest, TablesNameEveryImageButThoseInTheGap) {
 }
 
 TEST_F(WriteStreetTest, RefusesOptionsOutOfRangeAndFoldersThatCannotBe) {
-  EXPECT_EQ(WriteStreet({.panoramas = 0}, folder_.string(), {}).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(WriteStreet({.panoramas = 0}, folder_.string(), {}).code(),
+            absl::StatusCode::kInvalidArgument);
   fs::create_directories(folder_);
   std::ofstream(folder_ / "file") << "in the way";
   EXPECT_EQ(WriteStreet({.panoramas = 1, .width_px = 64}, (folder_ / "file").string(), {}).code(),
@@ -74,8 +75,10 @@ TEST_F(WriteStreetTest, RefusesOptionsOutOfRangeAndFoldersThatCannotBe) {
 TEST_F(WriteStreetTest, StopsOnRequestWithoutClaimingToBeComplete) {
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(WriteStreet({.panoramas = 2, .width_px = 64}, folder_.string(), {.stop = stop.get_token()}).code(),
-            absl::StatusCode::kCancelled);
+  EXPECT_EQ(
+      WriteStreet({.panoramas = 2, .width_px = 64}, folder_.string(), {.stop = stop.get_token()})
+          .code(),
+      absl::StatusCode::kCancelled);
   EXPECT_FALSE(fs::exists(folder_ / "truth.csv"));
 }
 
