@@ -84,6 +84,14 @@ absl::StatusOr<std::vector<Digest>> PutMatches(CoordinatorApi& coordinator,
   return recipes;
 }
 
+/// The folder's name, or that of the folder above where it is just called "images".
+std::string LabelOf(const std::string& image_folder) {
+  std::filesystem::path path = std::filesystem::absolute(image_folder).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  if (path.filename() == "images") path = path.parent_path();
+  return path.filename().string();
+}
+
 }  // namespace
 
 absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
@@ -96,7 +104,7 @@ absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
   return JobSpec{.kind = "sparse",
                  .inputs = {blob},
                  .options_text = PipelineOptionsToText(options),
-                 .label = std::filesystem::path(request.image_folder).lexically_normal().filename().string()};
+                 .label = LabelOf(request.image_folder)};
 }
 
 absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,

@@ -163,9 +163,10 @@ Colour FacadeColour(const TexturePoint& p, uint32_t seed) {
   const double bay = std::floor(from_first_m / style.bay_m);
   if (bay < 0.0 || bay >= bays) return colour;
   const double x = from_first_m - (bay + 0.5) * style.bay_m;
-  const uint32_t id = HashOf(static_cast<int32_t>(bay), static_cast<int32_t>(storey), seed);
-  if (above_m < 0.0) return GroundFloor(colour, x, p, style, id);
+  const auto column = static_cast<int32_t>(bay);
+  if (above_m < 0.0) return GroundFloor(colour, x, p, style, HashOf(column, -1, seed));
   if ((storey + 1.0) * style.floor_m + kGroundFloor_m > p.height_m) return colour;
+  const uint32_t id = HashOf(column, static_cast<int32_t>(storey), seed);
   return Window(colour, x, in_storey_m - 0.85, p, style, id);
 }
 
