@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/export_command.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "cli/exit_code.h"
 #include "cli/fetch_results.h"
@@ -22,10 +25,28 @@ struct ExportArguments {
   DatabaseCameraModel camera = DatabaseCameraModel::kEquirectangular;
 };
 
+/// Whether a job that has no workers cannot go on: a stage is written down and not done.
+bool NeedsWorkers(const JobStatus& job) {
+  return std::any_of(job.stages.begin(), job.stages.end(), [](const StageStatus& stage) {
+    return stage.tasks_total > stage.tasks_done;
+  });
+}
+
+/// The job once a coordinator that has just been opened has found its finished tasks again.
+absl::StatusOr<JobStatus> Settled(CoordinatorApi& coordinator, const Digest& id) {
+  constexpr auto kPause = std::chrono::milliseconds(20);
+  for (;;) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, coordinator.GetJob(id));
+    if (job.state != JobState::kRunning || NeedsWorkers(job)) return job;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std::string& output) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
-  for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) {
-    if (job->state == JobState::kDone) return *job;
+  for (auto listed = jobs.rbegin(); listed != jobs.rend(); ++listed) {
+    ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, Settled(coordinator, listed->id));
+    if (job.state == JobState::kDone) return job;
   }
   return absl::FailedPreconditionError(output + " holds no finished job; run it to its end first");
 }

@@ -11,7 +11,7 @@
 namespace orbweave {
 
 struct ExtractOptions {
-  int max_features = 8192;
+  int max_features = 10000;
   double max_latitude_deg = 65.0;
   double contrast_threshold = 0.003;
   double edge_threshold = 10.0;
@@ -54,8 +54,8 @@ struct ExtractInput {
 /// Seam-wrapped SIFT of one equirectangular panorama: RootSIFT descriptors, spatially balanced
 /// top-k, colours, angular sigmas. Works in overlapping tiles that continue across the seam and the
 /// poles, so memory beside the pixels themselves does not grow with the panorama. An image or mask
-/// that cannot be used (not decodable, not 2:1, mask of another size) is a value: Features with
-/// `problem` set. Cancelled when asked to stop.
+/// that cannot be used (not decodable, not 2:1, mask of other proportions) is a value: Features
+/// with `problem` set. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<Features> ExtractFeatures(const ExtractInput& input,
                                                        const ExtractOptions& options,
                                                        const StageContext& context);

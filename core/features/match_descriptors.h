@@ -16,7 +16,7 @@ struct MatchOptions {
   double max_distance = 0.7;
   bool cross_check = true;
   bool guided = true;
-  double guided_max_ratio = 0.7;
+  double guided_max_ratio = 0.8;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

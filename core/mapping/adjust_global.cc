@@ -7,13 +7,19 @@
 
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/complete_tracks.h"
+#include "core/mapping/drop_two_view_points.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/median_error.h"
+#include "core/mapping/merge_coincident_points.h"
 #include "core/mapping/merge_points.h"
 #include "core/mapping/retriangulate_pairs.h"
 
 namespace orbweave {
 namespace {
+
+/// Right points of two observations are fitted closer than others: 99 % within this many medians.
+constexpr double kTwoViewMedians = 1.5;
 
 /// How long rounds go on.
 struct Rounds {
@@ -34,27 +40,11 @@ absl::Status AdjustAll(MappingState& state, const BundleOptions& how, const Stag
   return AdjustPart(state, state.Registered(), AllPoints(state), how, context).status();
 }
 
-/// Median over all observations of their error in pixels at the equator.
-double MedianErrorPx(const MappingState& state) {
-  std::vector<double> errors_px;
-  errors_px.reserve(state.NumObservations());
-  for (const PointIndex point : AllPoints(state)) {
-    for (const Node node : state.Point(point).nodes) {
-      errors_px.push_back(NodeError(state, state.Point(point).position, node) /
-                          AngleFromPixels(state, node, 1.0));
-    }
-  }
-  if (errors_px.empty()) return 0.0;
-  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
-  std::nth_element(errors_px.begin(), middle, errors_px.end());
-  return *middle;
-}
-
 /// options.max_error_px is what is allowed at most; where observations are more exact, those that
-/// stand out from them are wrong too. Of errors with two normal components one in 10^5 exceeds
-/// four medians.
+/// stand out from them are wrong too. Of errors with two normal components one in 1500 exceeds
+/// 3.25 medians.
 MappingOptions Tightened(const MappingState& state, MappingOptions options) {
-  constexpr double kMedians = 4.0;
+  constexpr double kMedians = 3.25;
   constexpr double kFloorPx = 0.5;
   options.max_error_px =
       std::min(options.max_error_px, std::max(kFloorPx, kMedians * MedianErrorPx(state)));
@@ -69,6 +59,7 @@ absl::Status AdjustInRounds(MappingState& state,
   for (int round = 0; round < rounds.max_rounds; ++round) {
     const MappingOptions limits = rounds.tightens ? Tightened(state, options) : options;
     uint32_t changed = DensifyTracks(state, limits);
+    if (rounds.tightens) changed += MergeCoincidentPoints(state, limits.max_error_px);
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, how, context));
     changed += FilterPoints(state, AllPoints(state), LimitsOf(limits));
     if (changed <= rounds.max_changed_share * state.NumObservations()) break;
@@ -97,6 +88,7 @@ absl::Status AdjustFinalModel(MappingState& state,
                      robust,
                      {.max_rounds = 5, .max_changed_share = 0.001, .tightens = true},
                      context));
+  DropTwoViewPoints(state, kTwoViewMedians * MedianErrorPx(state), options.two_view_below);
   const BundleOptions exact = {
       .loss = BundleLoss::kLeastSquares, .max_iterations = 30, .function_tolerance = 1e-7};
   constexpr int kMaxFinishes = 3;

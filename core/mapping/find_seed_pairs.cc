@@ -14,8 +14,7 @@ namespace orbweave {
 namespace {
 
 constexpr int kPlanarLevels = 4;
-/// In a distant scene half of the matches may show no depth, and the others carry the seed.
-constexpr double kMinAngleShare = 0.25;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 /// Halvings of `wanted` until `value` suffices.
 int Halvings(double wanted, double value) {
@@ -24,16 +23,34 @@ int Halvings(double wanted, double value) {
   return halvings;
 }
 
+/// Matches whose rays meet under at least min_angle_rad: those that will make points. The angle at
+/// the point is the angle between the two rays.
+uint32_t CountDeepMatches(const ClusterProblem& problem,
+                          const CorrespondenceGraph& graph,
+                          const LinkedPair& pair,
+                          double min_angle_rad) {
+  const TwoViewGeometry& geometry = problem.pairs[pair.index];
+  const Eigen::Matrix3d R = geometry.b_from_a.rotation.toRotationMatrix();
+  const double max_abs_cos = std::cos(min_angle_rad);
+  uint32_t count = 0;
+  for (const FeatureMatch& match : geometry.inliers) {
+    const Eigen::Vector3d& a = graph.bearing_of_node[graph.node_of_feature[pair.a][match.a]];
+    const Eigen::Vector3d& b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
+    if (std::abs(b.dot(R * a)) <= max_abs_cos) ++count;
+  }
+  return count;
+}
+
 struct Candidate {
   uint32_t pair = 0;
   int level = 0;
   uint64_t image_matches = 0;  ///< of its better connected image; 0 where that does not rank
-  size_t matches = 0;
+  uint32_t deep_matches = 0;
 };
 
 bool IsBetter(const Candidate& x, const Candidate& y) {
-  return std::tuple(x.level, y.image_matches, y.matches, x.pair) <
-         std::tuple(y.level, x.image_matches, x.matches, y.pair);
+  return std::tuple(x.level, y.image_matches, y.deep_matches, x.pair) <
+         std::tuple(y.level, x.image_matches, x.deep_matches, y.pair);
 }
 
 std::vector<uint64_t> MatchesPerImage(const ClusterProblem& problem,
@@ -58,19 +75,20 @@ std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
   for (uint32_t p = 0; p < graph.pairs.size(); ++p) {
     const LinkedPair& pair = graph.pairs[p];
     const TwoViewGeometry& geometry = problem.pairs[pair.index];
-    const double angle_deg = geometry.median_angle_rad * 180.0 / std::numbers::pi;
     if (available[pair.a] == 0 || available[pair.b] == 0 ||
-        geometry.kind == TwoViewKind::kPureRotation || !(angle_deg >= kMinAngleShare * options.min_angle_deg) ||
-        geometry.inliers.size() < static_cast<size_t>(options.min_inliers)) {
+        geometry.kind == TwoViewKind::kPureRotation || !(geometry.median_angle_rad > 0.0)) {
       continue;
     }
+    const uint32_t deep_matches =
+        CountDeepMatches(problem, graph, pair, options.min_angle_deg * kRadiansPerDegree);
+    if (deep_matches < static_cast<uint32_t>(options.min_inliers)) continue;
     const int level =
         Halvings(options.seed_min_inliers, static_cast<double>(geometry.inliers.size())) +
-        Halvings(options.seed_min_angle_deg, angle_deg) +
+        Halvings(options.seed_min_angle_deg, geometry.median_angle_rad / kRadiansPerDegree) +
         (geometry.kind == TwoViewKind::kPlanar ? kPlanarLevels : 0);
     const uint64_t ranking_matches =
         by_image ? std::max(image_matches[pair.a], image_matches[pair.b]) : 0;
-    candidates.push_back({p, level, ranking_matches, geometry.inliers.size()});
+    candidates.push_back({p, level, ranking_matches, deep_matches});
   }
   std::sort(candidates.begin(), candidates.end(), IsBetter);
   std::vector<uint32_t> pairs;

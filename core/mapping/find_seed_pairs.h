@@ -10,11 +10,12 @@
 namespace orbweave {
 
 /// Pairs to start from, best first, as indices into graph.pairs: the paper's section 4 relaxed step
-/// by step. A pair of at least options.seed_min_inliers matches under options.seed_min_angle_deg is
-/// of level 0; every halving of either that it needs costs a level, being nearly planar costs four.
-/// Lower levels come first, within a level more matches. Left out: pure rotations, pairs of
-/// a quarter of options.min_angle_deg or less (hardly a point would be kept) or with fewer than
-/// options.min_inliers matches, and pairs with an image that is not `available`.
+/// by step. A pair of at least options.seed_min_inliers matches and a median angle of at least
+/// options.seed_min_angle_deg is of level 0; every halving of either that it needs costs a level,
+/// being nearly planar costs four. Lower levels come first; within a level more matches that show
+/// depth, that is, whose rays meet under options.min_angle_deg at least. Left out: pure rotations,
+/// pairs of fewer than options.min_inliers such matches, and pairs with an image that is not
+/// `available`.
 [[nodiscard]] std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
                                                   const CorrespondenceGraph& graph,
                                                   std::span<const uint8_t> available,

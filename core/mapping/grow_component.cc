@@ -104,9 +104,12 @@ class Growth {
     record.needed_inliers = static_cast<uint32_t>(Limits().min_inliers);
   }
 
+  /// Few new images are in the hands of local adjustments, whose windows overlap.
   bool HasGrown() const {
+    const auto images = static_cast<double>(state_.Registered().size());
+    if (images < images_adjusted_ + options_.local_window / 3) return false;
     const double factor = 1.0 + options_.global_growth;
-    return static_cast<double>(state_.Registered().size()) >= factor * images_adjusted_ ||
+    return images >= factor * images_adjusted_ ||
            static_cast<double>(state_.NumPoints()) >= factor * points_adjusted_;
   }
 

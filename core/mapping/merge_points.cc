@@ -88,20 +88,23 @@ PointIndex MergeOnce(MappingState& state, PointIndex point, double max_error_px)
         continue;
       }
       tried.push_back(candidate);
-      const auto position =
-          CommonPosition(state, state.Point(point), state.Point(candidate), max_error_px);
-      if (!position) continue;
-      const std::vector<Node> nodes =
-          UnitedNodes(state, *position, state.Point(point), state.Point(candidate));
-      state.RemovePoint(point);
-      state.RemovePoint(candidate);
-      return state.AddPoint(*position, nodes);
+      const PointIndex merged = MergePair(state, point, candidate, max_error_px);
+      if (merged != kNoPoint) return merged;
     }
   }
   return kNoPoint;
 }
 
 }  // namespace
+
+PointIndex MergePair(MappingState& state, PointIndex a, PointIndex b, double max_error_px) {
+  const auto position = CommonPosition(state, state.Point(a), state.Point(b), max_error_px);
+  if (!position) return kNoPoint;
+  const std::vector<Node> nodes = UnitedNodes(state, *position, state.Point(a), state.Point(b));
+  state.RemovePoint(a);
+  state.RemovePoint(b);
+  return state.AddPoint(*position, nodes);
+}
 
 uint32_t MergePoints(MappingState& state, std::span<const PointIndex> points, double max_error_px) {
   uint32_t merged = 0;

@@ -14,4 +14,7 @@ namespace orbweave {
 /// stays. Returns the number of points that went up in others.
 uint32_t MergePoints(MappingState& state, std::span<const PointIndex> points, double max_error_px);
 
+/// The same for two given points: the point they became, kNoPoint where nothing explains both.
+PointIndex MergePair(MappingState& state, PointIndex a, PointIndex b, double max_error_px);
+
 }  // namespace orbweave

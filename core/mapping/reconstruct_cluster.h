@@ -30,6 +30,7 @@ struct MappingOptions {
   int min_inliers = 20;
   double max_error_px = 4.0;
   double min_angle_deg = 1.5;
+  int two_view_below = 2000;
   int local_window = 12;
   double global_growth = 0.1;
   int max_seeds = 8;
@@ -58,6 +59,10 @@ struct MappingOptions {
           self.min_angle_deg,
           "points seen under a smaller angle are removed",
           Range{0.01, 45});
+    visit("two_view_below",
+          self.two_view_below,
+          "images with this many observations of longer tracks keep no points of two",
+          Range{0, 1000000});
     visit("local_window",
           self.local_window,
           "images in the local adjustment after each registration",

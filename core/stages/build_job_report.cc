@@ -86,6 +86,12 @@ void ListNotRegistered(const JobResults& results, JobReport& report) {
   }
 }
 
+void WarnOfLooseImages(JobReport& report) {
+  for (const ReportImage& image : report.images) {
+    if (image.loose) report.warnings.push_back(image.name + " has no observations of its own left and is placed loosely");
+  }
+}
+
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
   for (size_t c = 0; c < rows.size(); ++c) {
@@ -158,6 +164,7 @@ JobReport BuildJobReport(const JobResults& results) {
   report.clusters = ClusterRows(results);
   report.seams = SeamRows(results);
   report.warnings = results.manifest.warnings;
+  WarnOfLooseImages(report);
   if (!results.worlds.empty()) {
     report.gnss = GnssRow(results.worlds.front().report.gnss);
     if (report.gnss.used) report.origin = results.manifest.origin;

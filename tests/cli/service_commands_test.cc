@@ -36,9 +36,9 @@ class ServiceCommands : public ::testing::Test {
  protected:
   ServiceCommands()
       : serve_(Orbweave(
-            {"serve", "--listen", address_, "--state", folder_ / "state", "--lease", "2"})) {
+            {"serve", "--listen", address_, "--state", folder_ / "state", "--lease", "10"})) {
     EXPECT_TRUE(
-        WaitUntil([this] { return serve_.ErrSoFar().find("ready") != std::string::npos; }, 20.0));
+        WaitUntil([this] { return serve_.ErrSoFar().find("ready") != std::string::npos; }, 60.0));
   }
 
   TemporaryFolder folder_;
@@ -71,12 +71,12 @@ TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
       [this] {
         return serve_.ErrSoFar().find("worker joined worker=w slots=2") != std::string::npos;
       },
-      20.0));
+      60.0));
   worker.Signal(SIGTERM);
   EXPECT_EQ(worker.Wait().exit_code, kExitOk);
   EXPECT_TRUE(WaitUntil(
       [this] { return serve_.ErrSoFar().find("worker left worker=w") != std::string::npos; },
-      20.0));
+      60.0));
 }
 
 TEST_F(ServiceCommands, StatusAndCancelFollowAJob) {
@@ -111,7 +111,7 @@ TEST_F(ServiceCommands, JobsSurviveAKilledCoordinator) {
   EXPECT_EQ(serve_.Wait().exit_code, 128 + SIGKILL);
   Command again(Orbweave({"serve", "--listen", address_, "--state", folder_ / "state"}));
   ASSERT_TRUE(
-      WaitUntil([&again] { return again.ErrSoFar().find("ready") != std::string::npos; }, 20.0));
+      WaitUntil([&again] { return again.ErrSoFar().find("ready") != std::string::npos; }, 60.0));
   EXPECT_THAT(RunCommand(Orbweave({"status", "--coordinator", address_})).out,
               HasSubstr("running"));
 }

@@ -29,7 +29,8 @@ std::vector<std::vector<uint8_t>> ImagesOfPlaces(int num_places,
     for (int image = 0; image < images_per_place; ++image) {
       std::vector<uint8_t> sample = look;
       for (uint8_t& byte : sample) byte = static_cast<uint8_t>(byte + random.Index(10));
-      sample.resize(sample.size() - random.Index(10) * kDescriptorSize);
+      sample.erase(sample.end() - kDescriptorSize * static_cast<ptrdiff_t>(random.Index(10)),
+                   sample.end());
       samples.push_back(sample);
     }
   }

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/adjust_local.h"
 #include "core/mapping/filter_points.h"
 #include "tests/core/mapping/true_state.h"
 
@@ -45,31 +44,6 @@ TEST(NodeSigma, IsTheKeypointsThoughNeverZero) {
   const MappingState state(world.problem, graph);
   EXPECT_FLOAT_EQ(static_cast<float>(NodeSigma(state, 0)), 0.01F);
   EXPECT_GT(NodeSigma(state, 1), 0.0);
-}
-
-TEST(CovisibleWindow, HoldsTheImageAndItsNearestNeighbours) {
-  const StreetFixture street({.centres = StraightWalk(12, 3.0)});
-  const MappingState state = street.TriangulatedStateWith(FirstImages(12));
-  const std::vector<ImageSlot> window = CovisibleWindow(state, 6, 5);
-  ASSERT_EQ(window.size(), 5U);
-  EXPECT_EQ(window.front(), 6U);
-  for (const ImageSlot image : window) {
-    EXPECT_GE(image, 3U);
-    EXPECT_LE(image, 9U);
-  }
-}
-
-TEST(AdjustLocally, DoesNotTouchImagesOutsideTheWindow) {
-  const StreetFixture street({.centres = StraightWalk(12, 3.0)});
-  MappingState state = street.TriangulatedStateWith(FirstImages(12));
-  MappingOptions options;
-  options.local_window = 4;
-  const std::vector<ImageSlot> window = CovisibleWindow(state, 11, 4);
-  ASSERT_TRUE(AdjustLocally(state, 11, options, {}).ok());
-  for (ImageSlot image = 0; image < 12; ++image) {
-    const bool moved = state.Centre(image) != street.world.cams_from_world[image].Centre();
-    EXPECT_EQ(moved, std::ranges::count(window, image) > 0) << image;
-  }
 }
 
 }  // namespace

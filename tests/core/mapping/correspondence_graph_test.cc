@@ -43,6 +43,22 @@ TEST(BuildCorrespondenceGraph, NodesLeadBackToTheirFeatures) {
   }
 }
 
+TEST(BuildCorrespondenceGraph, FeaturesOfOneBearingAreOneNode) {
+  StreetWorld world = MakeStreet({.centres = StraightWalk(2, 3.0)});
+  ClusterImage& image = world.problem.images[0];
+  const auto count = static_cast<FeatureIndex>(image.bearings.size());
+  image.bearings.push_back(image.bearings[2]);
+  image.sigma_rad.push_back(image.sigma_rad[2]);
+  image.colors.push_back(image.colors[2]);
+  world.problem.pairs[0].inliers.push_back({count, 5});
+  const CorrespondenceGraph graph = BuildCorrespondenceGraph(world.problem).value();
+  EXPECT_EQ(graph.first_node[1], count);
+  EXPECT_EQ(graph.node_of_feature[0][count], graph.node_of_feature[0][2]);
+  EXPECT_EQ(graph.feature_of_node[graph.node_of_feature[0][2]], 2U);
+  const auto neighbours = graph.Neighbours(graph.node_of_feature[0][2]);
+  EXPECT_TRUE(std::ranges::binary_search(neighbours, graph.node_of_feature[1][5]));
+}
+
 TEST(BuildCorrespondenceGraph, LeavesOutPairsWithoutGeometry) {
   StreetWorld world = MakeStreet({.centres = StraightWalk(3, 3.0)});
   ASSERT_EQ(world.problem.pairs.size(), 3U);

@@ -173,6 +173,21 @@ TEST(ReconstructCluster, RecoversFromABadSeed) {
   EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
 }
 
+TEST(ReconstructCluster, StartsInAScenePartlyTooFarForDepth) {
+  // A short walk: the median angle of every pair is below that of a point that is kept.
+  StreetOptions options{.centres = StraightWalk(12, 0.1), .points_per_metre = 60, .noise_px = 0.1};
+  options.window = 11;
+  const StreetWorld world = MakeStreet(options);
+  MappingOptions mapping;
+  mapping.min_angle_deg = 9.0;
+  for (const TwoViewGeometry& pair : world.problem.pairs) {
+    ASSERT_LT(pair.median_angle_rad * 180.0 / std::numbers::pi, mapping.min_angle_deg);
+  }
+  const ClusterReconstruction result = Reconstruct(world, mapping);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 12U);
+}
+
 TEST(ReconstructCluster, TinyInputsAreNoError) {
   for (const int count : {0, 1, 2, 3}) {
     const StreetWorld world =

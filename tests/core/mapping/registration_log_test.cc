@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/registration_log.h"
+
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+TEST(ReasonOf, SaysHowManyPointsAgreed) {
+  EXPECT_EQ(ReasonOf({.num_attempts = 2, .best_inliers = 12, .needed_inliers = 20}, 20),
+            "12 of 20 needed points agree");
+}
+
+TEST(ReasonOf, SaysHowManyPointsWereSeen) {
+  EXPECT_EQ(ReasonOf({.best_visible = 7}, 30), "sees 7 of 30 needed reconstructed points");
+}
+
+TEST(ReasonOf, SaysThatNothingStarted) {
+  EXPECT_EQ(ReasonOf({}, 20), "no pair of its images could start a reconstruction");
+}
+
+TEST(ReasonOf, SaysThatTheImageWasLostAgain) {
+  EXPECT_EQ(
+      ReasonOf({.num_attempts = 1, .best_inliers = 40, .needed_inliers = 20, .dropped = true}, 20),
+      "lost its points again in the adjustment");
+}
+
+}  // namespace
+}  // namespace orbweave
