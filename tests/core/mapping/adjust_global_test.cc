@@ -16,7 +16,7 @@ namespace {
 /// Images displaced by some centimetres and hundredths of a radian.
 void Disturb(MappingState& state, double amount) {
   Random random(8);
-  const auto offset = [&] {
+  const auto offset = [&]() -> Eigen::Vector3d {
     return Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()) * amount;
   };
   const std::vector<ImageSlot> images = state.Registered();
