@@ -42,6 +42,10 @@ void AddCancelCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--coordinator", options->coordinator, "Address of the coordinator")
       ->required();
   command->add_option("job", options->job, "First digits of the job's id")->required();
+  command->footer(
+      "Example:\n"
+      "  orbweave cancel --coordinator 127.0.0.1:7000 3f2a\n"
+      "Submitting the same job again takes up what it finished.");
   command->callback([options, &selected] {
     selected.run = [options] { return ReportStatus(Cancel(*options)); };
   });

@@ -24,18 +24,25 @@ struct EvaluateArguments {
 
 void Print(const PoseErrors& errors, size_t compared, size_t known) {
   std::printf("  compared    %zu of %zu cameras with known pose\n", compared, known);
-  std::printf("  position    %.4f m RMSE, %.4f m max (after a similarity)\n", errors.position_rmse_m, errors.position_max_m);
-  std::printf("              %.4f m RMSE as georeferenced (no alignment)\n", errors.unaligned_rmse_m);
-  std::printf("              %.4f m RMSE of the step to the next camera\n", errors.neighbour_rmse_m);
-  std::printf("  rotation    %.4f deg median, %.4f deg max\n", errors.rotation_median_deg, errors.rotation_max_deg);
+  std::printf("  position    %.4f m RMSE, %.4f m max (after a similarity)\n",
+              errors.position_rmse_m,
+              errors.position_max_m);
+  std::printf("              %.4f m RMSE as georeferenced (no alignment)\n",
+              errors.unaligned_rmse_m);
+  std::printf("              %.4f m RMSE of the step to the next camera\n",
+              errors.neighbour_rmse_m);
+  std::printf("  rotation    %.4f deg median, %.4f deg max\n",
+              errors.rotation_median_deg,
+              errors.rotation_max_deg);
 }
 
 absl::Status Evaluate(const EvaluateArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(arguments.truth));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto truth, ParseReferencePoses(text, arguments.truth));
   const bool is_model = std::filesystem::exists(arguments.output + "/images.bin");
-  ORBWEAVE_ASSIGN_OR_RETURN(const ColmapModel model,
-                            ReadColmapModel(is_model ? arguments.output : arguments.output + "/sparse/0"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const ColmapModel model,
+      ReadColmapModel(is_model ? arguments.output : arguments.output + "/sparse/0"));
   std::vector<Rigid3> estimated;
   std::vector<Rigid3> reference;
   for (const ColmapImage& image : model.images) {
@@ -46,8 +53,8 @@ absl::Status Evaluate(const EvaluateArguments& arguments) {
   }
   const auto errors = ComparePoses(estimated, reference);
   if (!errors) {
-    return absl::InvalidArgumentError("fewer than three cameras of the model have a pose in " + arguments.truth +
-                                      ", or they lie on one line");
+    return absl::InvalidArgumentError("fewer than three cameras of the model have a pose in " +
+                                      arguments.truth + ", or they lie on one line");
   }
   Print(*errors, estimated.size(), truth.size());
   return absl::OkStatus();
@@ -58,11 +65,18 @@ absl::Status Evaluate(const EvaluateArguments& arguments) {
 void AddEvaluateCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("evaluate", "Compare a model with known poses");
   const auto arguments = std::make_shared<EvaluateArguments>();
-  command->add_option("OUTPUT", arguments->output, "Output folder of a job, or a folder with a COLMAP model")->required();
-  command->add_option("--truth", arguments->truth, "CSV: name,x,y,z,qw,qx,qy,qz (cam_from_world, metres)")->required();
+  command
+      ->add_option(
+          "OUTPUT", arguments->output, "Output folder of a job, or a folder with a COLMAP model")
+      ->required();
+  command
+      ->add_option(
+          "--truth", arguments->truth, "CSV: name,x,y,z,qw,qx,qy,qz (cam_from_world, metres)")
+      ->required();
   command->footer("Example:\n  orbweave evaluate model --truth street/truth.csv");
-  command->callback(
-      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Evaluate(*arguments)); }; });
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(Evaluate(*arguments)); };
+  });
 }
 
 }  // namespace orbweave

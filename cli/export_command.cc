@@ -53,12 +53,18 @@ absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std
 
 absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, LastFinishedJob(coordinator, arguments.output));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes, coordinator.GetOutcomes(job.id));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchManifest(coordinator, job.spec, outcomes));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto features, FetchFeatures(coordinator, job.spec, outcomes, true));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
+                            coordinator.GetOutcomes(job.id));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            FetchManifest(coordinator, job.spec, outcomes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto features,
+                            FetchFeatures(coordinator, job.spec, outcomes, true));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto pairs, FetchVerifiedPairs(coordinator, outcomes));
-  ORBWEAVE_RETURN_IF_ERROR(WriteColmapDatabase(arguments.database, manifest, features, pairs, arguments.camera));
-  std::printf("%zu images and %zu verified pairs written to %s\n", features.size(), pairs.size(),
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteColmapDatabase(arguments.database, manifest, features, pairs, arguments.camera));
+  std::printf("%zu images and %zu verified pairs written to %s\n",
+              features.size(),
+              pairs.size(),
               arguments.database.c_str());
   return absl::OkStatus();
 }
@@ -66,7 +72,8 @@ absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& 
 absl::Status Export(const ExportArguments& arguments) {
   const std::string state = arguments.output + "/.orbweave";
   if (!std::filesystem::is_directory(state)) {
-    return absl::NotFoundError(arguments.output + " is not the output folder of a job (no .orbweave in it)");
+    return absl::NotFoundError(arguments.output +
+                               " is not the output folder of a job (no .orbweave in it)");
   }
   const SteadyClock clock;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open({.state_dir = state}, clock));
@@ -76,21 +83,28 @@ absl::Status Export(const ExportArguments& arguments) {
 }  // namespace
 
 void AddExportCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("export", "Write a job's features and verified matches for other programs");
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a job's features and verified matches for other programs");
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("OUTPUT", arguments->output, "Output folder of a finished job")->required();
-  command->add_option("--database", arguments->database, "COLMAP database to write; replaced when it exists")->required();
-  command->add_option("--camera", arguments->camera, "equirectangular (COLMAP) or sphere (SphereSfM)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, DatabaseCameraModel>{{"equirectangular", DatabaseCameraModel::kEquirectangular},
-                                                     {"sphere", DatabaseCameraModel::kSphere}}))
+  command
+      ->add_option(
+          "--database", arguments->database, "COLMAP database to write; replaced when it exists")
+      ->required();
+  command
+      ->add_option("--camera", arguments->camera, "equirectangular (COLMAP) or sphere (SphereSfM)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, DatabaseCameraModel>{
+          {"equirectangular", DatabaseCameraModel::kEquirectangular},
+          {"sphere", DatabaseCameraModel::kSphere}}))
+      ->type_name("equirectangular|sphere")
       ->default_str("equirectangular");
   command->footer(
       "Examples:\n"
       "  orbweave export model --database model.db\n"
       "  orbweave export model --database model.db --camera sphere");
-  command->callback(
-      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Export(*arguments)); }; });
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(Export(*arguments)); };
+  });
 }
 
 }  // namespace orbweave

@@ -27,10 +27,13 @@ std::vector<Digest> OutputsOf(const std::vector<TaskOutcome>& outcomes, std::str
 }
 
 template <typename Decode>
-auto FetchOne(CoordinatorApi& coordinator, const std::vector<TaskOutcome>& outcomes, std::string_view stage, Decode decode)
-    -> decltype(decode(std::string_view())) {
+auto FetchOne(CoordinatorApi& coordinator,
+              const std::vector<TaskOutcome>& outcomes,
+              std::string_view stage,
+              Decode decode) -> decltype(decode(std::string_view())) {
   const std::vector<Digest> outputs = OutputsOf(outcomes, stage);
-  if (outputs.empty()) return absl::NotFoundError("the job has no result of stage " + std::string(stage));
+  if (outputs.empty())
+    return absl::NotFoundError("the job has no result of stage " + std::string(stage));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(outputs.front()));
   return decode(bytes);
 }
@@ -59,7 +62,8 @@ std::vector<std::string> ImageProblems(const std::vector<TaskOutcome>& outcomes)
 absl::StatusOr<ImageManifest> FetchManifest(CoordinatorApi& coordinator,
                                             const JobSpec& job,
                                             const std::vector<TaskOutcome>& outcomes) {
-  if (job.kind != kFromMatches) return FetchOne(coordinator, outcomes, "ingest_images", DecodeImageManifest);
+  if (job.kind != kFromMatches)
+    return FetchOne(coordinator, outcomes, "ingest_images", DecodeImageManifest);
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(job.inputs[0]));
   return DecodeImageManifest(bytes);
 }
@@ -70,15 +74,18 @@ absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
   JobResults results;
   ORBWEAVE_ASSIGN_OR_RETURN(results.manifest, FetchManifest(coordinator, job, outcomes));
   results.image_problems = ImageProblems(outcomes);
-  ORBWEAVE_ASSIGN_OR_RETURN(results.view_graph,
-                            FetchOne(coordinator, outcomes, "partition_view_graph", DecodeDividedViewGraph));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      results.view_graph,
+      FetchOne(coordinator, outcomes, "partition_view_graph", DecodeDividedViewGraph));
   for (const Digest& digest : OutputsOf(outcomes, "reconstruct_cluster")) {
     ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
     ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult cluster, DecodeClusterResult(bytes));
     results.clusters.push_back(std::move(cluster));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(results.alignment, FetchOne(coordinator, outcomes, "align_submodels", DecodeAlignment));
-  ORBWEAVE_ASSIGN_OR_RETURN(results.worlds, FetchOne(coordinator, outcomes, "adjust_globally", DecodeAdjustedWorlds));
+  ORBWEAVE_ASSIGN_OR_RETURN(results.alignment,
+                            FetchOne(coordinator, outcomes, "align_submodels", DecodeAlignment));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      results.worlds, FetchOne(coordinator, outcomes, "adjust_globally", DecodeAdjustedWorlds));
   return results;
 }
 
@@ -86,7 +93,8 @@ absl::StatusOr<std::vector<Features>> FetchFeatures(CoordinatorApi& coordinator,
                                                     const JobSpec& job,
                                                     const std::vector<TaskOutcome>& outcomes,
                                                     bool keep_descriptors) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> blobs, ExtractedBlobs(coordinator, job, outcomes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> blobs,
+                            ExtractedBlobs(coordinator, job, outcomes));
   std::vector<Features> features;
   for (size_t i = 0; i < blobs.size(); i += 2) {
     ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(blobs[i]));
@@ -97,8 +105,8 @@ absl::StatusOr<std::vector<Features>> FetchFeatures(CoordinatorApi& coordinator,
   return features;
 }
 
-absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(CoordinatorApi& coordinator,
-                                                                const std::vector<TaskOutcome>& outcomes) {
+absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(
+    CoordinatorApi& coordinator, const std::vector<TaskOutcome>& outcomes) {
   std::vector<TwoViewGeometry> pairs;
   for (const char* stage : {"match_images", "verify_matches"}) {
     for (const Digest& digest : OutputsOf(outcomes, stage)) {
@@ -107,7 +115,8 @@ absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(CoordinatorApi& 
       std::move(part.begin(), part.end(), std::back_inserter(pairs));
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) { return x.pair < y.pair; });
+  std::sort(
+      pairs.begin(), pairs.end(), [](const auto& x, const auto& y) { return x.pair < y.pair; });
   return pairs;
 }
 

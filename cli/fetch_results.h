@@ -17,14 +17,15 @@ namespace orbweave {
                                                       const std::vector<TaskOutcome>& outcomes);
 
 /// The features of every image, in id order; `keep_descriptors` false leaves them empty.
-[[nodiscard]] absl::StatusOr<std::vector<Features>> FetchFeatures(CoordinatorApi& coordinator,
-                                                                  const JobSpec& job,
-                                                                  const std::vector<TaskOutcome>& outcomes,
-                                                                  bool keep_descriptors);
+[[nodiscard]] absl::StatusOr<std::vector<Features>> FetchFeatures(
+    CoordinatorApi& coordinator,
+    const JobSpec& job,
+    const std::vector<TaskOutcome>& outcomes,
+    bool keep_descriptors);
 
 /// All verified pairs, sorted.
-[[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(CoordinatorApi& coordinator,
-                                                                              const std::vector<TaskOutcome>& outcomes);
+[[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(
+    CoordinatorApi& coordinator, const std::vector<TaskOutcome>& outcomes);
 
 /// The manifest alone: the job may still be running.
 [[nodiscard]] absl::StatusOr<ImageManifest> FetchManifest(CoordinatorApi& coordinator,

@@ -12,26 +12,42 @@ constexpr size_t kNamesShown = 5;
 
 std::string GnssLine(const ReportGnss& gnss) {
   if (!gnss.used) return gnss.reason.empty() ? "none" : absl::StrCat("not used: ", gnss.reason);
-  return absl::StrFormat("%u of %u positions agree, %.2f m RMS", gnss.num_inliers, gnss.num_priors,
+  return absl::StrFormat("%u of %u positions agree, %.2f m RMS",
+                         gnss.num_inliers,
+                         gnss.num_priors,
                          gnss.residual_rms_inliers_m);
 }
 
 std::string LeftOut(const JobReport& report) {
   std::string text;
   for (size_t i = 0; i < report.not_registered.size() && i < kNamesShown; ++i) {
-    absl::StrAppend(&text, "  left out    ", report.not_registered[i].name, ": ", report.not_registered[i].reason, "\n");
+    absl::StrAppend(&text,
+                    "  left out    ",
+                    report.not_registered[i].name,
+                    ": ",
+                    report.not_registered[i].reason,
+                    "\n");
   }
   if (report.not_registered.size() > kNamesShown) {
-    absl::StrAppend(&text, "  left out    ", report.not_registered.size() - kNamesShown, " more, see report.html\n");
+    absl::StrAppend(&text,
+                    "  left out    ",
+                    report.not_registered.size() - kNamesShown,
+                    " more, see report.html\n");
   }
   return text;
 }
 
 std::string StageTable(const JobReport& report) {
-  std::string text = absl::StrFormat("  %-22s %10s %10s %9s %8s\n", "stage", "wall s", "CPU s", "computed", "reused");
+  std::string text = absl::StrFormat(
+      "  %-22s %10s %10s %9s %8s\n", "stage", "wall s", "CPU s", "computed", "reused");
   for (const ReportStage& stage : report.stages) {
-    absl::StrAppendFormat(&text, "  %-22s %10.1f %10.1f %9u %8u\n", stage.name, stage.wall_s, stage.cpu_s,
-                          stage.tasks_computed, stage.tasks_reused);
+    absl::StrAppendFormat(&text,
+                          "  %-22s %10.1f %10.1f %9u %8u\n",
+                          stage.name,
+                          stage.wall_s,
+                          stage.cpu_s,
+                          stage.tasks_computed,
+                          stage.tasks_reused);
   }
   return text;
 }
@@ -40,17 +56,29 @@ std::string StageTable(const JobReport& report) {
 
 std::string FormatSummary(const JobReport& report, const std::string& output) {
   std::string text;
-  absl::StrAppendFormat(&text, "  registered  %u of %u images in %u model%s\n", report.registered, report.images_total,
-                        report.models, report.models == 1 ? "" : "s");
-  absl::StrAppendFormat(&text, "  points      %u, mean track length %.2f\n", report.points, report.mean_track_length);
-  absl::StrAppendFormat(&text, "  residual    %.3f px mean, %.3f px RMS\n", report.residual_px_mean,
+  absl::StrAppendFormat(&text,
+                        "  registered  %u of %u images in %u model%s\n",
+                        report.registered,
+                        report.images_total,
+                        report.models,
+                        report.models == 1 ? "" : "s");
+  absl::StrAppendFormat(
+      &text, "  points      %u, mean track length %.2f\n", report.points, report.mean_track_length);
+  absl::StrAppendFormat(&text,
+                        "  residual    %.3f px mean, %.3f px RMS\n",
+                        report.residual_px_mean,
                         report.residual_px_rms);
-  absl::StrAppendFormat(&text, "  clusters    %u, %u seams\n", report.clusters.size(), report.seams.size());
+  absl::StrAppendFormat(
+      &text, "  clusters    %u, %u seams\n", report.clusters.size(), report.seams.size());
   absl::StrAppend(&text, "  GNSS        ", GnssLine(report.gnss), "\n");
   absl::StrAppend(&text, LeftOut(report));
-  for (const std::string& warning : report.warnings) absl::StrAppend(&text, "  warning     ", warning, "\n");
+  for (const std::string& warning : report.warnings)
+    absl::StrAppend(&text, "  warning     ", warning, "\n");
   absl::StrAppend(&text, "\n", StageTable(report), "\n");
-  absl::StrAppend(&text, "  outputs     ", output, " (open report.html; sparse/0 in COLMAP; points.ply in CloudCompare)\n");
+  absl::StrAppend(&text,
+                  "  outputs     ",
+                  output,
+                  " (open report.html; sparse/0 in COLMAP; points.ply in CloudCompare)\n");
   return text;
 }
 

@@ -8,7 +8,8 @@
 
 namespace orbweave {
 
-/// A finished job on a terminal: what was registered, how well it fits, time per stage, where the outputs are.
+/// A finished job on a terminal: what was registered, how well it fits, time per stage, where the
+/// outputs are.
 [[nodiscard]] std::string FormatSummary(const JobReport& report, const std::string& output);
 
 }  // namespace orbweave

@@ -11,13 +11,20 @@ namespace orbweave {
 
 /// The arguments that say which images, masks and positions a job is made of.
 inline void AddImageArguments(CLI::App& command, ScanRequest& request) {
-  command.add_option("IMAGES", request.image_folder, "Folder of equirectangular (2:1) images")->required();
-  command.add_option("--gnss", request.gnss_table,
-                     "Positions: CSV with name,latitude,longitude,altitude[,accuracy,heading,pitch,roll], or POS.txt");
+  command.add_option("IMAGES", request.image_folder, "Folder of equirectangular (2:1) images")
+      ->required();
+  command.add_option("--gnss",
+                     request.gnss_table,
+                     "Positions: CSV with "
+                     "name,latitude,longitude,altitude[,accuracy,heading,pitch,roll], or POS.txt");
   command.add_option("--masks", request.mask_folder, "Folder of masks, named like the images");
   command
-      .add_option("--mask-ignores", request.mask_ignores_white, "Which pixels of a mask are not used: white or black")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"white", true}, {"black", false}}))
+      .add_option("--mask-ignores",
+                  request.mask_ignores_white,
+                  "Which pixels of a mask are not used: white or black")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, bool>{{"white", true}, {"black", false}}))
+      ->type_name("white|black")
       ->default_str("white");
 }
 

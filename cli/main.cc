@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   ::setenv("GRPC_VERBOSITY", "NONE", 0);  // what goes wrong is said in our own words
   orbweave::RunLibrariesOnOneThread(argv);
   CLI::App app("Orbweave: structure from motion for 360-degree panoramas, on one machine or many");
+  app.name("orbweave");
   app.set_version_flag("--version", "orbweave " + std::string(orbweave::BuildVersion()));
   app.require_subcommand(1);
   const orbweave::StageLookup stages = orbweave::FindStage;

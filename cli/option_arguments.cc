@@ -7,10 +7,11 @@
 namespace orbweave {
 
 void AddOptionArguments(CLI::App& command, OptionArguments& arguments) {
-  command.add_option("--config", arguments.config, "File of section.key=value lines (see: orbweave options)");
+  command.add_option(
+      "--config", arguments.config, "File of section.key=value lines (see: orbweave options)");
   command.add_option("--set", arguments.sets, "Set one option: section.key=value; may be repeated")
       ->type_name("KEY=VALUE")
-      ->take_all();
+      ->allow_extra_args(false);
 }
 
 absl::StatusOr<PipelineOptions> ReadOptions(const OptionArguments& arguments) {

@@ -28,7 +28,9 @@ absl::Status OfferFile(CoordinatorApi& coordinator, const Digest& digest, const 
 }
 
 /// Every usable file and mask that the coordinator does not know yet.
-absl::Status OfferFiles(CoordinatorApi& coordinator, const ImageSources& sources, const StageContext& context) {
+absl::Status OfferFiles(CoordinatorApi& coordinator,
+                        const ImageSources& sources,
+                        const StageContext& context) {
   std::vector<Digest> digests;
   std::vector<std::string> paths;
   for (const SourceImage& image : sources.images) {
@@ -56,10 +58,12 @@ Features FeaturesOf(const DatabaseImage& image) {
   return features;
 }
 
-absl::StatusOr<std::vector<Digest>> PutFeatures(CoordinatorApi& coordinator, const ColmapDatabase& database) {
+absl::StatusOr<std::vector<Digest>> PutFeatures(CoordinatorApi& coordinator,
+                                                const ColmapDatabase& database) {
   std::vector<Digest> blobs;
   for (const DatabaseImage& image : database.images) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const Digest features, coordinator.Put(EncodeFeatures(FeaturesOf(image))));
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest features,
+                              coordinator.Put(EncodeFeatures(FeaturesOf(image))));
     const PlaceSample place{.num_features = static_cast<uint32_t>(image.keypoints.size())};
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest sample, coordinator.Put(EncodePlaceSample(place)));
     blobs.insert(blobs.end(), {features, sample});
@@ -118,9 +122,11 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
     ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadFile(gnss_table));
     sources.gnss_name = std::filesystem::path(gnss_table).filename().string();
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, IngestImages(sources, options.ingest, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            IngestImages(sources, options.ingest, context));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features, PutFeatures(coordinator, database));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> recipes, PutMatches(coordinator, database, features));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> recipes,
+                            PutMatches(coordinator, database, features));
   JobSpec job{.kind = "sparse_from_matches",
               .options_text = PipelineOptionsToText(options),
               .label = std::filesystem::path(database_path).filename().string()};

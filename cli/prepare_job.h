@@ -11,8 +11,9 @@
 
 namespace orbweave {
 
-/// Makes everything a job on a folder of panoramas reads known to the coordinator: files are linked where
-/// the coordinator can read them itself and uploaded where it cannot. The job is not submitted.
+/// Makes everything a job on a folder of panoramas reads known to the coordinator: files are linked
+/// where the coordinator can read them itself and uploaded where it cannot. The job is not
+/// submitted.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
                                                       const ScanRequest& request,
                                                       const PipelineOptions& options,

@@ -28,18 +28,26 @@ absl::Status Reconstruct(const ReconstructArguments& arguments) {
   return RunLocalJob({.output = arguments.output,
                       .workers = arguments.workers,
                       .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
-                        return PrepareDatabaseJob(coordinator, arguments.database, arguments.gnss, options, context);
+                        return PrepareDatabaseJob(
+                            coordinator, arguments.database, arguments.gnss, options, context);
                       }});
 }
 
 }  // namespace
 
 void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("reconstruct", "Reconstruct from the keypoints and matches of a COLMAP database");
+  CLI::App* command = app.add_subcommand(
+      "reconstruct", "Reconstruct from the keypoints and matches of a COLMAP database");
   const auto arguments = std::make_shared<ReconstructArguments>();
-  command->add_option("--database", arguments->database, "COLMAP (3.8 to 4.x) or SphereSfM database")->required();
-  command->add_option("--output", arguments->output, "Folder of the results; run again with it to go on")->required();
-  command->add_option("--gnss", arguments->gnss, "Positions, instead of the database's pose priors");
+  command
+      ->add_option("--database", arguments->database, "COLMAP (3.8 to 4.x) or SphereSfM database")
+      ->required();
+  command
+      ->add_option(
+          "--output", arguments->output, "Folder of the results; run again with it to go on")
+      ->required();
+  command->add_option(
+      "--gnss", arguments->gnss, "Positions, instead of the database's pose priors");
   command->add_flag("--single", arguments->single, "One cluster: do not divide");
   command->add_option("--workers", arguments->workers, "Worker processes")
       ->check(CLI::Range(1, 1024))
@@ -48,10 +56,12 @@ void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
   command->footer(
       "Examples:\n"
       "  orbweave synth corridor --panoramas 500 --output corridor\n"
-      "  orbweave reconstruct --database corridor/corridor.db --gnss corridor/gnss.csv --output model\n"
+      "  orbweave reconstruct --database corridor/corridor.db --gnss corridor/gnss.csv --output "
+      "model\n"
       "  orbweave reconstruct --database corridor/corridor.db --single --output undivided");
-  command->callback(
-      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Reconstruct(*arguments)); }; });
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(Reconstruct(*arguments)); };
+  });
 }
 
 }  // namespace orbweave

@@ -33,20 +33,27 @@ absl::Status Run(const RunArguments& arguments) {
 }  // namespace
 
 void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("run", "Reconstruct a folder of panoramas on this machine");
+  CLI::App* command =
+      app.add_subcommand("run", "Reconstruct a folder of panoramas on this machine");
   const auto arguments = std::make_shared<RunArguments>();
   AddImageArguments(*command, arguments->scan);
-  command->add_option("--output", arguments->output, "Folder of the results; run again with it to go on")->required();
+  command
+      ->add_option(
+          "--output", arguments->output, "Folder of the results; run again with it to go on")
+      ->required();
   command->add_option("--workers", arguments->workers, "Worker processes")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"
-      "  orbweave run street/images --output street/model --gnss street/gnss.csv --masks street/masks\n"
+      "  orbweave run street/images --output street/model --gnss street/gnss.csv --masks "
+      "street/masks\n"
       "  orbweave run flat --output flat_model --workers 4 --set features.max_features=4096\n"
       "Ctrl-C stops cleanly; the same command goes on where it was.");
-  command->callback([arguments, &selected] { selected.run = [arguments] { return ReportStatus(Run(*arguments)); }; });
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(Run(*arguments)); };
+  });
 }
 
 }  // namespace orbweave

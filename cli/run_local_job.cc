@@ -14,10 +14,12 @@
 namespace orbweave {
 namespace {
 
-absl::StatusOr<JobStatus> RunShowingProgress(LocalFleet& fleet, const JobSpec& spec, const std::stop_token& stop) {
+absl::StatusOr<JobStatus> RunShowingProgress(LocalFleet& fleet,
+                                             const JobSpec& spec,
+                                             const std::stop_token& stop) {
   ProgressBar bar(stderr);
-  absl::StatusOr<JobStatus> status =
-      fleet.RunJob(spec, [&bar](const JobStatus& current) { bar.Update(current); }, stop);
+  absl::StatusOr<JobStatus> status = fleet.RunJob(
+      spec, [&bar](const JobStatus& current) { bar.Update(current); }, stop);
   bar.Finish();
   return status;
 }
@@ -30,7 +32,8 @@ absl::Status CheckEnd(const JobStatus& status) {
 }
 
 absl::Status Interrupted(const std::string& output) {
-  return absl::CancelledError("stopped; finished work is kept in " + output + ", the same command goes on from there");
+  return absl::CancelledError("stopped; finished work is kept in " + output +
+                              ", the same command goes on from there");
 }
 
 }  // namespace
@@ -49,10 +52,12 @@ absl::Status RunLocalJob(const LocalJob& job) {
   if (signals.token().stop_requested()) return Interrupted(job.output);
   ORBWEAVE_RETURN_IF_ERROR(status.status());
   ORBWEAVE_RETURN_IF_ERROR(CheckEnd(*status));
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(fleet->coordinator(), *status, job.output));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report,
+                            WriteOutputs(fleet->coordinator(), *status, job.output));
   std::fputs(FormatSummary(report, job.output).c_str(), stdout);
   if (report.registered == 0) {
-    return absl::InternalError("no image could be registered; the reasons are in " + job.output + "/report.html");
+    return absl::InternalError("no image could be registered; the reasons are in " + job.output +
+                               "/report.html");
   }
   return absl::OkStatus();
 }

@@ -17,9 +17,10 @@ struct LocalJob {
   std::function<absl::StatusOr<JobSpec>(CoordinatorApi&, const StageContext&)> prepare{};
 };
 
-/// Runs one job with a coordinator in this process and worker processes on this machine, shows its progress on
-/// stderr, writes the outputs and prints a summary on stdout. Ctrl-C stops it cleanly; run again it goes on where
-/// it was. Internal: the job failed, or nothing could be registered (outputs are written all the same).
+/// Runs one job with a coordinator in this process and worker processes on this machine, shows its
+/// progress on stderr, writes the outputs and prints a summary on stdout. Ctrl-C stops it cleanly;
+/// run again it goes on where it was. Internal: the job failed, or nothing could be registered
+/// (outputs are written all the same).
 [[nodiscard]] absl::Status RunLocalJob(const LocalJob& job);
 
 }  // namespace orbweave

@@ -63,6 +63,11 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
                    "Seconds of silence after which a worker is given up")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  orbweave serve --listen 127.0.0.1:7000 --state state\n"
+      "  orbweave serve --listen unix:/tmp/orbweave.sock --state state --lease 60\n"
+      "Started again on the same state it goes on where it was.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Serve(*options)); }; });
 }

@@ -75,6 +75,11 @@ void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
       command->add_flag("--json", options->json, "One JSON object per job and line");
   command->add_flag("--watch", options->watch, "Follow the job, or the last one, to its end")
       ->excludes(json);
+  command->footer(
+      "Examples:\n"
+      "  orbweave status --coordinator 127.0.0.1:7000\n"
+      "  orbweave status --coordinator 127.0.0.1:7000 --watch\n"
+      "  orbweave status --coordinator 127.0.0.1:7000 3f2a --json");
   command->callback([options, &selected] {
     selected.run = [options] { return ReportStatus(ShowStatus(*options)); };
   });

@@ -36,7 +36,8 @@ absl::Status WaitAndWrite(CoordinatorApi& coordinator,
   const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status, WaitForJob(coordinator, job, show, {}, stop));
   bar.Finish();
-  if (status.state != JobState::kDone) return absl::InternalError("the job did not finish: " + status.error);
+  if (status.state != JobState::kDone)
+    return absl::InternalError("the job did not finish: " + status.error);
   ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(coordinator, status, output));
   std::fputs(FormatSummary(report, output).c_str(), stdout);
   return absl::OkStatus();
@@ -47,10 +48,12 @@ absl::Status Submit(const SubmitArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
   GrpcCoordinatorClient coordinator(arguments.coordinator);
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec,
-                            PrepareImageJob(coordinator, arguments.scan, options, {.stop = signals.token()}));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const JobSpec spec,
+      PrepareImageJob(coordinator, arguments.scan, options, {.stop = signals.token()}));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator.SubmitJob(spec));
-  if (!arguments.output.empty()) return WaitAndWrite(coordinator, job, arguments.output, signals.token());
+  if (!arguments.output.empty())
+    return WaitAndWrite(coordinator, job, arguments.output, signals.token());
   std::printf("%s\n", job.ToHex().c_str());
   return absl::OkStatus();
 }
@@ -58,21 +61,27 @@ absl::Status Submit(const SubmitArguments& arguments) {
 }  // namespace
 
 void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
+  CLI::App* command =
+      app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
   const auto arguments = std::make_shared<SubmitArguments>();
-  command->add_option("--coordinator", arguments->coordinator, "Address of the coordinator")->required();
+  command->add_option("--coordinator", arguments->coordinator, "Address of the coordinator")
+      ->required();
   AddImageArguments(*command, arguments->scan);
-  command->add_option("--output", arguments->output,
-                      "Wait for the end and write the results here (default: print the job's id and leave)");
+  command->add_option(
+      "--output",
+      arguments->output,
+      "Wait for the end and write the results here (default: print the job's id and leave)");
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state &\n"
       "  orbweave work --join 127.0.0.1:7000 --slots 2 &\n"
-      "  orbweave submit --coordinator 127.0.0.1:7000 street/images --gnss street/gnss.csv --output model\n"
+      "  orbweave submit --coordinator 127.0.0.1:7000 street/images --gnss street/gnss.csv "
+      "--output model\n"
       "The same command after an interruption joins the job, or collects its results.");
-  command->callback(
-      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(Submit(*arguments)); }; });
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(Submit(*arguments)); };
+  });
 }
 
 }  // namespace orbweave

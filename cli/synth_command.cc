@@ -27,30 +27,35 @@ struct CorridorArguments {
 /// One command-line option per field of an options struct: --noise-px for noise_px.
 template <typename Options>
 void AddFields(CLI::App& command, Options& options) {
-  internal::ForEachField(options, [&](std::string_view name, auto& member, std::string_view help, Range range) {
-    std::string flag = "--" + std::string(name);
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    const std::string key(name);
-    Options* target = &options;
-    command
-        .add_option_function<std::string>(
-            flag,
-            [target, key](const std::string& text) {
-              const absl::Status status = SetOption(*target, key, text);
-              if (!status.ok()) throw CLI::ValidationError(std::string(status.message()));
-            },
-            std::string(help))
-        ->type_name(internal::RangeOf(member, range))
-        ->default_str(internal::ValueToText(member));
-  });
+  internal::ForEachField(
+      options, [&](std::string_view name, auto& member, std::string_view help, Range range) {
+        std::string flag = "--" + std::string(name);
+        std::replace(flag.begin(), flag.end(), '_', '-');
+        const std::string key(name);
+        Options* target = &options;
+        command
+            .add_option_function<std::string>(
+                flag,
+                [target, key](const std::string& text) {
+                  const absl::Status status = SetOption(*target, key, text);
+                  if (!status.ok()) throw CLI::ValidationError(std::string(status.message()));
+                },
+                std::string(help))
+            ->type_name(internal::RangeOf(member, range))
+            ->default_str(internal::ValueToText(member));
+      });
 }
 
 std::string GnssCsv(const ImageManifest& manifest) {
   std::string csv = "name,latitude,longitude,altitude,accuracy\n";
   for (const ImageRecord& image : manifest.images) {
     if (!image.prior.geodetic) continue;
-    absl::StrAppendFormat(&csv, "%s,%.9f,%.9f,%.4f,%.3f\n", image.name, image.prior.geodetic->latitude_deg,
-                          image.prior.geodetic->longitude_deg, image.prior.geodetic->altitude_m,
+    absl::StrAppendFormat(&csv,
+                          "%s,%.9f,%.9f,%.4f,%.3f\n",
+                          image.name,
+                          image.prior.geodetic->latitude_deg,
+                          image.prior.geodetic->longitude_deg,
+                          image.prior.geodetic->altitude_m,
                           image.prior.horizontal_sigma_m);
   }
   return csv;
@@ -76,27 +81,35 @@ std::vector<TwoViewGeometry> VerifiedPairs(Corridor& corridor) {
 absl::Status WriteCorridor(const CorridorArguments& arguments) {
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
   Corridor corridor = MakeCorridor(arguments.options);
-  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(arguments.output + "/truth.csv", TruthCsv(corridor)));
-  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(arguments.output + "/gnss.csv", GnssCsv(corridor.manifest)));
-  const std::vector<TwoViewGeometry> pairs = VerifiedPairs(corridor);
   ORBWEAVE_RETURN_IF_ERROR(
-      WriteColmapDatabase(arguments.output + "/corridor.db", corridor.manifest, corridor.features, pairs));
-  std::printf("%zu panoramas and %zu pairs written to %s\n", corridor.features.size(), pairs.size(),
+      WriteFileAtomically(arguments.output + "/truth.csv", TruthCsv(corridor)));
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteFileAtomically(arguments.output + "/gnss.csv", GnssCsv(corridor.manifest)));
+  const std::vector<TwoViewGeometry> pairs = VerifiedPairs(corridor);
+  ORBWEAVE_RETURN_IF_ERROR(WriteColmapDatabase(
+      arguments.output + "/corridor.db", corridor.manifest, corridor.features, pairs));
+  std::printf("%zu panoramas and %zu pairs written to %s\n",
+              corridor.features.size(),
+              pairs.size(),
               arguments.output.c_str());
   return absl::OkStatus();
 }
 
 void AddCorridor(CLI::App& synth, SelectedCommand& selected) {
-  CLI::App* command = synth.add_subcommand("corridor", "Rays only, for scale: keypoints and matches, no pixels");
+  CLI::App* command =
+      synth.add_subcommand("corridor", "Rays only, for scale: keypoints and matches, no pixels");
   const auto arguments = std::make_shared<CorridorArguments>();
   AddFields(*command, arguments->options);
-  command->add_option("--output", arguments->output, "Folder for corridor.db, gnss.csv and truth.csv")->required();
+  command
+      ->add_option("--output", arguments->output, "Folder for corridor.db, gnss.csv and truth.csv")
+      ->required();
   command->footer(
       "Examples:\n"
       "  orbweave synth corridor --panoramas 500 --output corridor\n"
       "  orbweave synth corridor --panoramas 2000 --shape grid --outlier-share 0.3 --output grid");
-  command->callback(
-      [arguments, &selected] { selected.run = [arguments] { return ReportStatus(WriteCorridor(*arguments)); }; });
+  command->callback([arguments, &selected] {
+    selected.run = [arguments] { return ReportStatus(WriteCorridor(*arguments)); };
+  });
 }
 
 struct StreetArguments {
@@ -111,7 +124,8 @@ absl::StatusOr<int> WidthOf(const std::string& size) {
   int height = 0;
   char end = 0;
   if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width != 2 * height) {
-    return absl::InvalidArgumentError("--size " + size + ": a panorama is twice as wide as high, e.g. 2048x1024");
+    return absl::InvalidArgumentError("--size " + size +
+                                      ": a panorama is twice as wide as high, e.g. 2048x1024");
   }
   return width;
 }
@@ -122,26 +136,40 @@ absl::Status WriteRenderedStreet(StreetArguments arguments) {
   ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", arguments.options));
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
   const auto show = [](const Progress& progress) {
-    std::fprintf(stderr, "rendered %d of %d panoramas\n", static_cast<int>(progress.done), static_cast<int>(progress.total));
+    std::fprintf(stderr,
+                 "rendered %d of %d panoramas\n",
+                 static_cast<int>(progress.done),
+                 static_cast<int>(progress.total));
   };
-  const StageContext context{.stop = signals.token(),
-                             .report = show,
-                             .num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
+  const StageContext context{
+      .stop = signals.token(),
+      .report = show,
+      .num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
   ORBWEAVE_RETURN_IF_ERROR(WriteStreet(arguments.options, arguments.output, context));
-  std::printf("%d panoramas written to %s\n", arguments.options.panoramas, arguments.output.c_str());
+  std::printf(
+      "%d panoramas written to %s\n", arguments.options.panoramas, arguments.output.c_str());
   return absl::OkStatus();
 }
 
 void AddStreet(CLI::App& synth, SelectedCommand& selected) {
-  CLI::App* command = synth.add_subcommand("street", "Rendered panoramas of a street round a block");
+  CLI::App* command =
+      synth.add_subcommand("street", "Rendered panoramas of a street round a block");
   const auto arguments = std::make_shared<StreetArguments>();
-  command->add_option("--panoramas", arguments->options.panoramas, "Number of panoramas")->capture_default_str();
-  command->add_option("--size", arguments->size, "Width x height of a panorama")->capture_default_str();
-  command->add_option("--spacing", arguments->options.spacing_m, "Metres between panoramas")->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "Another seed, another street")->capture_default_str();
-  command->add_option("--output", arguments->output, "Folder for images, masks, gnss.csv, truth.csv, surface.ply")
+  command->add_option("--panoramas", arguments->options.panoramas, "Number of panoramas")
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "Width x height of a panorama")
+      ->capture_default_str();
+  command->add_option("--spacing", arguments->options.spacing_m, "Metres between panoramas")
+      ->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "Another seed, another street")
+      ->capture_default_str();
+  command
+      ->add_option("--output",
+                   arguments->output,
+                   "Folder for images, masks, gnss.csv, truth.csv, surface.ply")
       ->required();
-  command->footer("Example:\n  orbweave synth street --panoramas 48 --size 2048x1024 --output street");
+  command->footer(
+      "Example:\n  orbweave synth street --panoramas 48 --size 2048x1024 --output street");
   command->callback([arguments, &selected] {
     selected.run = [arguments] { return ReportStatus(WriteRenderedStreet(*arguments)); };
   });

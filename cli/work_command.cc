@@ -63,6 +63,11 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup&
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
       ->group("");
+  command->footer(
+      "Examples:\n"
+      "  orbweave work --join 127.0.0.1:7000 --slots 2\n"
+      "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
+      "SIGTERM gives running tasks back and leaves.");
   command->callback([options, &selected, &stages] {
     selected.run = [options, &stages] { return ReportStatus(Work(*options, stages)); };
   });

@@ -37,10 +37,10 @@ void FillRun(const JobStatus& status, JobReport& report) {
   }
 }
 
-absl::StatusOr<std::vector<std::vector<Keypoint>>> FetchKeypoints(CoordinatorApi& coordinator,
-                                                                  const JobSpec& job,
-                                                                  const std::vector<TaskOutcome>& outcomes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Features> features, FetchFeatures(coordinator, job, outcomes, false));
+absl::StatusOr<std::vector<std::vector<Keypoint>>> FetchKeypoints(
+    CoordinatorApi& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Features> features,
+                            FetchFeatures(coordinator, job, outcomes, false));
   std::vector<std::vector<Keypoint>> keypoints;
   for (Features& image : features) keypoints.push_back(std::move(image.keypoints));
   return keypoints;
@@ -51,25 +51,29 @@ absl::Status WriteModels(const JobResults& results,
                          const std::vector<std::vector<Keypoint>>& keypoints,
                          const std::filesystem::path& folder) {
   for (size_t model = 0; model < results.worlds.size(); ++model) {
-    ORBWEAVE_RETURN_IF_ERROR(
-        WriteColmapModel(ToColmapModel(results.worlds[model].reconstruction, results.manifest, keypoints),
-                         (folder / "sparse" / std::to_string(model)).string()));
+    ORBWEAVE_RETURN_IF_ERROR(WriteColmapModel(
+        ToColmapModel(results.worlds[model].reconstruction, results.manifest, keypoints),
+        (folder / "sparse" / std::to_string(model)).string()));
   }
   for (size_t stale = results.worlds.size();; ++stale) {
     std::error_code error;
-    if (std::filesystem::remove_all(folder / "sparse" / std::to_string(stale), error) == 0 || error) break;
+    if (std::filesystem::remove_all(folder / "sparse" / std::to_string(stale), error) == 0 || error)
+      break;
   }
   return absl::OkStatus();
 }
 
-absl::Status WriteMainModelFiles(const JobResults& results, bool georeferenced, const std::filesystem::path& folder) {
+absl::Status WriteMainModelFiles(const JobResults& results,
+                                 bool georeferenced,
+                                 const std::filesystem::path& folder) {
   const Reconstruction empty;
-  const Reconstruction& main = results.worlds.empty() ? empty : results.worlds.front().reconstruction;
+  const Reconstruction& main =
+      results.worlds.empty() ? empty : results.worlds.front().reconstruction;
   ORBWEAVE_RETURN_IF_ERROR(WritePly(main, (folder / "points.ply").string()));
-  ORBWEAVE_RETURN_IF_ERROR(
-      WriteFileAtomically((folder / "cameras.csv").string(), CamerasCsv(main, results.manifest, georeferenced)));
-  ORBWEAVE_RETURN_IF_ERROR(
-      WriteFileAtomically((folder / "georeference.json").string(), GeoreferenceJson(results.manifest, georeferenced)));
+  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / "cameras.csv").string(),
+                                               CamerasCsv(main, results.manifest, georeferenced)));
+  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / "georeference.json").string(),
+                                               GeoreferenceJson(results.manifest, georeferenced)));
   const std::string geojson_path = (folder / "trajectory.geojson").string();
   if (!georeferenced) {
     std::error_code ignored;
@@ -80,7 +84,9 @@ absl::Status WriteMainModelFiles(const JobResults& results, bool georeferenced, 
   return WriteFileAtomically(geojson_path, geojson);
 }
 
-absl::Status WriteTrace(CoordinatorApi& coordinator, const Digest& job, const std::filesystem::path& folder) {
+absl::Status WriteTrace(CoordinatorApi& coordinator,
+                        const Digest& job,
+                        const std::filesystem::path& folder) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskTiming> timings, coordinator.GetTimings(job));
   std::vector<TraceRow> rows;
   for (const TaskTiming& timing : timings) {
@@ -100,9 +106,12 @@ absl::Status WriteTrace(CoordinatorApi& coordinator, const Digest& job, const st
 absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
                                        const JobStatus& status,
                                        const std::string& folder) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes, coordinator.GetOutcomes(status.id));
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobResults results, FetchResults(coordinator, status.spec, outcomes));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto keypoints, FetchKeypoints(coordinator, status.spec, outcomes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
+                            coordinator.GetOutcomes(status.id));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobResults results,
+                            FetchResults(coordinator, status.spec, outcomes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto keypoints,
+                            FetchKeypoints(coordinator, status.spec, outcomes));
   JobReport report = BuildJobReport(results);
   FillRun(status, report);
 
@@ -110,8 +119,10 @@ absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
   ORBWEAVE_RETURN_IF_ERROR(WriteModels(results, keypoints, path));
   ORBWEAVE_RETURN_IF_ERROR(WriteMainModelFiles(results, report.origin.has_value(), path));
   ORBWEAVE_RETURN_IF_ERROR(WriteTrace(coordinator, status.id, path));
-  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((path / "report.json").string(), ReportJson(report)));
-  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((path / "report.html").string(), ReportHtml(report)));
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteFileAtomically((path / "report.json").string(), ReportJson(report)));
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteFileAtomically((path / "report.html").string(), ReportHtml(report)));
   return report;
 }
 

@@ -10,9 +10,9 @@
 
 namespace orbweave {
 
-/// Writes everything a finished job leaves in its folder: sparse/N in COLMAP's format, points.ply, cameras.csv,
-/// trajectory.geojson, georeference.json, report.json, report.html, trace.json. Returns the report.
-/// Codes of WriteFileAtomically; what was written before stays.
+/// Writes everything a finished job leaves in its folder: sparse/N in COLMAP's format, points.ply,
+/// cameras.csv, trajectory.geojson, georeference.json, report.json, report.html, trace.json.
+/// Returns the report. Codes of WriteFileAtomically; what was written before stays.
 [[nodiscard]] absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
                                                      const JobStatus& status,
                                                      const std::string& folder);

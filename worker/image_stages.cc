@@ -49,7 +49,8 @@ struct LoadedImage {
   Digest digest{};
 };
 
-absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<FeatureFile>& files, BlobAccess& blobs) {
+absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<FeatureFile>& files,
+                                                          BlobAccess& blobs) {
   std::map<ImageId, LoadedImage> images;
   for (const FeatureFile& file : files) {
     ORBWEAVE_ASSIGN_OR_RETURN(Features features, FetchBlob(file.features, blobs, DecodeFeatures));
@@ -62,7 +63,8 @@ absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<Feat
 /// Seeded by the two images' content: the same pair gives the same answer in any task.
 StageContext PairContext(const StageContext& context, const LoadedImage& a, const LoadedImage& b) {
   StageContext pair_context = context;
-  pair_context.seed = DigestBuilder().AddField(a.digest.ToHex()).AddField(b.digest.ToHex()).Finish().ToSeed();
+  pair_context.seed =
+      DigestBuilder().AddField(a.digest.ToHex()).AddField(b.digest.ToHex()).Finish().ToSeed();
   return pair_context;
 }
 
@@ -74,42 +76,57 @@ bool MatchesExist(const MatchRecipe::Pair& pair, const LoadedImage& a, const Loa
 
 }  // namespace
 
-absl::StatusOr<TaskResult> RunIngestImages(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+absl::StatusOr<TaskResult> RunIngestImages(const TaskSpec& spec,
+                                           BlobAccess& blobs,
+                                           const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, FetchInput(spec, 0, blobs, DecodeImageSources));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, IngestImages(sources, options.ingest, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources,
+                            FetchInput(spec, 0, blobs, DecodeImageSources));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            IngestImages(sources, options.ingest, context));
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeImageManifest(manifest), blobs, result));
-  ORBWEAVE_RETURN_IF_ERROR(PutRecipes(PlanExtraction(manifest), EncodeExtractRecipe, blobs, result));
+  ORBWEAVE_RETURN_IF_ERROR(
+      PutRecipes(PlanExtraction(manifest), EncodeExtractRecipe, blobs, result));
   result.report_json =
-      nlohmann::json{{"images", manifest.images.size()}, {"excluded", manifest.excluded.size()}}.dump();
+      nlohmann::json{{"images", manifest.images.size()}, {"excluded", manifest.excluded.size()}}
+          .dump();
   return result;
 }
 
-absl::StatusOr<TaskResult> RunExtractFeatures(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+absl::StatusOr<TaskResult> RunExtractFeatures(const TaskSpec& spec,
+                                              BlobAccess& blobs,
+                                              const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractRecipe recipe, FetchInput(spec, 0, blobs, DecodeExtractRecipe));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractRecipe recipe,
+                            FetchInput(spec, 0, blobs, DecodeExtractRecipe));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string image, blobs.Get(recipe.image));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string mask, GetOptional(recipe.mask, blobs));
   const ExtractInput input{.name = "panorama",
                            .encoded_image = image,
                            .encoded_mask = mask,
                            .mask_ignores_white = recipe.mask_ignores_white};
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features features, ExtractFeatures(input, options.features, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features features,
+                            ExtractFeatures(input, options.features, context));
   const PlaceSample place{.num_features = static_cast<uint32_t>(features.size()),
                           .descriptors = SampleDescriptors(features, options.retrieval),
                           .problem = features.problem};
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeFeatures(features), blobs, result));
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodePlaceSample(place), blobs, result));
-  result.report_json = nlohmann::json{{"features", features.size()}, {"problem", features.problem}}.dump();
+  result.report_json =
+      nlohmann::json{{"features", features.size()}, {"problem", features.problem}}.dump();
   return result;
 }
 
-absl::StatusOr<TaskResult> RunSelectImagePairs(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
+absl::StatusOr<TaskResult> RunSelectImagePairs(const TaskSpec& spec,
+                                               BlobAccess& blobs,
+                                               const StageContext&) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchInput(spec, 0, blobs, DecodeImageManifest));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractedBlobs extracted, FetchInput(spec, 1, blobs, SplitExtracted));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractedBlobs extracted,
+                            FetchInput(spec, 1, blobs, SplitExtracted));
   if (extracted.features.size() != manifest.images.size()) {
     return absl::InvalidArgumentError("select_image_pairs: one Features blob per image is needed");
   }
@@ -122,18 +139,22 @@ absl::StatusOr<TaskResult> RunSelectImagePairs(const TaskSpec& spec, BlobAccess&
       SelectImagePairs(manifest, SimilarImages(places, manifest, options.retrieval), options.pairs);
   std::vector<MatchRecipe::Pair> pairs;
   for (const ImagePair& pair : selected) {
-    if (places[pair.a.value].num_features > 0 && places[pair.b.value].num_features > 0) pairs.push_back({pair, {}});
+    if (places[pair.a.value].num_features > 0 && places[pair.b.value].num_features > 0)
+      pairs.push_back({pair, {}});
   }
   TaskResult result;
-  ORBWEAVE_RETURN_IF_ERROR(
-      PutRecipes(PlanMatching(pairs, extracted.features, kPairsPerTask), EncodeMatchRecipe, blobs, result));
+  ORBWEAVE_RETURN_IF_ERROR(PutRecipes(
+      PlanMatching(pairs, extracted.features, kPairsPerTask), EncodeMatchRecipe, blobs, result));
   result.report_json = nlohmann::json{{"pairs", pairs.size()}}.dump();
   return result;
 }
 
-absl::StatusOr<TaskResult> RunMatchImages(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+absl::StatusOr<TaskResult> RunMatchImages(const TaskSpec& spec,
+                                          BlobAccess& blobs,
+                                          const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const MatchRecipe recipe, FetchInput(spec, 0, blobs, DecodeMatchRecipe));
+  ORBWEAVE_ASSIGN_OR_RETURN(const MatchRecipe recipe,
+                            FetchInput(spec, 0, blobs, DecodeMatchRecipe));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto images, LoadImages(recipe.images, blobs));
   std::vector<TwoViewGeometry> verified;
   size_t putative = 0;
@@ -142,7 +163,8 @@ absl::StatusOr<TaskResult> RunMatchImages(const TaskSpec& spec, BlobAccess& blob
     const LoadedImage& a = images.at(pair.pair.a);
     const LoadedImage& b = images.at(pair.pair.b);
     if (!MatchesExist(pair, a, b)) {
-      return absl::InvalidArgumentError("match_images: a match names a keypoint that its image does not have");
+      return absl::InvalidArgumentError(
+          "match_images: a match names a keypoint that its image does not have");
     }
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
                               MatchImagePair(pair.pair,
@@ -158,8 +180,11 @@ absl::StatusOr<TaskResult> RunMatchImages(const TaskSpec& spec, BlobAccess& blob
   }
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeTwoViewGeometries(verified), blobs, result));
-  result.report_json =
-      nlohmann::json{{"pairs", recipe.pairs.size()}, {"verified", verified.size()}, {"putative", putative}}.dump();
+  result.report_json = nlohmann::json{
+      {"pairs", recipe.pairs.size()},
+      {"verified", verified.size()},
+      {"putative",
+       putative}}.dump();
   return result;
 }
 

@@ -37,10 +37,12 @@ struct CollectedEdges {
   std::map<ImagePair, Digest> blob_of_pair{};
 };
 
-absl::StatusOr<CollectedEdges> CollectEdges(const std::vector<Digest>& match_blobs, BlobAccess& blobs) {
+absl::StatusOr<CollectedEdges> CollectEdges(const std::vector<Digest>& match_blobs,
+                                            BlobAccess& blobs) {
   CollectedEdges collected;
   for (const Digest& digest : match_blobs) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const auto geometries, FetchBlob(digest, blobs, DecodeTwoViewGeometries));
+    ORBWEAVE_ASSIGN_OR_RETURN(const auto geometries,
+                              FetchBlob(digest, blobs, DecodeTwoViewGeometries));
     for (const TwoViewGeometry& geometry : geometries) {
       collected.edges.push_back(ToEdge(geometry));
       collected.blob_of_pair[geometry.pair] = digest;
@@ -51,7 +53,8 @@ absl::StatusOr<CollectedEdges> CollectEdges(const std::vector<Digest>& match_blo
 
 /// Every component of every cluster, by cluster and then by size.
 absl::StatusOr<std::vector<Submodel>> LoadSubmodels(const TaskSpec& spec, BlobAccess& blobs) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests, FetchInput(spec, 1, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests,
+                            FetchInput(spec, 1, blobs, DecodeCollection));
   std::vector<Submodel> submodels;
   for (const Digest& digest : digests) {
     ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult result, FetchBlob(digest, blobs, DecodeClusterResult));
@@ -65,21 +68,29 @@ absl::StatusOr<std::vector<Submodel>> LoadSubmodels(const TaskSpec& spec, BlobAc
 
 }  // namespace
 
-absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
+absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
+                                                 BlobAccess& blobs,
+                                                 const StageContext&) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchInput(spec, 0, blobs, DecodeImageManifest));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractedBlobs extracted, FetchInput(spec, 1, blobs, SplitExtracted));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> match_blobs, FetchInput(spec, 2, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ExtractedBlobs extracted,
+                            FetchInput(spec, 1, blobs, SplitExtracted));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> match_blobs,
+                            FetchInput(spec, 2, blobs, DecodeCollection));
   ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
-  const FilteredViewGraph filtered = BuildViewGraph(
-      static_cast<uint32_t>(manifest.images.size()), std::move(collected.edges), options.view_graph);
+  const FilteredViewGraph filtered = BuildViewGraph(static_cast<uint32_t>(manifest.images.size()),
+                                                    std::move(collected.edges),
+                                                    options.view_graph);
   DividedViewGraph divided{.dropped = filtered.dropped};
-  ORBWEAVE_ASSIGN_OR_RETURN(divided.partition, PartitionViewGraph(filtered.graph, options.partition));
+  ORBWEAVE_ASSIGN_OR_RETURN(divided.partition,
+                            PartitionViewGraph(filtered.graph, options.partition));
   for (const ViewEdge& edge : filtered.graph.edges) divided.edges.push_back(edge.pair);
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeDividedViewGraph(divided), blobs, result));
-  const auto recipes = PlanClusters(divided.partition, filtered.graph, extracted.features, collected.blob_of_pair);
+  const auto recipes =
+      PlanClusters(divided.partition, filtered.graph, extracted.features, collected.blob_of_pair);
   ORBWEAVE_RETURN_IF_ERROR(PutRecipes(recipes, EncodeClusterRecipe, blobs, result));
   result.report_json = nlohmann::json{{"edges", divided.edges.size()},
                                       {"dropped_edges", divided.dropped.size()},
@@ -88,12 +99,16 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec, BlobAcces
   return result;
 }
 
-absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
+                                                 BlobAccess& blobs,
+                                                 const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterRecipe recipe, FetchInput(spec, 0, blobs, DecodeClusterRecipe));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterRecipe recipe,
+                            FetchInput(spec, 0, blobs, DecodeClusterRecipe));
   ClusterProblem problem;
   for (const FeatureFile& file : recipe.images) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const Features features, FetchBlob(file.features, blobs, DecodeFeatures));
+    ORBWEAVE_ASSIGN_OR_RETURN(const Features features,
+                              FetchBlob(file.features, blobs, DecodeFeatures));
     problem.images.push_back(ToClusterImage(file.image, features));
   }
   for (const Digest& digest : recipe.matches) {
@@ -101,12 +116,14 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec, BlobAcces
     TakePairs(recipe, std::move(geometries), problem);
   }
   ClusterResult cluster{.cluster = recipe.cluster};
-  ORBWEAVE_ASSIGN_OR_RETURN(cluster.reconstruction, ReconstructCluster(problem, options.mapping, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(cluster.reconstruction,
+                            ReconstructCluster(problem, options.mapping, context));
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeClusterResult(cluster), blobs, result));
   size_t registered = 0;
-  for (const Reconstruction& component : cluster.reconstruction.components) registered += component.images.size();
+  for (const Reconstruction& component : cluster.reconstruction.components)
+    registered += component.images.size();
   result.report_json = nlohmann::json{{"images", problem.images.size()},
                                       {"registered", registered},
                                       {"components", cluster.reconstruction.components.size()},
@@ -115,17 +132,23 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec, BlobAcces
   return result;
 }
 
-absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
+                                             BlobAccess& blobs,
+                                             const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadSubmodels(spec, blobs));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, AlignSubmodels(submodels, options.align, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment,
+                            AlignSubmodels(submodels, options.align, context));
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAlignment(alignment), blobs, result));
-  result.report_json = nlohmann::json{{"submodels", submodels.size()}, {"seams", alignment.seams.size()}}.dump();
+  result.report_json =
+      nlohmann::json{{"submodels", submodels.size()}, {"seams", alignment.seams.size()}}.dump();
   return result;
 }
 
-absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
+absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec,
+                                             BlobAccess& blobs,
+                                             const StageContext&) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadSubmodels(spec, blobs));
   ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 2, blobs, DecodeAlignment));
   if (alignment.world.size() != submodels.size()) {
@@ -138,15 +161,20 @@ absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec, BlobAccess& b
   return result;
 }
 
-absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec,
+                                             BlobAccess& blobs,
+                                             const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, FetchInput(spec, 0, blobs, DecodeImageManifest));
-  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MergedWorld> worlds, FetchInput(spec, 1, blobs, DecodeMergedWorlds));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MergedWorld> worlds,
+                            FetchInput(spec, 1, blobs, DecodeMergedWorlds));
   std::vector<GloballyAdjusted> adjusted;
   for (MergedWorld& world : worlds) {
     ORBWEAVE_ASSIGN_OR_RETURN(
         GloballyAdjusted done,
-        AdjustGlobally(std::move(world.reconstruction), manifest, options.global, options.bundle, context));
+        AdjustGlobally(
+            std::move(world.reconstruction), manifest, options.global, options.bundle, context));
     adjusted.push_back(std::move(done));
   }
   TaskResult result;

@@ -6,19 +6,30 @@
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/task.h"
 
-/// The stages from verified pairs to one model, as tasks. Inputs and outputs: core/pipeline/job_plan.cc.
+/// The stages from verified pairs to one model, as tasks. Inputs and outputs:
+/// core/pipeline/job_plan.cc.
 
 namespace orbweave {
 
 /// manifest, extracted, verified pairs -> DividedViewGraph; recipes: one per cluster.
-absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context);
+absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
+                                                 BlobAccess& blobs,
+                                                 const StageContext& context);
 /// ClusterRecipe -> ClusterResult.
-absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context);
+absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
+                                                 BlobAccess& blobs,
+                                                 const StageContext& context);
 /// manifest, cluster results -> Alignment.
-absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context);
+absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
+                                             BlobAccess& blobs,
+                                             const StageContext& context);
 /// manifest, cluster results, Alignment -> MergedWorlds.
-absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context);
+absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec,
+                                             BlobAccess& blobs,
+                                             const StageContext& context);
 /// manifest, MergedWorlds -> AdjustedWorlds.
-absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context);
+absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec,
+                                             BlobAccess& blobs,
+                                             const StageContext& context);
 
 }  // namespace orbweave

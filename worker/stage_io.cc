@@ -7,7 +7,8 @@ namespace orbweave {
 absl::StatusOr<ExtractedBlobs> SplitExtracted(std::string_view collection) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests, DecodeCollection(collection));
   if (digests.size() % 2 != 0) {
-    return absl::InvalidArgumentError("extracted features: a Features blob without its PlaceSample");
+    return absl::InvalidArgumentError(
+        "extracted features: a Features blob without its PlaceSample");
   }
   ExtractedBlobs blobs;
   for (size_t i = 0; i < digests.size(); i += 2) {

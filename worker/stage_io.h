@@ -21,13 +21,15 @@ namespace orbweave {
 template <typename Decode>
 auto FetchInput(const TaskSpec& spec, size_t index, BlobAccess& blobs, Decode decode)
     -> decltype(decode(std::string_view())) {
-  if (index >= spec.inputs.size()) return absl::InvalidArgumentError(spec.stage + ": too few inputs");
+  if (index >= spec.inputs.size())
+    return absl::InvalidArgumentError(spec.stage + ": too few inputs");
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(spec.inputs[index]));
   return decode(bytes);
 }
 
 template <typename Decode>
-auto FetchBlob(const Digest& digest, BlobAccess& blobs, Decode decode) -> decltype(decode(std::string_view())) {
+auto FetchBlob(const Digest& digest, BlobAccess& blobs, Decode decode)
+    -> decltype(decode(std::string_view())) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(digest));
   return decode(bytes);
 }
@@ -43,7 +45,10 @@ inline absl::Status PutOutput(std::string_view bytes, BlobAccess& blobs, TaskRes
 }
 
 template <typename Recipes, typename Encode>
-absl::Status PutRecipes(const Recipes& recipes, Encode encode, BlobAccess& blobs, TaskResult& result) {
+absl::Status PutRecipes(const Recipes& recipes,
+                        Encode encode,
+                        BlobAccess& blobs,
+                        TaskResult& result) {
   for (const auto& recipe : recipes) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, blobs.Put(encode(recipe)));
     result.recipes.push_back(digest);
@@ -51,7 +56,8 @@ absl::Status PutRecipes(const Recipes& recipes, Encode encode, BlobAccess& blobs
   return absl::OkStatus();
 }
 
-/// The collection of extract_features alternates Features and PlaceSample; these are its two halves.
+/// The collection of extract_features alternates Features and PlaceSample; these are its two
+/// halves.
 struct ExtractedBlobs {
   std::vector<Digest> features{};
   std::vector<Digest> places{};

@@ -12,8 +12,8 @@
 namespace orbweave {
 
 /// Runs one task: fetches its inputs, calls the pure stage, stores what it returns.
-using StageFunction =
-    std::function<absl::StatusOr<TaskResult>(const TaskSpec& spec, BlobAccess& blobs, const StageContext& context)>;
+using StageFunction = std::function<absl::StatusOr<TaskResult>(
+    const TaskSpec& spec, BlobAccess& blobs, const StageContext& context)>;
 
 /// The stage of this name, or nullptr. The table of contents of what a worker can do.
 [[nodiscard]] const StageFunction* FindStage(std::string_view stage);

@@ -19,7 +19,8 @@ class Clock {
 class SteadyClock final : public Clock {
  public:
   [[nodiscard]] double NowSeconds() const override {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
 };
 

@@ -45,7 +45,8 @@ absl::StatusOr<Digest> Digest::FromHex(std::string_view hex) {
   for (size_t i = 0; i < 32; ++i) {
     const int high = HexValue(hex[2 * i]);
     const int low = HexValue(hex[2 * i + 1]);
-    if (high < 0 || low < 0) return absl::InvalidArgumentError("a digest has 64 hexadecimal digits");
+    if (high < 0 || low < 0)
+      return absl::InvalidArgumentError("a digest has 64 hexadecimal digits");
     digest.bytes[i] = static_cast<uint8_t>(high * 16 + low);
   }
   return digest;

@@ -57,5 +57,7 @@ class DigestBuilder {
 
 template <>
 struct std::hash<orbweave::Digest> {
-  size_t operator()(const orbweave::Digest& d) const noexcept { return static_cast<size_t>(d.ToSeed()); }
+  size_t operator()(const orbweave::Digest& d) const noexcept {
+    return static_cast<size_t>(d.ToSeed());
+  }
 };

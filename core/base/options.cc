@@ -40,7 +40,8 @@ absl::StatusOr<bool> BoolFromText(std::string_view text) {
 
 absl::Status CheckRange(std::string_view name, double value, Range range) {
   if (value >= range.low && value <= range.high) return absl::OkStatus();
-  return absl::InvalidArgumentError(std::string(name) + "=" + DoubleToText(value) + " is outside " + RangeToText(range));
+  return absl::InvalidArgumentError(std::string(name) + "=" + DoubleToText(value) + " is outside " +
+                                    RangeToText(range));
 }
 
 std::string RangeToText(Range range) {

@@ -117,7 +117,8 @@ std::string RangeOf(const T&, Range range) {
   }
 }
 
-/// Visits every field as visit(name, member, help, Range), supplying an open range where none is given.
+/// Visits every field as visit(name, member, help, Range), supplying an open range where none is
+/// given.
 template <typename Options, typename Visitor>
 void ForEachField(Options& options, Visitor&& visit) {
   std::remove_const_t<Options>::VisitFields(
@@ -132,9 +133,11 @@ void ForEachField(Options& options, Visitor&& visit) {
 template <typename Options>
 std::string OptionsToText(std::string_view section, const Options& options) {
   std::string text;
-  internal::ForEachField(options, [&](std::string_view name, const auto& member, std::string_view, Range) {
-    text += std::string(section) + "." + std::string(name) + "=" + internal::ValueToText(member) + "\n";
-  });
+  internal::ForEachField(options,
+                         [&](std::string_view name, const auto& member, std::string_view, Range) {
+                           text += std::string(section) + "." + std::string(name) + "=" +
+                                   internal::ValueToText(member) + "\n";
+                         });
   return text;
 }
 
@@ -142,12 +145,13 @@ std::string OptionsToText(std::string_view section, const Options& options) {
 template <typename Options>
 std::vector<OptionInfo> DescribeOptions(std::string_view section, const Options& options) {
   std::vector<OptionInfo> infos;
-  internal::ForEachField(options, [&](std::string_view name, const auto& member, std::string_view help, Range range) {
-    infos.push_back({std::string(section) + "." + std::string(name),
-                     internal::ValueToText(member),
-                     std::string(help),
-                     internal::RangeOf(member, range)});
-  });
+  internal::ForEachField(
+      options, [&](std::string_view name, const auto& member, std::string_view help, Range range) {
+        infos.push_back({std::string(section) + "." + std::string(name),
+                         internal::ValueToText(member),
+                         std::string(help),
+                         internal::RangeOf(member, range)});
+      });
   return infos;
 }
 
@@ -156,15 +160,17 @@ std::vector<OptionInfo> DescribeOptions(std::string_view section, const Options&
 template <typename Options>
 absl::Status SetOption(Options& options, std::string_view key, std::string_view text) {
   absl::Status status = absl::NotFoundError("no option '" + std::string(key) + "'");
-  internal::ForEachField(options, [&](std::string_view name, auto& member, std::string_view, Range range) {
-    if (name != key) return;
-    auto parsed = member;
-    status = internal::ValueFromText(text, parsed);
-    if constexpr (std::is_arithmetic_v<decltype(parsed)> && !std::is_same_v<decltype(parsed), bool>) {
-      if (status.ok()) status = internal::CheckRange(name, static_cast<double>(parsed), range);
-    }
-    if (status.ok()) member = parsed;
-  });
+  internal::ForEachField(
+      options, [&](std::string_view name, auto& member, std::string_view, Range range) {
+        if (name != key) return;
+        auto parsed = member;
+        status = internal::ValueFromText(text, parsed);
+        if constexpr (std::is_arithmetic_v<decltype(parsed)> &&
+                      !std::is_same_v<decltype(parsed), bool>) {
+          if (status.ok()) status = internal::CheckRange(name, static_cast<double>(parsed), range);
+        }
+        if (status.ok()) member = parsed;
+      });
   return status;
 }
 
@@ -172,19 +178,22 @@ absl::Status SetOption(Options& options, std::string_view key, std::string_view 
 template <typename Options>
 absl::Status ValidateOptions(std::string_view section, const Options& options) {
   absl::Status status;
-  internal::ForEachField(options, [&](std::string_view name, const auto& member, std::string_view, Range range) {
-    using T = std::remove_cvref_t<decltype(member)>;
-    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
-      if (status.ok()) {
-        status = internal::CheckRange(std::string(section) + "." + std::string(name), static_cast<double>(member), range);
-      }
-    }
-  });
+  internal::ForEachField(
+      options, [&](std::string_view name, const auto& member, std::string_view, Range range) {
+        using T = std::remove_cvref_t<decltype(member)>;
+        if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+          if (status.ok()) {
+            status = internal::CheckRange(
+                std::string(section) + "." + std::string(name), static_cast<double>(member), range);
+          }
+        }
+      });
   return status;
 }
 
 /// The candidate with the smallest edit distance to `word` (empty when there are none): for "did
 /// you mean".
-[[nodiscard]] std::string NearestName(std::string_view word, const std::vector<std::string>& candidates);
+[[nodiscard]] std::string NearestName(std::string_view word,
+                                      const std::vector<std::string>& candidates);
 
 }  // namespace orbweave

@@ -29,9 +29,7 @@ class Random {
   double Uniform() { return static_cast<double>(Next() >> 11) * 0x1.0p-53; }
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
   /// Uniform in {0, ..., n-1}; n > 0.
-  uint32_t Index(uint32_t n) {
-    return static_cast<uint32_t>(((Next() >> 32) * n) >> 32);
-  }
+  uint32_t Index(uint32_t n) { return static_cast<uint32_t>(((Next() >> 32) * n) >> 32); }
   /// Standard normal, Box-Muller.
   double Normal() {
     const double u = 1.0 - Uniform();

@@ -29,24 +29,26 @@ absl::Status StatusOf(const absl::StatusOr<T>& value) {
 #define ORBWEAVE_CONCAT(a, b) ORBWEAVE_CONCAT_INNER(a, b)
 
 /// Aborts with the condition and the place when a promise of the code is broken.
-#define ORBWEAVE_CHECK(condition)                                               \
-  do {                                                                          \
-    if (!(condition)) {                                                         \
-      ::orbweave::internal::CheckFailed(#condition, __FILE__, __LINE__);        \
-    }                                                                           \
+#define ORBWEAVE_CHECK(condition)                                        \
+  do {                                                                   \
+    if (!(condition)) {                                                  \
+      ::orbweave::internal::CheckFailed(#condition, __FILE__, __LINE__); \
+    }                                                                    \
   } while (false)
 
 /// Leaves the function with the status of `expression` unless it is OK.
-#define ORBWEAVE_RETURN_IF_ERROR(expression)                                    \
-  do {                                                                          \
-    if (absl::Status orbweave_status = (expression); !orbweave_status.ok()) {   \
-      return orbweave_status;                                                   \
-    }                                                                           \
+#define ORBWEAVE_RETURN_IF_ERROR(expression)                                  \
+  do {                                                                        \
+    if (absl::Status orbweave_status = (expression); !orbweave_status.ok()) { \
+      return orbweave_status;                                                 \
+    }                                                                         \
   } while (false)
 
-/// `ORBWEAVE_ASSIGN_OR_RETURN(auto x, F())`: x is the value of F(), or the function returns its status.
+/// `ORBWEAVE_ASSIGN_OR_RETURN(auto x, F())`: x is the value of F(), or the function returns its
+/// status.
 #define ORBWEAVE_ASSIGN_OR_RETURN(declaration, expression) \
-  ORBWEAVE_ASSIGN_OR_RETURN_INNER(ORBWEAVE_CONCAT(orbweave_value_, __LINE__), declaration, expression)
+  ORBWEAVE_ASSIGN_OR_RETURN_INNER(                         \
+      ORBWEAVE_CONCAT(orbweave_value_, __LINE__), declaration, expression)
 #define ORBWEAVE_ASSIGN_OR_RETURN_INNER(temporary, declaration, expression) \
   auto temporary = (expression);                                            \
   if (!temporary.ok()) {                                                    \

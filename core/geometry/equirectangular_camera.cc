@@ -15,7 +15,8 @@ Eigen::Vector3d EquirectangularCamera::BearingFromPixel(const Eigen::Vector2d& p
   const double longitude = (pixel.x() / width_px - 0.5) * 2.0 * pi;
   const double latitude = (pixel.y() / height_px - 0.5) * pi;  // positive downwards, like y
   const double cos_latitude = std::cos(latitude);
-  return {cos_latitude * std::sin(longitude), std::sin(latitude), cos_latitude * std::cos(longitude)};
+  return {
+      cos_latitude * std::sin(longitude), std::sin(latitude), cos_latitude * std::cos(longitude)};
 }
 
 Eigen::Vector2d EquirectangularCamera::PixelFromBearing(const Eigen::Vector3d& bearing) const {

@@ -4,7 +4,6 @@
 #include "core/mapping/triangulate_tracks.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 #include <optional>
 

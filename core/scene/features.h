@@ -35,9 +35,10 @@ constexpr int kDescriptorSize = 128;
 struct Features {
   EquirectangularCamera camera{};
   std::vector<Keypoint> keypoints{};
-  std::vector<float> sigma_rad{};     ///< size(): standard deviation of the bearing, radians
-  std::vector<uint8_t> descriptors{}; ///< size() x kDescriptorSize, row-major RootSIFT x 512; empty from a database
-  std::vector<Rgb> colors{};          ///< size()
+  std::vector<float> sigma_rad{};  ///< size(): standard deviation of the bearing, radians
+  std::vector<uint8_t>
+      descriptors{};  ///< size() x kDescriptorSize, row-major RootSIFT x 512; empty from a database
+  std::vector<Rgb> colors{};  ///< size()
   /// Why the image has no features ("cannot decode: ..."), empty when all is well.
   std::string problem{};
 

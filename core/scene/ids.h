@@ -10,7 +10,8 @@
 
 namespace orbweave {
 
-/// Position of an image in the job's natural order: 0 ... number of images - 1. Global from ingest on.
+/// Position of an image in the job's natural order: 0 ... number of images - 1. Global from ingest
+/// on.
 using ImageId = StrongId<struct ImageTag>;
 /// Index of a keypoint within its image's Features.
 using FeatureIndex = uint32_t;
@@ -22,7 +23,9 @@ struct ImagePair {
   friend auto operator<=>(const ImagePair&, const ImagePair&) = default;
 };
 
-inline ImagePair MakePair(ImageId x, ImageId y) { return x < y ? ImagePair{x, y} : ImagePair{y, x}; }
+inline ImagePair MakePair(ImageId x, ImageId y) {
+  return x < y ? ImagePair{x, y} : ImagePair{y, x};
+}
 
 /// One keypoint of one image: the unit of identity of the whole house. A track is named by its
 /// smallest FeatureRef.

@@ -30,7 +30,8 @@ struct PosePrior {
   /// Stated or assumed standard deviation of the position.
   double horizontal_sigma_m = 5.0;
   double vertical_sigma_m = 10.0;
-  /// Direction of the image centre, clockwise from north; pitch up positive; roll clockwise positive.
+  /// Direction of the image centre, clockwise from north; pitch up positive; roll clockwise
+  /// positive.
   std::optional<double> heading_deg{};
   std::optional<double> pitch_deg{};
   std::optional<double> roll_deg{};
@@ -57,9 +58,9 @@ struct Exclusion {
 
 /// The job's images in id order, what was left out, and the local frame.
 struct ImageManifest {
-  std::vector<ImageRecord> images{};     ///< images[i].id.value == i
-  std::vector<Exclusion> excluded{};     ///< images that take no part
-  std::vector<std::string> warnings{};   ///< e.g. GNSS rows without an image
+  std::vector<ImageRecord> images{};         ///< images[i].id.value == i
+  std::vector<Exclusion> excluded{};         ///< images that take no part
+  std::vector<std::string> warnings{};       ///< e.g. GNSS rows without an image
   std::optional<GeodeticPosition> origin{};  ///< of the east-north-up frame; absent without GNSS
   bool mask_ignores_white = true;
 

@@ -49,14 +49,18 @@ struct Reconstruction {
     return n;
   }
   void SortTracks() {
-    std::sort(tracks.begin(), tracks.end(), [](const Track& x, const Track& y) { return x.Name() < y.Name(); });
+    std::sort(tracks.begin(), tracks.end(), [](const Track& x, const Track& y) {
+      return x.Name() < y.Name();
+    });
   }
 };
 
 /// The same reconstruction in frame b.
 inline Reconstruction Transformed(const Sim3& b_from_world, Reconstruction reconstruction) {
-  for (auto& [id, image] : reconstruction.images) image.cam_from_world = TransformCamera(b_from_world, image.cam_from_world);
-  for (Track& track : reconstruction.tracks) track.point_in_world = b_from_world * track.point_in_world;
+  for (auto& [id, image] : reconstruction.images)
+    image.cam_from_world = TransformCamera(b_from_world, image.cam_from_world);
+  for (Track& track : reconstruction.tracks)
+    track.point_in_world = b_from_world * track.point_in_world;
   return reconstruction;
 }
 

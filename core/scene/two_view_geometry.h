@@ -21,7 +21,7 @@ enum class TwoViewKind : uint8_t {
 struct TwoViewGeometry {
   ImagePair pair{};
   TwoViewKind kind = TwoViewKind::kNone;
-  Rigid3 b_from_a{};  ///< |translation| = 1, or 0 for kPureRotation
+  Rigid3 b_from_a{};                    ///< |translation| = 1, or 0 for kPureRotation
   std::vector<FeatureMatch> inliers{};  ///< sorted
   uint32_t num_putative = 0;            ///< matches before verification
   double median_angle_rad = 0.0;        ///< median triangulation angle of the inliers

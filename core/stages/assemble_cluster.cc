@@ -16,13 +16,17 @@ ClusterImage ToClusterImage(ImageId id, const Features& features) {
           .colors = features.colors};
 }
 
-void TakePairs(const ClusterRecipe& recipe, std::vector<TwoViewGeometry> geometries, ClusterProblem& problem) {
+void TakePairs(const ClusterRecipe& recipe,
+               std::vector<TwoViewGeometry> geometries,
+               ClusterProblem& problem) {
   for (TwoViewGeometry& geometry : geometries) {
     if (std::binary_search(recipe.pairs.begin(), recipe.pairs.end(), geometry.pair)) {
       problem.pairs.push_back(std::move(geometry));
     }
   }
-  std::sort(problem.pairs.begin(), problem.pairs.end(), [](const auto& x, const auto& y) { return x.pair < y.pair; });
+  std::sort(problem.pairs.begin(), problem.pairs.end(), [](const auto& x, const auto& y) {
+    return x.pair < y.pair;
+  });
 }
 
 }  // namespace orbweave

@@ -14,6 +14,8 @@ namespace orbweave {
 [[nodiscard]] ClusterImage ToClusterImage(ImageId id, const Features& features);
 
 /// Moves those of `geometries` that the recipe asks for into `problem.pairs`.
-void TakePairs(const ClusterRecipe& recipe, std::vector<TwoViewGeometry> geometries, ClusterProblem& problem);
+void TakePairs(const ClusterRecipe& recipe,
+               std::vector<TwoViewGeometry> geometries,
+               ClusterProblem& problem);
 
 }  // namespace orbweave

@@ -22,14 +22,19 @@ std::vector<ReportImage> StartRows(const JobResults& results) {
   const std::vector<Cluster>& clusters = results.view_graph.partition.clusters;
   for (size_t c = 0; c < clusters.size(); ++c) {
     for (const ImageId id : clusters[c].interior) rows[id.value].cluster = static_cast<int>(c);
-    for (const ImageId id : clusters[c].images) rows[id.value].in_overlap = ++times_used[id.value] > 1;
+    for (const ImageId id : clusters[c].images)
+      rows[id.value].in_overlap = ++times_used[id.value] > 1;
   }
   return rows;
 }
 
-void FillWorld(const JobResults& results, uint32_t model, const ReconstructionMeasures& measures, JobReport& report) {
+void FillWorld(const JobResults& results,
+               uint32_t model,
+               const ReconstructionMeasures& measures,
+               JobReport& report) {
   const GloballyAdjusted& world = results.worlds[model];
-  const std::set<std::string> outliers(world.report.gnss.outliers.begin(), world.report.gnss.outliers.end());
+  const std::set<std::string> outliers(world.report.gnss.outliers.begin(),
+                                       world.report.gnss.outliers.end());
   for (const auto& [id, image] : world.reconstruction.images) {
     ReportImage& row = report.images[id.value];
     const ImageRecord& record = results.manifest.At(id);
@@ -57,10 +62,12 @@ void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
   const double added = static_cast<double>(measures.observations);
   const double total = before + added;
   if (total > 0.0) {
-    report.residual_px_mean = (report.residual_px_mean * before + measures.residual_px_mean * added) / total;
-    report.residual_px_rms = std::sqrt((report.residual_px_rms * report.residual_px_rms * before +
-                                        measures.residual_px_rms * measures.residual_px_rms * added) /
-                                       total);
+    report.residual_px_mean =
+        (report.residual_px_mean * before + measures.residual_px_mean * added) / total;
+    report.residual_px_rms =
+        std::sqrt((report.residual_px_rms * report.residual_px_rms * before +
+                   measures.residual_px_rms * measures.residual_px_rms * added) /
+                  total);
   }
   report.points += measures.points;
   report.observations += measures.observations;
@@ -71,7 +78,8 @@ void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
 
 /// Why each image that no world holds is missing, by what is known latest in the line.
 void ListNotRegistered(const JobResults& results, JobReport& report) {
-  std::vector<std::string> reasons(report.images.size(), "no verified matches with any other image");
+  std::vector<std::string> reasons(report.images.size(),
+                                   "no verified matches with any other image");
   for (const ClusterResult& cluster : results.clusters) {
     for (const NotRegistered& image : cluster.reconstruction.not_registered) {
       reasons[image.image.value] = image.reason;
@@ -82,13 +90,16 @@ void ListNotRegistered(const JobResults& results, JobReport& report) {
   }
   report.not_registered = results.manifest.excluded;
   for (size_t i = 0; i < report.images.size(); ++i) {
-    if (!report.images[i].registered) report.not_registered.push_back({report.images[i].name, reasons[i]});
+    if (!report.images[i].registered)
+      report.not_registered.push_back({report.images[i].name, reasons[i]});
   }
 }
 
 void WarnOfLooseImages(JobReport& report) {
   for (const ReportImage& image : report.images) {
-    if (image.loose) report.warnings.push_back(image.name + " has no observations of its own left and is placed loosely");
+    if (image.loose)
+      report.warnings.push_back(image.name +
+                                " has no observations of its own left and is placed loosely");
   }
 }
 
@@ -96,7 +107,8 @@ std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
   for (size_t c = 0; c < rows.size(); ++c) {
     rows[c].images = static_cast<uint32_t>(results.view_graph.partition.clusters[c].images.size());
-    rows[c].interior = static_cast<uint32_t>(results.view_graph.partition.clusters[c].interior.size());
+    rows[c].interior =
+        static_cast<uint32_t>(results.view_graph.partition.clusters[c].interior.size());
   }
   for (const ClusterResult& cluster : results.clusters) {
     ReportCluster& row = rows[cluster.cluster];
@@ -148,7 +160,8 @@ ReportGnss GnssRow(const GnssReport& gnss) {
 JobReport BuildJobReport(const JobResults& results) {
   JobReport report;
   report.images = StartRows(results);
-  report.images_total = static_cast<uint32_t>(results.manifest.images.size() + results.manifest.excluded.size());
+  report.images_total =
+      static_cast<uint32_t>(results.manifest.images.size() + results.manifest.excluded.size());
   report.models = static_cast<uint32_t>(results.worlds.size());
   for (uint32_t model = 0; model < report.models; ++model) {
     const Reconstruction& reconstruction = results.worlds[model].reconstruction;
@@ -158,7 +171,8 @@ JobReport BuildJobReport(const JobResults& results) {
     FillWorld(results, model, measures, report);
   }
   if (report.points > 0) {
-    report.mean_track_length = static_cast<double>(report.observations) / static_cast<double>(report.points);
+    report.mean_track_length =
+        static_cast<double>(report.observations) / static_cast<double>(report.points);
   }
   ListNotRegistered(results, report);
   report.clusters = ClusterRows(results);

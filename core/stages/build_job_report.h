@@ -16,16 +16,17 @@ namespace orbweave {
 /// The results of a finished job, decoded.
 struct JobResults {
   ImageManifest manifest{};
-  std::vector<std::string> image_problems{};  ///< per image: why it has no features, mostly empty; or empty list
+  std::vector<std::string>
+      image_problems{};  ///< per image: why it has no features, mostly empty; or empty list
   DividedViewGraph view_graph{};
   std::vector<ClusterResult> clusters{};
   Alignment alignment{};
   std::vector<GloballyAdjusted> worlds{};  ///< most images first
 };
 
-/// The part of the report that follows from results alone: counts, residuals (recomputed from the model),
-/// clusters, seams, GNSS, one row per image, and a reason for every image that is not registered. Stages,
-/// workers, times and options are the caller's.
+/// The part of the report that follows from results alone: counts, residuals (recomputed from the
+/// model), clusters, seams, GNSS, one row per image, and a reason for every image that is not
+/// registered. Stages, workers, times and options are the caller's.
 [[nodiscard]] JobReport BuildJobReport(const JobResults& results);
 
 }  // namespace orbweave

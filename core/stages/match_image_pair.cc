@@ -9,7 +9,8 @@ namespace {
 
 /// Equation (8) for a pair: the coarser of the two panoramas sets the angle.
 double MaxErrorRad(const PairSide& a, const PairSide& b, double max_error_px) {
-  return std::max(a.features.camera.AngleFromPixels(max_error_px), b.features.camera.AngleFromPixels(max_error_px));
+  return std::max(a.features.camera.AngleFromPixels(max_error_px),
+                  b.features.camera.AngleFromPixels(max_error_px));
 }
 
 }  // namespace
@@ -29,11 +30,14 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
                                                const StageContext& context) {
   const double max_error_rad = MaxErrorRad(a, b, two_view_options.max_error_px);
   const auto verify = [&](const std::vector<FeatureMatch>& matches) {
-    return EstimateTwoView(pair, a.bearings, b.bearings, matches, max_error_rad, two_view_options, context);
+    return EstimateTwoView(
+        pair, a.bearings, b.bearings, matches, max_error_rad, two_view_options, context);
   };
   if (!given.empty()) return verify(given);
-  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, verify(MatchDescriptors(a.features, b.features, match_options)));
-  const bool has_epipolar_planes = geometry.kind == TwoViewKind::kGeneral || geometry.kind == TwoViewKind::kPlanar;
+  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
+                            verify(MatchDescriptors(a.features, b.features, match_options)));
+  const bool has_epipolar_planes =
+      geometry.kind == TwoViewKind::kGeneral || geometry.kind == TwoViewKind::kPlanar;
   if (!match_options.guided || !has_epipolar_planes) return geometry;
 
   const std::vector<FeatureMatch> guided =

@@ -22,9 +22,10 @@ struct PairSide {
   const std::vector<Eigen::Vector3d>& bearings;
 };
 
-/// The verified matches of two panoramas: nearest descriptors, geometry on rays, then (matching.guided)
-/// a second matching along epipolar planes that recovers what the ratio test lost, verified again.
-/// `given`: putative matches from outside; when not empty, descriptors are not looked at.
+/// The verified matches of two panoramas: nearest descriptors, geometry on rays, then
+/// (matching.guided) a second matching along epipolar planes that recovers what the ratio test
+/// lost, verified again. `given`: putative matches from outside; when not empty, descriptors are
+/// not looked at.
 [[nodiscard]] absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
                                                              const PairSide& a,
                                                              const PairSide& b,

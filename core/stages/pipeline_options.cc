@@ -12,8 +12,8 @@ namespace {
 absl::Status UnknownOption(std::string_view name) {
   std::vector<std::string> known;
   for (const OptionInfo& info : DescribePipelineOptions({})) known.push_back(info.name);
-  return absl::InvalidArgumentError("there is no option '" + std::string(name) + "'; did you mean '" +
-                                    NearestName(name, known) + "'?");
+  return absl::InvalidArgumentError("there is no option '" + std::string(name) +
+                                    "'; did you mean '" + NearestName(name, known) + "'?");
 }
 
 }  // namespace
@@ -37,7 +37,8 @@ std::vector<OptionInfo> DescribePipelineOptions(const PipelineOptions& options) 
 absl::Status SetPipelineOption(PipelineOptions& options, std::string_view assignment) {
   const size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) {
-    return absl::InvalidArgumentError("'" + std::string(assignment) + "' is not of the form section.key=value");
+    return absl::InvalidArgumentError("'" + std::string(assignment) +
+                                      "' is not of the form section.key=value");
   }
   const std::string name(absl::StripAsciiWhitespace(std::string(assignment.substr(0, equals))));
   const std::string value(absl::StripAsciiWhitespace(std::string(assignment.substr(equals + 1))));
@@ -45,21 +46,25 @@ absl::Status SetPipelineOption(PipelineOptions& options, std::string_view assign
   if (dot == std::string::npos) return UnknownOption(name);
   absl::Status status = absl::NotFoundError(name);
   PipelineOptions::VisitSections(options, [&](std::string_view section, auto& fields) {
-    if (section == std::string_view(name).substr(0, dot)) status = SetOption(fields, name.substr(dot + 1), value);
+    if (section == std::string_view(name).substr(0, dot))
+      status = SetOption(fields, name.substr(dot + 1), value);
   });
   if (absl::IsNotFound(status)) return UnknownOption(name);
   return Annotate(status, name);
 }
 
-absl::StatusOr<PipelineOptions> PipelineOptionsFromText(std::string_view text, std::string_view source) {
+absl::StatusOr<PipelineOptions> PipelineOptionsFromText(std::string_view text,
+                                                        std::string_view source) {
   PipelineOptions options;
   int line_number = 0;
-  for (const absl::string_view raw : absl::StrSplit(absl::string_view(text.data(), text.size()), '\n')) {
+  for (const absl::string_view raw :
+       absl::StrSplit(absl::string_view(text.data(), text.size()), '\n')) {
     ++line_number;
     const absl::string_view line = absl::StripAsciiWhitespace(raw);
     if (line.empty() || line.front() == '#') continue;
-    ORBWEAVE_RETURN_IF_ERROR(Annotate(SetPipelineOption(options, std::string_view(line.data(), line.size())),
-                                      absl::StrCat(std::string(source), " line ", line_number)));
+    ORBWEAVE_RETURN_IF_ERROR(
+        Annotate(SetPipelineOption(options, std::string_view(line.data(), line.size())),
+                 absl::StrCat(std::string(source), " line ", line_number)));
   }
   return options;
 }

@@ -61,12 +61,13 @@ struct PipelineOptions {
 /// Every option with value, range and help, in section order.
 [[nodiscard]] std::vector<OptionInfo> DescribePipelineOptions(const PipelineOptions& options);
 
-/// Sets one option from "section.key=value". InvalidArgument names the option, what is wrong and, for an
-/// unknown name, the nearest right one.
+/// Sets one option from "section.key=value". InvalidArgument names the option, what is wrong and,
+/// for an unknown name, the nearest right one.
 [[nodiscard]] absl::Status SetPipelineOption(PipelineOptions& options, std::string_view assignment);
 
 /// Reads options from lines of "section.key=value"; blank lines and lines beginning with '#' are
 /// skipped. `source` names the text in errors. Sections may be missing: defaults.
-[[nodiscard]] absl::StatusOr<PipelineOptions> PipelineOptionsFromText(std::string_view text, std::string_view source);
+[[nodiscard]] absl::StatusOr<PipelineOptions> PipelineOptionsFromText(std::string_view text,
+                                                                      std::string_view source);
 
 }  // namespace orbweave

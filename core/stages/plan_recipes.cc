@@ -26,7 +26,8 @@ std::vector<MatchRecipe> PlanMatching(const std::vector<MatchRecipe::Pair>& pair
   for (size_t begin = 0; begin < pairs.size(); begin += pairs_per_task) {
     const size_t end = std::min(begin + pairs_per_task, pairs.size());
     MatchRecipe recipe;
-    recipe.pairs.assign(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.begin() + static_cast<std::ptrdiff_t>(end));
+    recipe.pairs.assign(pairs.begin() + static_cast<std::ptrdiff_t>(begin),
+                        pairs.begin() + static_cast<std::ptrdiff_t>(end));
     std::set<ImageId> images;
     for (const MatchRecipe::Pair& pair : recipe.pairs) images.insert({pair.pair.a, pair.pair.b});
     for (const ImageId id : images) recipe.images.push_back({id, features[id.value]});
@@ -58,7 +59,8 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
       blobs[c].insert(blob_of_pair.at(edge.pair));
     }
   }
-  for (size_t c = 0; c < recipes.size(); ++c) recipes[c].matches.assign(blobs[c].begin(), blobs[c].end());
+  for (size_t c = 0; c < recipes.size(); ++c)
+    recipes[c].matches.assign(blobs[c].begin(), blobs[c].end());
   return recipes;
 }
 

@@ -14,16 +14,17 @@ namespace orbweave {
 /// One recipe per image, in id order.
 [[nodiscard]] std::vector<ExtractRecipe> PlanExtraction(const ImageManifest& manifest);
 
-/// Cuts sorted pairs into runs of `pairs_per_task`; neighbours in order share images, so a run opens few
-/// Features. `features[id]` is the blob of each image.
+/// Cuts sorted pairs into runs of `pairs_per_task`; neighbours in order share images, so a run
+/// opens few Features. `features[id]` is the blob of each image.
 [[nodiscard]] std::vector<MatchRecipe> PlanMatching(const std::vector<MatchRecipe::Pair>& pairs,
                                                     const std::vector<Digest>& features,
                                                     size_t pairs_per_task);
 
 /// One recipe per cluster: its images, the edges of `graph` among them, and the blobs these are in.
-[[nodiscard]] std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
-                                                      const ViewGraph& graph,
-                                                      const std::vector<Digest>& features,
-                                                      const std::map<ImagePair, Digest>& blob_of_pair);
+[[nodiscard]] std::vector<ClusterRecipe> PlanClusters(
+    const Partition& partition,
+    const ViewGraph& graph,
+    const std::vector<Digest>& features,
+    const std::map<ImagePair, Digest>& blob_of_pair);
 
 }  // namespace orbweave

@@ -9,8 +9,8 @@
 #include "core/base/digest.h"
 #include "core/scene/ids.h"
 
-/// A recipe names everything one part of a stage reads, by digest: it is the whole input of a task, so
-/// its own digest names the task, and an unchanged part of a changed job is not computed again.
+/// A recipe names everything one part of a stage reads, by digest: it is the whole input of a task,
+/// so its own digest names the task, and an unchanged part of a changed job is not computed again.
 
 namespace orbweave {
 

@@ -20,7 +20,8 @@ std::vector<Eigen::Vector2d> BendCorners(double length_m, uint64_t seed) {
   double heading = 0.3;
   for (double station = 0.0; station < length_m;) {
     const double side_m = random.Uniform(60.0, 240.0);
-    corners.push_back(corners.back() + side_m * Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+    corners.push_back(corners.back() +
+                      side_m * Eigen::Vector2d(std::cos(heading), std::sin(heading)));
     station += side_m;
     // Turns towards the general direction more often than away: the street gets somewhere.
     heading = std::clamp(heading + random.Uniform(-1.2, 1.2), -1.2, 1.2);
@@ -28,8 +29,8 @@ std::vector<Eigen::Vector2d> BendCorners(double length_m, uint64_t seed) {
   return corners;
 }
 
-/// Every street of a square grid of s x s streets: all rows there and back, then all columns; 2 (s^2 - 1)
-/// blocks long.
+/// Every street of a square grid of s x s streets: all rows there and back, then all columns; 2
+/// (s^2 - 1) blocks long.
 std::vector<Eigen::Vector2d> GridCorners(double length_m) {
   const double block_m = std::min(kLongestBlockM, length_m / 6.0);
   const int streets = std::max(2, static_cast<int>(std::sqrt(1.0 + length_m / (2.0 * block_m))));
@@ -69,8 +70,8 @@ StreetPath MakePath(const CorridorOptions& options, double length_m) {
   return {BendCorners(length_m, static_cast<uint64_t>(options.seed)), kCornerRadiusM, false};
 }
 
-/// Moves the street so that the median of its places is the origin: where a reader of its GNSS positions
-/// puts the origin as well.
+/// Moves the street so that the median of its places is the origin: where a reader of its GNSS
+/// positions puts the origin as well.
 void Centre(std::vector<PathPlace>& places) {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<double> values;

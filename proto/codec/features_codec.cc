@@ -21,17 +21,22 @@ std::string EncodeFeatures(const Features& features) {
 }
 
 absl::StatusOr<Features> DecodeFeatures(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Features proto, codec::Parse<v1::Features>(bytes, "features"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Features proto,
+                            codec::Parse<v1::Features>(bytes, "features"));
   Features features;
   features.camera = {proto.camera().width_px(), proto.camera().height_px()};
   features.problem = proto.problem();
-  ORBWEAVE_ASSIGN_OR_RETURN(features.keypoints, codec::Unpack<Keypoint>(proto.keypoints(), "keypoints"));
+  ORBWEAVE_ASSIGN_OR_RETURN(features.keypoints,
+                            codec::Unpack<Keypoint>(proto.keypoints(), "keypoints"));
   const size_t n = features.keypoints.size();
-  ORBWEAVE_ASSIGN_OR_RETURN(features.sigma_rad, codec::UnpackExactly<float>(proto.sigma_rad(), n, "sigmas"));
-  ORBWEAVE_ASSIGN_OR_RETURN(features.colors, codec::UnpackExactly<Rgb>(proto.colors(), n, "colours"));
+  ORBWEAVE_ASSIGN_OR_RETURN(features.sigma_rad,
+                            codec::UnpackExactly<float>(proto.sigma_rad(), n, "sigmas"));
+  ORBWEAVE_ASSIGN_OR_RETURN(features.colors,
+                            codec::UnpackExactly<Rgb>(proto.colors(), n, "colours"));
   const size_t descriptor_bytes = proto.descriptors().empty() ? 0 : n * kDescriptorSize;
-  ORBWEAVE_ASSIGN_OR_RETURN(features.descriptors,
-                            codec::UnpackExactly<uint8_t>(proto.descriptors(), descriptor_bytes, "descriptors"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      features.descriptors,
+      codec::UnpackExactly<uint8_t>(proto.descriptors(), descriptor_bytes, "descriptors"));
   if (n > 0 && (features.camera.width_px <= 0 || features.camera.height_px <= 0)) {
     return absl::InvalidArgumentError("features: the camera has no size");
   }
@@ -47,9 +52,11 @@ std::string EncodePlaceSample(const PlaceSample& sample) {
 }
 
 absl::StatusOr<PlaceSample> DecodePlaceSample(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::PlaceSample proto, codec::Parse<v1::PlaceSample>(bytes, "place sample"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::PlaceSample proto,
+                            codec::Parse<v1::PlaceSample>(bytes, "place sample"));
   PlaceSample sample{.num_features = proto.num_features(), .problem = proto.problem()};
-  ORBWEAVE_ASSIGN_OR_RETURN(sample.descriptors, codec::Unpack<uint8_t>(proto.descriptors(), "descriptors"));
+  ORBWEAVE_ASSIGN_OR_RETURN(sample.descriptors,
+                            codec::Unpack<uint8_t>(proto.descriptors(), "descriptors"));
   if (sample.descriptors.size() % kDescriptorSize != 0) {
     return absl::InvalidArgumentError("place sample: half a descriptor");
   }

@@ -12,7 +12,8 @@
 namespace orbweave {
 
 [[nodiscard]] std::string EncodeFeatures(const Features& features);
-/// InvalidArgument or DataLoss when the bytes are not whole features: arrays of one length, a 2:1 camera.
+/// InvalidArgument or DataLoss when the bytes are not whole features: arrays of one length, a 2:1
+/// camera.
 [[nodiscard]] absl::StatusOr<Features> DecodeFeatures(std::string_view bytes);
 
 [[nodiscard]] std::string EncodePlaceSample(const PlaceSample& sample);

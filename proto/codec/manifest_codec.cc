@@ -71,7 +71,8 @@ void ToProto(const SourceImage& value, v1::SourceImage* proto) {
   proto->set_mask_name(std::filesystem::path(value.mask_path).filename().string());
   proto->set_mask_width_px(value.mask_width_px);
   proto->set_mask_height_px(value.mask_height_px);
-  if (value.position_in_local) ToProto(*value.position_in_local, proto->mutable_position_in_local());
+  if (value.position_in_local)
+    ToProto(*value.position_in_local, proto->mutable_position_in_local());
   if (value.position_sigma_m) {
     proto->set_horizontal_sigma_m(value.position_sigma_m->x());
     proto->set_vertical_sigma_m(value.position_sigma_m->y());
@@ -80,7 +81,9 @@ void ToProto(const SourceImage& value, v1::SourceImage* proto) {
 }
 
 absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
-  SourceImage value{.name = proto.name(), .size_bytes = proto.size_bytes(), .metadata = FromProto(proto.metadata())};
+  SourceImage value{.name = proto.name(),
+                    .size_bytes = proto.size_bytes(),
+                    .metadata = FromProto(proto.metadata())};
   ORBWEAVE_ASSIGN_OR_RETURN(value.content, codec::UnpackDigest(proto.content()));
   ORBWEAVE_ASSIGN_OR_RETURN(value.mask, codec::UnpackDigest(proto.mask()));
   value.mask_path = proto.mask_name();
@@ -103,7 +106,8 @@ void ToProto(const PosePrior& value, v1::PosePrior* proto) {
 }
 
 PosePrior FromProto(const v1::PosePrior& proto) {
-  PosePrior value{.horizontal_sigma_m = proto.horizontal_sigma_m(), .vertical_sigma_m = proto.vertical_sigma_m()};
+  PosePrior value{.horizontal_sigma_m = proto.horizontal_sigma_m(),
+                  .vertical_sigma_m = proto.vertical_sigma_m()};
   if (proto.has_geodetic()) value.geodetic = FromProto(proto.geodetic());
   if (proto.has_position_in_enu()) value.position_in_enu = FromProto(proto.position_in_enu());
   AnglesFromProto(proto, value);
@@ -148,7 +152,8 @@ std::string EncodeImageSources(const ImageSources& sources) {
 }
 
 absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ImageSources proto, codec::Parse<v1::ImageSources>(bytes, "image sources"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ImageSources proto,
+                            codec::Parse<v1::ImageSources>(bytes, "image sources"));
   ImageSources sources;
   for (const v1::SourceImage& image : proto.images()) {
     ORBWEAVE_ASSIGN_OR_RETURN(SourceImage decoded, FromProto(image));
@@ -176,7 +181,8 @@ std::string EncodeImageManifest(const ImageManifest& manifest) {
 }
 
 absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ImageManifest proto, codec::Parse<v1::ImageManifest>(bytes, "image manifest"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ImageManifest proto,
+                            codec::Parse<v1::ImageManifest>(bytes, "image manifest"));
   ImageManifest manifest;
   for (const v1::ImageRecord& image : proto.images()) {
     ORBWEAVE_ASSIGN_OR_RETURN(ImageRecord record, FromProto(image));

@@ -11,7 +11,8 @@ std::string PackDigest(const Digest& digest) {
 absl::StatusOr<Digest> UnpackDigest(const std::string& bytes) {
   Digest digest;
   if (bytes.empty()) return digest;
-  if (bytes.size() != digest.bytes.size()) return absl::InvalidArgumentError("a digest has 32 bytes");
+  if (bytes.size() != digest.bytes.size())
+    return absl::InvalidArgumentError("a digest has 32 bytes");
   std::memcpy(digest.bytes.data(), bytes.data(), bytes.size());
   return digest;
 }

@@ -49,7 +49,9 @@ absl::StatusOr<std::vector<T>> Unpack(const std::string& bytes, const char* what
 
 /// The same, and InvalidArgument unless there are `count`.
 template <typename T>
-absl::StatusOr<std::vector<T>> UnpackExactly(const std::string& bytes, size_t count, const char* what) {
+absl::StatusOr<std::vector<T>> UnpackExactly(const std::string& bytes,
+                                             size_t count,
+                                             const char* what) {
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<T> values, Unpack<T>(bytes, what));
   if (values.size() != count) {
     return absl::InvalidArgumentError(std::string(what) + ": array does not match its neighbours");

@@ -29,7 +29,8 @@ void FilesToProto(const std::vector<FeatureFile>& files, Repeated* proto) {
 }
 
 bool Lists(const std::vector<FeatureFile>& files, ImageId id) {
-  return std::any_of(files.begin(), files.end(), [&](const FeatureFile& file) { return file.image == id; });
+  return std::any_of(
+      files.begin(), files.end(), [&](const FeatureFile& file) { return file.image == id; });
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ std::string EncodeExtractRecipe(const ExtractRecipe& recipe) {
 }
 
 absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ExtractRecipe proto, codec::Parse<v1::ExtractRecipe>(bytes, "extract recipe"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ExtractRecipe proto,
+                            codec::Parse<v1::ExtractRecipe>(bytes, "extract recipe"));
   ExtractRecipe recipe{.mask_ignores_white = proto.mask_ignores_white()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.image, codec::UnpackDigest(proto.image()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.mask, codec::UnpackDigest(proto.mask()));
@@ -63,13 +65,15 @@ std::string EncodeMatchRecipe(const MatchRecipe& recipe) {
 }
 
 absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::MatchRecipe proto, codec::Parse<v1::MatchRecipe>(bytes, "match recipe"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::MatchRecipe proto,
+                            codec::Parse<v1::MatchRecipe>(bytes, "match recipe"));
   MatchRecipe recipe;
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
   for (const v1::MatchRecipe::Pair& in : proto.pairs()) {
     MatchRecipe::Pair pair{.pair = {ImageId(in.a()), ImageId(in.b())}};
     ORBWEAVE_ASSIGN_OR_RETURN(pair.matches, codec::Unpack<FeatureMatch>(in.matches(), "matches"));
-    if (!(pair.pair.a < pair.pair.b) || !Lists(recipe.images, pair.pair.a) || !Lists(recipe.images, pair.pair.b)) {
+    if (!(pair.pair.a < pair.pair.b) || !Lists(recipe.images, pair.pair.a) ||
+        !Lists(recipe.images, pair.pair.b)) {
       return absl::InvalidArgumentError("match recipe: a pair out of order or without its images");
     }
     recipe.pairs.push_back(std::move(pair));
@@ -87,7 +91,8 @@ std::string EncodeClusterRecipe(const ClusterRecipe& recipe) {
 }
 
 absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterRecipe proto, codec::Parse<v1::ClusterRecipe>(bytes, "cluster recipe"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterRecipe proto,
+                            codec::Parse<v1::ClusterRecipe>(bytes, "cluster recipe"));
   ClusterRecipe recipe{.cluster = proto.cluster()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.pairs, codec::Unpack<ImagePair>(proto.pairs(), "pairs"));

@@ -70,9 +70,11 @@ void TracksToProto(const Reconstruction& reconstruction, v1::Reconstruction* pro
 
 absl::Status ImagesFromProto(const v1::Reconstruction& proto, Reconstruction& reconstruction) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto ids, codec::Unpack<ImageId>(proto.image_ids(), "images"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto poses,
-                            codec::UnpackExactly<PoseBytes>(proto.cams_from_world(), ids.size(), "poses"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto loose, codec::UnpackExactly<uint8_t>(proto.loose(), ids.size(), "flags"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto poses,
+      codec::UnpackExactly<PoseBytes>(proto.cams_from_world(), ids.size(), "poses"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto loose,
+                            codec::UnpackExactly<uint8_t>(proto.loose(), ids.size(), "flags"));
   for (size_t i = 0; i < ids.size(); ++i) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Rigid3 pose, ToPose(poses[i]));
     reconstruction.images[ids[i]] = {pose, loose[i] != 0};
@@ -81,20 +83,26 @@ absl::Status ImagesFromProto(const v1::Reconstruction& proto, Reconstruction& re
 }
 
 absl::Status TracksFromProto(const v1::Reconstruction& proto, Reconstruction& reconstruction) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto lengths, codec::Unpack<uint32_t>(proto.track_lengths(), "track lengths"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto lengths,
+                            codec::Unpack<uint32_t>(proto.track_lengths(), "track lengths"));
   const size_t num_tracks = lengths.size();
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto points,
-                            codec::UnpackExactly<Vector3Bytes>(proto.points(), num_tracks, "points"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto colors, codec::UnpackExactly<Rgb>(proto.colors(), num_tracks, "colours"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto images, codec::Unpack<ImageId>(proto.observation_images(), "observations"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto points, codec::UnpackExactly<Vector3Bytes>(proto.points(), num_tracks, "points"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto colors,
+                            codec::UnpackExactly<Rgb>(proto.colors(), num_tracks, "colours"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
+                            codec::Unpack<ImageId>(proto.observation_images(), "observations"));
   const size_t num_observations = images.size();
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto features,
-      codec::UnpackExactly<uint32_t>(proto.observation_features(), num_observations, "observed features"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto bearings,
-                            codec::UnpackExactly<Vector3Bytes>(proto.bearings(), num_observations, "bearings"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto sigmas,
-                            codec::UnpackExactly<double>(proto.sigmas_rad(), num_observations, "sigmas"));
+      codec::UnpackExactly<uint32_t>(
+          proto.observation_features(), num_observations, "observed features"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto bearings,
+      codec::UnpackExactly<Vector3Bytes>(proto.bearings(), num_observations, "bearings"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto sigmas,
+      codec::UnpackExactly<double>(proto.sigmas_rad(), num_observations, "sigmas"));
   size_t next = 0;
   reconstruction.tracks.resize(num_tracks);
   for (size_t i = 0; i < num_tracks; ++i) {
@@ -102,7 +110,8 @@ absl::Status TracksFromProto(const v1::Reconstruction& proto, Reconstruction& re
     track.point_in_world = ToVector(points[i]);
     track.color = colors[i];
     if (lengths[i] == 0 || lengths[i] > num_observations - next) {
-      return absl::InvalidArgumentError("reconstruction: track lengths do not match the observations");
+      return absl::InvalidArgumentError(
+          "reconstruction: track lengths do not match the observations");
     }
     for (const size_t end = next + lengths[i]; next < end; ++next) {
       const Eigen::Vector3d bearing = ToVector(bearings[next]);
@@ -110,12 +119,14 @@ absl::Status TracksFromProto(const v1::Reconstruction& proto, Reconstruction& re
         return absl::InvalidArgumentError("reconstruction: a bearing is not a unit vector");
       }
       if (!reconstruction.images.contains(images[next])) {
-        return absl::InvalidArgumentError("reconstruction: an observation of an image that is not registered");
+        return absl::InvalidArgumentError(
+            "reconstruction: an observation of an image that is not registered");
       }
       track.observations.push_back({{images[next], features[next]}, bearing, sigmas[next]});
     }
   }
-  if (next != num_observations) return absl::InvalidArgumentError("reconstruction: observations without a track");
+  if (next != num_observations)
+    return absl::InvalidArgumentError("reconstruction: observations without a track");
   return absl::OkStatus();
 }
 
@@ -140,14 +151,16 @@ std::string EncodeReconstruction(const Reconstruction& reconstruction) {
 }
 
 absl::StatusOr<Reconstruction> DecodeReconstruction(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Reconstruction proto, codec::Parse<v1::Reconstruction>(bytes, "reconstruction"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Reconstruction proto,
+                            codec::Parse<v1::Reconstruction>(bytes, "reconstruction"));
   return FromProto(proto);
 }
 
 std::string EncodeClusterResult(const ClusterResult& result) {
   v1::ClusterReconstruction proto;
   proto.set_cluster(result.cluster);
-  for (const Reconstruction& component : result.reconstruction.components) ToProto(component, proto.add_components());
+  for (const Reconstruction& component : result.reconstruction.components)
+    ToProto(component, proto.add_components());
   for (const NotRegistered& image : result.reconstruction.not_registered) {
     v1::NotRegistered* out = proto.add_not_registered();
     out->set_image(image.image.value);
@@ -160,8 +173,9 @@ std::string EncodeClusterResult(const ClusterResult& result) {
 }
 
 absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterReconstruction proto,
-                            codec::Parse<v1::ClusterReconstruction>(bytes, "cluster reconstruction"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::ClusterReconstruction proto,
+      codec::Parse<v1::ClusterReconstruction>(bytes, "cluster reconstruction"));
   ClusterResult result{.cluster = proto.cluster()};
   for (const v1::Reconstruction& component : proto.components()) {
     ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction decoded, FromProto(component));
@@ -178,7 +192,8 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
 
 std::string EncodeAlignment(const Alignment& alignment) {
   v1::Alignment proto;
-  for (const Sim3& sim : alignment.world_from_submodel) codec::ToProto(sim, proto.add_world_from_submodel());
+  for (const Sim3& sim : alignment.world_from_submodel)
+    codec::ToProto(sim, proto.add_world_from_submodel());
   for (const uint32_t world : alignment.world) proto.add_world(world);
   for (const SeamReport& seam : alignment.seams) {
     v1::SeamReport* out = proto.add_seams();
@@ -197,7 +212,8 @@ std::string EncodeAlignment(const Alignment& alignment) {
 }
 
 absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Alignment proto, codec::Parse<v1::Alignment>(bytes, "alignment"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Alignment proto,
+                            codec::Parse<v1::Alignment>(bytes, "alignment"));
   Alignment alignment;
   for (const v1::Sim3& sim : proto.world_from_submodel()) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 decoded, codec::FromProto(sim));
@@ -234,11 +250,13 @@ std::string EncodeMergedWorlds(const std::vector<MergedWorld>& worlds) {
 }
 
 absl::StatusOr<std::vector<MergedWorld>> DecodeMergedWorlds(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::MergedWorlds proto, codec::Parse<v1::MergedWorlds>(bytes, "merged worlds"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::MergedWorlds proto,
+                            codec::Parse<v1::MergedWorlds>(bytes, "merged worlds"));
   std::vector<MergedWorld> worlds;
   for (const v1::MergedWorld& world : proto.worlds()) {
     ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction reconstruction, FromProto(world.reconstruction()));
-    worlds.push_back({std::move(reconstruction), {world.united_tracks(), world.conflicting_tracks()}});
+    worlds.push_back(
+        {std::move(reconstruction), {world.united_tracks(), world.conflicting_tracks()}});
   }
   return worlds;
 }
@@ -280,7 +298,8 @@ absl::StatusOr<BundleReport> FromProto(const v1::BundleReport& proto) {
                       .final_cost = proto.final_cost(),
                       .iterations = proto.iterations(),
                       .converged = proto.converged()};
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto biases, codec::Unpack<Vector3Bytes>(proto.biases_m(), "biases"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto biases,
+                            codec::Unpack<Vector3Bytes>(proto.biases_m(), "biases"));
   for (const Vector3Bytes& bias : biases) report.biases_m.push_back(ToVector(bias));
   return report;
 }
@@ -308,7 +327,8 @@ std::string EncodeAdjustedWorlds(const std::vector<GloballyAdjusted>& worlds) {
     v1::AdjustedWorld* out = proto.add_worlds();
     ToProto(world.reconstruction, out->mutable_reconstruction());
     ToProto(world.report.gnss, out->mutable_gnss());
-    for (const BundleReport& report : world.report.adjustments) ToProto(report, out->add_adjustments());
+    for (const BundleReport& report : world.report.adjustments)
+      ToProto(report, out->add_adjustments());
     out->set_removed_observations(world.report.removed_observations);
     out->set_removed_tracks(world.report.removed_tracks);
     out->set_residual_px_mean(world.report.residual_px_mean);
@@ -318,7 +338,8 @@ std::string EncodeAdjustedWorlds(const std::vector<GloballyAdjusted>& worlds) {
 }
 
 absl::StatusOr<std::vector<GloballyAdjusted>> DecodeAdjustedWorlds(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::AdjustedWorlds proto, codec::Parse<v1::AdjustedWorlds>(bytes, "adjusted worlds"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::AdjustedWorlds proto,
+                            codec::Parse<v1::AdjustedWorlds>(bytes, "adjusted worlds"));
   std::vector<GloballyAdjusted> worlds;
   for (const v1::AdjustedWorld& world : proto.worlds()) {
     ORBWEAVE_ASSIGN_OR_RETURN(GloballyAdjusted decoded, FromProto(world));

@@ -16,8 +16,8 @@
 namespace orbweave {
 
 [[nodiscard]] std::string EncodeReconstruction(const Reconstruction& reconstruction);
-/// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a bearing that is no
-/// unit vector, an observation of an image that is not registered.
+/// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a bearing
+/// that is no unit vector, an observation of an image that is not registered.
 [[nodiscard]] absl::StatusOr<Reconstruction> DecodeReconstruction(std::string_view bytes);
 
 [[nodiscard]] std::string EncodeClusterResult(const ClusterResult& result);
@@ -30,6 +30,7 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<std::vector<MergedWorld>> DecodeMergedWorlds(std::string_view bytes);
 
 [[nodiscard]] std::string EncodeAdjustedWorlds(const std::vector<GloballyAdjusted>& worlds);
-[[nodiscard]] absl::StatusOr<std::vector<GloballyAdjusted>> DecodeAdjustedWorlds(std::string_view bytes);
+[[nodiscard]] absl::StatusOr<std::vector<GloballyAdjusted>> DecodeAdjustedWorlds(
+    std::string_view bytes);
 
 }  // namespace orbweave

@@ -6,20 +6,23 @@
 
 namespace orbweave {
 
-static_assert(sizeof(FeatureMatch) == 8 && sizeof(ImagePair) == 8 && sizeof(ImageId) == 4, "packed as written");
+static_assert(sizeof(FeatureMatch) == 8 && sizeof(ImagePair) == 8 && sizeof(ImageId) == 4,
+              "packed as written");
 
 namespace {
 
 absl::StatusOr<TwoViewGeometry> FromProto(const v1::TwoViewGeometry& proto) {
   TwoViewGeometry geometry;
   geometry.pair = {ImageId(proto.a()), ImageId(proto.b())};
-  if (!(geometry.pair.a < geometry.pair.b)) return absl::InvalidArgumentError("two-view geometry: pair out of order");
+  if (!(geometry.pair.a < geometry.pair.b))
+    return absl::InvalidArgumentError("two-view geometry: pair out of order");
   if (proto.kind() > static_cast<uint32_t>(TwoViewKind::kPlanar)) {
     return absl::InvalidArgumentError("two-view geometry: unknown kind");
   }
   geometry.kind = static_cast<TwoViewKind>(proto.kind());
   ORBWEAVE_ASSIGN_OR_RETURN(geometry.b_from_a, codec::FromProto(proto.b_from_a()));
-  ORBWEAVE_ASSIGN_OR_RETURN(geometry.inliers, codec::Unpack<FeatureMatch>(proto.inliers(), "matches"));
+  ORBWEAVE_ASSIGN_OR_RETURN(geometry.inliers,
+                            codec::Unpack<FeatureMatch>(proto.inliers(), "matches"));
   geometry.num_putative = proto.num_putative();
   geometry.median_angle_rad = proto.median_angle_rad();
   geometry.spread = proto.spread();
@@ -80,7 +83,8 @@ std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
 }
 
 absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Partition proto, codec::Parse<v1::Partition>(bytes, "partition"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Partition proto,
+                            codec::Parse<v1::Partition>(bytes, "partition"));
   DividedViewGraph divided;
   for (const v1::Cluster& in : proto.clusters()) {
     Cluster cluster;

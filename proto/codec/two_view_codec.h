@@ -14,7 +14,8 @@ namespace orbweave {
 
 [[nodiscard]] std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs);
 /// InvalidArgument or DataLoss: not a list of ordered pairs with proper poses.
-[[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(std::string_view bytes);
+[[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(
+    std::string_view bytes);
 
 [[nodiscard]] std::string EncodeDividedViewGraph(const DividedViewGraph& divided);
 [[nodiscard]] absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What people really feed to programs. Every case ends with a message that names the thing and an exit code
-// that says so; where anything usable is left, the rest of the job goes on.
+// What people really feed to programs. Every case ends with a message that names the thing and an
+// exit code that says so; where anything usable is left, the rest of the job goes on.
 
 #include <gmock/gmock.h>
 #include <sqlite3.h>
@@ -24,7 +24,8 @@ cv::Mat Texture(int width, int height, uint64_t seed) {
   Random random(seed);
   cv::Mat image(height, width, CV_8UC3);
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width * 3; ++x) image.at<uint8_t>(y, x) = static_cast<uint8_t>(random.Index(256));
+    for (int x = 0; x < width * 3; ++x)
+      image.at<uint8_t>(y, x) = static_cast<uint8_t>(random.Index(256));
   }
   cv::GaussianBlur(image, image, cv::Size(), 3.0);
   cv::normalize(image, image, 0, 255, cv::NORM_MINMAX);
@@ -38,8 +39,8 @@ std::string Jpeg(int width, int height, uint64_t seed) {
 }
 
 CommandOutcome RunImages(const TemporaryFolder& folder, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> command = {ORBWEAVE_BINARY, "run",       folder / "images", "--output",
-                                      folder / "out",  "--workers", "1"};
+  std::vector<std::string> command = {
+      ORBWEAVE_BINARY, "run", folder / "images", "--output", folder / "out", "--workers", "1"};
   command.insert(command.end(), more.begin(), more.end());
   return RunCommand(command);
 }
@@ -73,7 +74,8 @@ TEST(BadInput, BadImagesAreLeftOutByNameAndTheRestGoesOn) {
   const nlohmann::json report = ReportOf(folder / "out");
   ASSERT_TRUE(report.is_object()) << run.err;
   EXPECT_EQ(report["images_total"], 9);
-  EXPECT_THAT(ReasonFor(report, "good_1.jpg") + ReasonFor(report, "copy.jpg"), HasSubstr("copy of"));
+  EXPECT_THAT(ReasonFor(report, "good_1.jpg") + ReasonFor(report, "copy.jpg"),
+              HasSubstr("copy of"));
   EXPECT_THAT(ReasonFor(report, "text.jpg"), HasSubstr("image"));
   EXPECT_THAT(ReasonFor(report, "square.jpg"), HasSubstr("2:1"));
   EXPECT_THAT(ReasonFor(report, "truncated.jpg"), HasSubstr("truncated"));
@@ -131,8 +133,9 @@ TEST(BadInput, GnssRowsThatFitNoImageAreWarnedOf) {
 TEST(BadInput, SwappedLatitudeAndLongitudeAreRefused) {
   const TemporaryFolder folder;
   WriteGoodImages(folder);
-  WriteAll(folder / "gnss.csv",
-           "name,latitude,longitude,altitude\ngood_1.jpg,-122.4,37.5,10\ngood_2.jpg,-122.4,37.5,10\n");
+  WriteAll(
+      folder / "gnss.csv",
+      "name,latitude,longitude,altitude\ngood_1.jpg,-122.4,37.5,10\ngood_2.jpg,-122.4,37.5,10\n");
   const CommandOutcome run = RunImages(folder, {"--gnss", folder / "gnss.csv"});
   EXPECT_NE(run.exit_code, 0);
   EXPECT_THAT(run.err, HasSubstr("swapped"));
@@ -166,8 +169,8 @@ TEST(BadInput, AnOutputThatCannotBeWrittenIsRefusedBeforeAnyWork) {
 TEST(BadInput, ADatabaseThatIsNoneIsRefused) {
   const TemporaryFolder folder;
   WriteAll(folder / "x.db", "not a database at all");
-  const CommandOutcome run =
-      RunCommand({ORBWEAVE_BINARY, "reconstruct", "--database", folder / "x.db", "--output", folder / "out"});
+  const CommandOutcome run = RunCommand(
+      {ORBWEAVE_BINARY, "reconstruct", "--database", folder / "x.db", "--output", folder / "out"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("x.db"));
 }
@@ -179,7 +182,12 @@ CommandOutcome ReconstructEdited(const TemporaryFolder& folder, const std::strin
   EXPECT_EQ(sqlite3_open((folder / "edited.db").c_str(), &database), SQLITE_OK);
   EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
   sqlite3_close(database);
-  return RunCommand({ORBWEAVE_BINARY, "reconstruct", "--database", folder / "edited.db", "--output", folder / "out"});
+  return RunCommand({ORBWEAVE_BINARY,
+                     "reconstruct",
+                     "--database",
+                     folder / "edited.db",
+                     "--output",
+                     folder / "out"});
 }
 
 TEST(BadInput, ADatabaseWithoutMatchesIsRefused) {
@@ -209,7 +217,8 @@ TEST(BadInput, AFullDiskStopsWithAMessageAndResumesWhenThereIsRoom) {
   const TemporaryFolder folder;
   const std::string disk = folder / "disk";
   std::filesystem::create_directories(disk);
-  if (geteuid() != 0 || RunCommand({"/bin/mount", "-t", "tmpfs", "-o", "size=2m", "none", disk}).exit_code != 0) {
+  if (geteuid() != 0 ||
+      RunCommand({"/bin/mount", "-t", "tmpfs", "-o", "size=2m", "none", disk}).exit_code != 0) {
     GTEST_SKIP() << "a small disk can be mounted by root alone";
   }
   const CommandOutcome full = RunCommand(ReconstructCorridor(disk + "/out", 1));

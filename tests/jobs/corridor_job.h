@@ -18,8 +18,8 @@ namespace orbweave::testing {
 inline const std::string& CorridorFolder() {
   static const TemporaryFolder folder;
   static const std::string path = [] {
-    const CommandOutcome made =
-        RunCommand({ORBWEAVE_BINARY, "synth", "corridor", "--panoramas", "60", "--output", folder.Path()});
+    const CommandOutcome made = RunCommand(
+        {ORBWEAVE_BINARY, "synth", "corridor", "--panoramas", "60", "--output", folder.Path()});
     EXPECT_EQ(made.exit_code, 0) << made.err;
     return folder.Path();
   }();
@@ -27,12 +27,18 @@ inline const std::string& CorridorFolder() {
 }
 
 inline std::vector<std::string> ReconstructCorridor(const std::string& output, int workers) {
-  return {ORBWEAVE_BINARY, "reconstruct",
-          "--database",    CorridorFolder() + "/corridor.db",
-          "--gnss",        CorridorFolder() + "/gnss.csv",
-          "--output",      output,
-          "--workers",     std::to_string(workers),
-          "--set",         "partition.cluster_size=16"};
+  return {ORBWEAVE_BINARY,
+          "reconstruct",
+          "--database",
+          CorridorFolder() + "/corridor.db",
+          "--gnss",
+          CorridorFolder() + "/gnss.csv",
+          "--output",
+          output,
+          "--workers",
+          std::to_string(workers),
+          "--set",
+          "partition.cluster_size=16"};
 }
 
 inline nlohmann::json ReportOf(const std::string& output) {
@@ -41,8 +47,13 @@ inline nlohmann::json ReportOf(const std::string& output) {
 
 /// The files that must be the same whoever computed them.
 inline void ExpectSameModel(const std::string& a, const std::string& b) {
-  for (const char* name : {"sparse/0/cameras.bin", "sparse/0/images.bin", "sparse/0/points3D.bin", "points.ply",
-                           "cameras.csv", "trajectory.geojson", "georeference.json"}) {
+  for (const char* name : {"sparse/0/cameras.bin",
+                           "sparse/0/images.bin",
+                           "sparse/0/points3D.bin",
+                           "points.ply",
+                           "cameras.csv",
+                           "trajectory.geojson",
+                           "georeference.json"}) {
     const std::string bytes = ReadAll(a + "/" + name);
     EXPECT_FALSE(bytes.empty()) << name;
     EXPECT_TRUE(bytes == ReadAll(b + "/" + name)) << name << " differs";

@@ -20,7 +20,8 @@ std::string Undisturbed(const TemporaryFolder& folder) {
 size_t FinishedTasks(const std::string& output) {
   std::error_code missing;
   size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(output + "/.orbweave/results", missing)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(output + "/.orbweave/results", missing)) {
     files += entry.is_regular_file() ? 1 : 0;
   }
   return files;
@@ -37,7 +38,9 @@ uint32_t SumOverStages(const std::string& output, const char* key) {
 
 uint32_t ReusedTasks(const std::string& output) { return SumOverStages(output, "tasks_reused"); }
 
-uint32_t ComputedTasks(const std::string& output) { return SumOverStages(output, "tasks_computed"); }
+uint32_t ComputedTasks(const std::string& output) {
+  return SumOverStages(output, "tasks_computed");
+}
 
 TEST(KilledProcess, AWorkerKilledInTheMiddleOfTheJobIsReplaced) {
   const TemporaryFolder folder;
@@ -80,7 +83,8 @@ TEST(KilledProcess, InterruptStopsCleanlyAndResumes) {
     run.Signal(SIGINT);
     const CommandOutcome stopped = run.Wait();
     EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
-    for (const pid_t worker : workers) EXPECT_NE(kill(worker, 0), 0) << "worker " << worker << " still runs";
+    for (const pid_t worker : workers)
+      EXPECT_NE(kill(worker, 0), 0) << "worker " << worker << " still runs";
   }
   const CommandOutcome again = RunCommand(ReconstructCorridor(output, 2));
   ASSERT_EQ(again.exit_code, 0) << again.err;

@@ -25,7 +25,8 @@ TEST(SameBytes, EveryWorkerGetsATask) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json report = ReportOf(output);
   ASSERT_EQ(report["workers"].size(), 2U);
-  for (const auto& worker : report["workers"]) EXPECT_GT(worker["tasks_done"], 0) << report["workers"].dump();
+  for (const auto& worker : report["workers"])
+    EXPECT_GT(worker["tasks_done"], 0) << report["workers"].dump();
 }
 
 }  // namespace

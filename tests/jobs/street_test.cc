@@ -28,12 +28,27 @@ PoseErrors ErrorsOf(const std::string& output, const std::string& truth_path) {
 
 TEST(StreetJob, RecoversTheRenderedStreet) {
   const TemporaryFolder folder;
-  const CommandOutcome rendered = RunCommand({ORBWEAVE_BINARY, "synth", "street", "--panoramas", "16", "--size",
-                                              "1024x512", "--output", folder / "street"});
+  const CommandOutcome rendered = RunCommand({ORBWEAVE_BINARY,
+                                              "synth",
+                                              "street",
+                                              "--panoramas",
+                                              "16",
+                                              "--size",
+                                              "1024x512",
+                                              "--output",
+                                              folder / "street"});
   ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
-  const CommandOutcome run =
-      RunCommand({ORBWEAVE_BINARY, "run", folder / "street/images", "--gnss", folder / "street/gnss.csv", "--masks",
-                  folder / "street/masks", "--output", folder / "model", "--set", "features.max_features=4000"});
+  const CommandOutcome run = RunCommand({ORBWEAVE_BINARY,
+                                         "run",
+                                         folder / "street/images",
+                                         "--gnss",
+                                         folder / "street/gnss.csv",
+                                         "--masks",
+                                         folder / "street/masks",
+                                         "--output",
+                                         folder / "model",
+                                         "--set",
+                                         "features.max_features=4000"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json report = ReportOf(folder / "model");
   EXPECT_EQ(report["registered"], 16) << report["not_registered"].dump();
@@ -43,8 +58,13 @@ TEST(StreetJob, RecoversTheRenderedStreet) {
   EXPECT_LT(errors.position_rmse_m, 0.02);
   EXPECT_LT(errors.rotation_median_deg, 0.05);
   EXPECT_LT(errors.unaligned_rmse_m, 4.0);  // bias of 1 m, noise of 1.5 m on few positions
-  for (const char* file : {"points.ply", "cameras.csv", "trajectory.geojson", "georeference.json", "report.html",
-                           "trace.json", "sparse/0/cameras.bin"}) {
+  for (const char* file : {"points.ply",
+                           "cameras.csv",
+                           "trajectory.geojson",
+                           "georeference.json",
+                           "report.html",
+                           "trace.json",
+                           "sparse/0/cameras.bin"}) {
     EXPECT_FALSE(ReadAll(folder / (std::string("model/") + file)).empty()) << file;
   }
 }
@@ -66,7 +86,8 @@ TEST_P(RealSequence, IsRegisteredWholeInOneModel) {
   const std::string data = std::string(ORBWEAVE_SOURCE_DIR) + "/../shared/data/" + sequence.name;
   if (!std::filesystem::is_directory(data)) GTEST_SKIP() << data << " is not here";
   const TemporaryFolder folder;
-  std::vector<std::string> command = {ORBWEAVE_BINARY, "run", data + "/images", "--output", folder / "model"};
+  std::vector<std::string> command = {
+      ORBWEAVE_BINARY, "run", data + "/images", "--output", folder / "model"};
   if (sequence.masks) command.insert(command.end(), {"--masks", data + "/masks"});
   const CommandOutcome run = RunCommand(command);
   ASSERT_EQ(run.exit_code, 0) << run.err;

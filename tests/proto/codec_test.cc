@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The law of every codec: decode(encode(x)) = x, encode is a function of x alone, and bytes that are not
-// whole are an error, never a crash.
+// The law of every codec: decode(encode(x)) = x, encode is a function of x alone, and bytes that
+// are not whole are an error, never a crash.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ Features SomeFeatures(size_t n) {
                                   static_cast<float>(random.Uniform(-3, 3))});
     features.sigma_rad.push_back(static_cast<float>(random.Uniform(1e-3, 2e-3)));
     features.colors.push_back({static_cast<uint8_t>(random.Index(256)), 3, 200});
-    for (int k = 0; k < kDescriptorSize; ++k) features.descriptors.push_back(static_cast<uint8_t>(random.Index(256)));
+    for (int k = 0; k < kDescriptorSize; ++k)
+      features.descriptors.push_back(static_cast<uint8_t>(random.Index(256)));
   }
   return features;
 }
@@ -38,10 +39,12 @@ Reconstruction SomeReconstruction() {
   for (uint32_t i = 0; i < 5; ++i) {
     const Eigen::Vector3d w(random.Normal(), random.Normal(), random.Normal());
     reconstruction.images[ImageId(3 * i)] = {
-        Rigid3::FromCentre(RotationFromVector(w), Eigen::Vector3d(i, random.Normal(), 0.1)), i == 4};
+        Rigid3::FromCentre(RotationFromVector(w), Eigen::Vector3d(i, random.Normal(), 0.1)),
+        i == 4};
   }
   for (uint32_t p = 0; p < 20; ++p) {
-    Track track{.point_in_world = {random.Normal(), random.Normal(), random.Normal()}, .color = {1, 2, 250}};
+    Track track{.point_in_world = {random.Normal(), random.Normal(), random.Normal()},
+                .color = {1, 2, 250}};
     for (uint32_t i = 0; i < 2 + p % 3; ++i) {
       const Eigen::Vector3d ray(random.Normal(), random.Normal(), random.Normal());
       track.observations.push_back({{ImageId(3 * i), p}, ray.normalized(), 1e-3 * (1 + i)});
@@ -56,7 +59,8 @@ void ExpectSame(const Reconstruction& a, const Reconstruction& b) {
   for (const auto& [id, image] : a.images) {
     ASSERT_TRUE(b.images.contains(id));
     EXPECT_EQ(image.cam_from_world.translation, b.images.at(id).cam_from_world.translation);
-    EXPECT_EQ(image.cam_from_world.rotation.coeffs(), b.images.at(id).cam_from_world.rotation.coeffs());
+    EXPECT_EQ(image.cam_from_world.rotation.coeffs(),
+              b.images.at(id).cam_from_world.rotation.coeffs());
     EXPECT_EQ(image.loose, b.images.at(id).loose);
   }
   ASSERT_EQ(a.tracks.size(), b.tracks.size());
@@ -114,7 +118,8 @@ TEST(FeaturesCodec, RefusesArraysOfDifferentLengths) {
 }
 
 TEST(PlaceSampleCodec, RoundTrips) {
-  const PlaceSample in{.num_features = 9, .descriptors = std::vector<uint8_t>(256, 4), .problem = "x"};
+  const PlaceSample in{
+      .num_features = 9, .descriptors = std::vector<uint8_t>(256, 4), .problem = "x"};
   const auto out = DecodePlaceSample(EncodePlaceSample(in));
   ASSERT_TRUE(out.ok());
   EXPECT_EQ(out->num_features, 9U);
@@ -175,13 +180,18 @@ TEST(RecipesCodec, RoundTrip) {
 }
 
 TEST(RecipesCodec, RefusesAPairWithoutItsImages) {
-  const MatchRecipe match{.images = {{ImageId(1), DigestOf("a")}}, .pairs = {{{ImageId(1), ImageId(4)}, {}}}};
+  const MatchRecipe match{.images = {{ImageId(1), DigestOf("a")}},
+                          .pairs = {{{ImageId(1), ImageId(4)}, {}}}};
   EXPECT_FALSE(DecodeMatchRecipe(EncodeMatchRecipe(match)).ok());
 }
 
 TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
-  ImageSources in{.mask_ignores_white = false, .gnss_text = "name,latitude", .gnss_name = "g.csv", .warnings = {"w"}};
-  SourceImage image{.name = "a.jpg", .path = "/somewhere/a.jpg", .content = DigestOf("a"), .size_bytes = 7};
+  ImageSources in{.mask_ignores_white = false,
+                  .gnss_text = "name,latitude",
+                  .gnss_name = "g.csv",
+                  .warnings = {"w"}};
+  SourceImage image{
+      .name = "a.jpg", .path = "/somewhere/a.jpg", .content = DigestOf("a"), .size_bytes = 7};
   image.metadata = {.width_px = 100, .height_px = 50};
   image.metadata.position = GeodeticPosition{47.0, 8.0, 400.0};
   image.mask_path = "/somewhere/masks/a.png";
@@ -209,9 +219,14 @@ TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
 }
 
 TEST(ManifestCodec, RoundTrips) {
-  ImageManifest in{.excluded = {{"c.jpg", "not 2:1"}}, .warnings = {"row 3"}, .mask_ignores_white = false};
+  ImageManifest in{
+      .excluded = {{"c.jpg", "not 2:1"}}, .warnings = {"row 3"}, .mask_ignores_white = false};
   in.origin = GeodeticPosition{47.5, 8.5, 400.0};
-  ImageRecord image{.id = ImageId(0), .name = "a/b.jpg", .content = DigestOf("a"), .camera = {100, 50}, .drive = 2};
+  ImageRecord image{.id = ImageId(0),
+                    .name = "a/b.jpg",
+                    .content = DigestOf("a"),
+                    .camera = {100, 50},
+                    .drive = 2};
   image.capture_time_s = 12.5;
   image.prior.geodetic = in.origin;
   image.prior.position_in_enu = Eigen::Vector3d(1, 2, 3);
@@ -253,18 +268,21 @@ TEST(ReconstructionCodec, RefusesBearingsOfAnotherLength) {
 }
 
 TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
-  const ClusterResult cluster{.cluster = 4,
-                              .reconstruction = {.components = {SomeReconstruction()},
-                                                 .not_registered = {{ImageId(77), "no verified matches"}},
-                                                 .residual_rms_px = 0.5}};
+  const ClusterResult cluster{
+      .cluster = 4,
+      .reconstruction = {.components = {SomeReconstruction()},
+                         .not_registered = {{ImageId(77), "no verified matches"}},
+                         .residual_rms_px = 0.5}};
   const auto cluster_out = DecodeClusterResult(EncodeClusterResult(cluster));
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 4U);
   EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
   ExpectSame(cluster_out->reconstruction.components[0], cluster.reconstruction.components[0]);
 
-  Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}}, .world = {0}};
-  alignment.seams.push_back({.submodel_a = 0, .submodel_b = 1, .used = false, .reason = "loop", .position_jump_m = 0.1});
+  Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
+                      .world = {0}};
+  alignment.seams.push_back(
+      {.submodel_a = 0, .submodel_b = 1, .used = false, .reason = "loop", .position_jump_m = 0.1});
   const auto alignment_out = DecodeAlignment(EncodeAlignment(alignment));
   ASSERT_TRUE(alignment_out.ok()) << alignment_out.status();
   EXPECT_EQ(alignment_out->world_from_submodel[0].scale, 2.0);
@@ -278,7 +296,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   GloballyAdjusted adjusted{.reconstruction = SomeReconstruction()};
   adjusted.report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
   adjusted.report.residual_px_mean = 0.5;
-  adjusted.report.adjustments.push_back({.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
+  adjusted.report.adjustments.push_back(
+      {.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
   const auto adjusted_out = DecodeAdjustedWorlds(EncodeAdjustedWorlds({adjusted}));
   ASSERT_TRUE(adjusted_out.ok()) << adjusted_out.status();
   EXPECT_EQ((*adjusted_out)[0].report.gnss.outliers, adjusted.report.gnss.outliers);

@@ -28,7 +28,8 @@ namespace orbweave::testing {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "orbweave_test_XXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "orbweave_test_XXXXXX").string();
     path_ = mkdtemp(pattern.data());
   }
   ~TemporaryFolder() {
@@ -37,7 +38,9 @@ class TemporaryFolder {
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string operator/(const std::string& name) const {
+    return (path_ / name).string();
+  }
   [[nodiscard]] std::string Path() const { return path_.string(); }
 
  private:
@@ -69,8 +72,10 @@ class Command {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, (folder_ / "out").c_str(), O_WRONLY | O_CREAT, 0600);
-    posix_spawn_file_actions_addopen(&actions, 2, (folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_addopen(
+        &actions, 1, (folder_ / "out").c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_addopen(
+        &actions, 2, (folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0600);
     std::vector<char*> argv;
     std::vector<std::string> copies = arguments;
     for (std::string& argument : copies) argv.push_back(argument.data());
@@ -92,7 +97,8 @@ class Command {
   [[nodiscard]] std::string ErrSoFar() const { return ReadAll(folder_ / "err"); }
   [[nodiscard]] bool Running() const {
     siginfo_t info{};
-    return pid_ > 0 && waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+    return pid_ > 0 &&
+           waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            info.si_pid == 0;
   }
   CommandOutcome Wait() {
@@ -108,13 +114,16 @@ class Command {
   pid_t pid_ = -1;
 };
 
-inline CommandOutcome RunCommand(const std::vector<std::string>& arguments) { return Command(arguments).Wait(); }
+inline CommandOutcome RunCommand(const std::vector<std::string>& arguments) {
+  return Command(arguments).Wait();
+}
 
 /// Process ids of the children of `parent`, whichever of its threads started them, in order.
 inline std::vector<pid_t> ChildrenOf(pid_t parent) {
   std::vector<pid_t> children;
   std::error_code gone;
-  for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(parent) + "/task", gone)) {
+  for (const auto& thread :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(parent) + "/task", gone)) {
     std::istringstream list(ReadAll((thread.path() / "children").string()));
     for (pid_t child = 0; list >> child;) children.push_back(child);
   }

@@ -49,20 +49,25 @@ struct InProcessJob {
 };
 
 /// Runs every stage in order, the parts of a stage on `num_threads` threads.
-inline absl::StatusOr<InProcessJob> RunInProcess(const JobSpec& job, BlobAccess& blobs, int num_threads = 1) {
+inline absl::StatusOr<InProcessJob> RunInProcess(const JobSpec& job,
+                                                 BlobAccess& blobs,
+                                                 int num_threads = 1) {
   InProcessJob run;
   ORBWEAVE_ASSIGN_OR_RETURN(run.plan, FindJobPlan(job.kind));
   for (uint32_t s = 0; s < run.plan.stages.size(); ++s) {
     std::vector<Digest> listed;
     if (run.plan.stages[s].parts_listed_in) {
-      ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(job.inputs[*run.plan.stages[s].parts_listed_in]));
+      ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes,
+                                blobs.Get(job.inputs[*run.plan.stages[s].parts_listed_in]));
       ORBWEAVE_ASSIGN_OR_RETURN(listed, DecodeCollection(bytes));
     }
-    ORBWEAVE_ASSIGN_OR_RETURN(const StagePlan stage, PlanStage(run.plan, s, job, run.results, listed));
+    ORBWEAVE_ASSIGN_OR_RETURN(const StagePlan stage,
+                              PlanStage(run.plan, s, job, run.results, listed));
     for (const std::string& collection : stage.collections) {
       ORBWEAVE_RETURN_IF_ERROR(internal::StatusOf(blobs.Put(collection)));
     }
-    std::vector<absl::StatusOr<TaskResult>> outcomes(stage.tasks.size(), absl::UnknownError("not run"));
+    std::vector<absl::StatusOr<TaskResult>> outcomes(stage.tasks.size(),
+                                                     absl::UnknownError("not run"));
     ParallelFor(stage.tasks.size(), num_threads, [&](size_t part) {
       const TaskSpec& spec = stage.tasks[part];
       outcomes[part] = (*FindStage(spec.stage))(spec, blobs, {.seed = spec.Id().ToSeed()});

@@ -37,7 +37,8 @@ TEST(PipelineOptions, NamesTheNearestOptionWhenOneIsMisspelt) {
 }
 
 TEST(PipelineOptions, SaysWhichLineOfAFileIsWrong) {
-  const auto parsed = PipelineOptionsFromText("# a comment\n\nmapping.min_inliers=many\n", "job.conf");
+  const auto parsed =
+      PipelineOptionsFromText("# a comment\n\nmapping.min_inliers=many\n", "job.conf");
   ASSERT_FALSE(parsed.ok());
   EXPECT_THAT(std::string(parsed.status().message()), HasSubstr("job.conf line 3"));
 }
@@ -50,7 +51,8 @@ TEST(PipelineOptions, RefusesValuesOutOfRange) {
 }
 
 TEST(PipelineOptions, EveryOptionHasHelp) {
-  for (const OptionInfo& info : DescribePipelineOptions({})) EXPECT_FALSE(info.help.empty()) << info.name;
+  for (const OptionInfo& info : DescribePipelineOptions({}))
+    EXPECT_FALSE(info.help.empty()) << info.name;
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
     graph.edges.push_back({.pair = {ImageId(i), ImageId(i + 1)}});
     blob_of_pair[graph.edges.back().pair] = DigestOf(i < 2 ? "first" : "second");
   }
-  const Partition partition{.clusters = {{.images = {ImageId(0), ImageId(1), ImageId(2)}, .interior = {}},
-                                         {.images = {ImageId(2), ImageId(3), ImageId(4)}, .interior = {}}}};
+  const Partition partition{
+      .clusters = {{.images = {ImageId(0), ImageId(1), ImageId(2)}, .interior = {}},
+                   {.images = {ImageId(2), ImageId(3), ImageId(4)}, .interior = {}}}};
   const auto recipes = PlanClusters(partition, graph, SomeDigests(5), blob_of_pair);
   ASSERT_EQ(recipes.size(), 2U);
   EXPECT_EQ(recipes[1].cluster, 1U);
