@@ -240,9 +240,9 @@ absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& re
   Georeference result;
   const Positions positions = Collect(reconstruction, manifest);
   if (positions.size() < kMinPositions) {
-    result.reason = positions.empty() ? "no image has a GNSS position"
-                                      : "too few images have a GNSS position: " +
-                                            std::to_string(positions.size());
+    result.reason = positions.size() == 0 ? "no image has a GNSS position"
+                                          : "too few images have a GNSS position: " +
+                                                std::to_string(positions.size());
     return result;
   }
   const std::optional<Eigen::Vector3d> down = FindGravity(reconstruction);
