@@ -241,8 +241,8 @@ absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& re
   const Positions positions = Collect(reconstruction, manifest);
   if (positions.size() < kMinPositions) {
     result.reason = positions.size() == 0 ? "no image has a GNSS position"
-                                          : "too few images have a GNSS position: " +
-                                                std::to_string(positions.size());
+                                          : std::to_string(positions.size()) +
+                                                " images with a GNSS position are too few";
     return result;
   }
   const std::optional<Eigen::Vector3d> down = FindGravity(reconstruction);
