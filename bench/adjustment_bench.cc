@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <fstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,7 +16,9 @@
 #include "core/synthetic/corridor.h"
 
 /// Adjustment of a synthetic corridor (seed 1, noise 0.5 px of 5400). `step_per_observation` is the
-/// time of one Levenberg-Marquardt step over the number of observations, set-up included.
+/// time of one Levenberg-Marquardt step over the number of observations, set-up included;
+/// `bytes_per_observation` the process's peak of memory during the adjustment less what it held
+/// before (the scene), over the number of observations.
 
 namespace orbweave {
 namespace {
@@ -51,19 +57,43 @@ BundleProblem CorridorProblem(int panoramas, const std::vector<uint8_t>& pose_is
   return problem;
 }
 
+/// A line of /proc/self/status in bytes, e.g. "VmHWM:".
+double StatusBytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double kilobytes = 0.0;
+    if (word == name && status >> kilobytes) return 1024.0 * kilobytes;
+  }
+  return 0.0;
+}
+
+/// Gives freed memory back and lets the peak (VmHWM) start anew.
+void ResetPeak() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
 void RunAdjustment(benchmark::State& state,
                    const BundleProblem& start,
                    const BundleOptions& options) {
   int64_t steps = 0;
+  double peak_bytes = 0.0;
   for (auto _ : state) {
     state.PauseTiming();
     BundleProblem problem = start;
+    ResetPeak();
+    const double scene_bytes = StatusBytes("VmRSS:");
     state.ResumeTiming();
     const absl::StatusOr<BundleReport> report = AdjustBundle(problem, options, {});
+    state.PauseTiming();
     steps += report->iterations;
+    peak_bytes = std::max(peak_bytes, StatusBytes("VmHWM:") - scene_bytes);
+    state.ResumeTiming();
   }
-  const auto work = static_cast<double>(steps) * static_cast<double>(start.observations.size());
-  state.counters["observations"] = static_cast<double>(start.observations.size());
+  const auto num_observations = static_cast<double>(start.observations.size());
+  state.counters["bytes_per_observation"] = peak_bytes / num_observations;
+  const double work = static_cast<double>(steps) * num_observations;
+  state.counters["observations"] = num_observations;
   state.counters["steps"] =
       benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kAvgIterations);
   state.counters["step_per_observation"] =
@@ -74,6 +104,13 @@ void BM_AdjustCorridor(benchmark::State& state, BundleSolver solver, BundleLoss 
   RunAdjustment(state,
                 CorridorProblem(static_cast<int>(state.range(0)), {}),
                 {.loss = loss, .initial_lambda = 1e-8, .solver = solver});
+}
+
+/// Growth: ten steps at each length, whether they converge or not.
+void BM_AdjustLongCorridor(benchmark::State& state) {
+  RunAdjustment(state,
+                CorridorProblem(static_cast<int>(state.range(0)), {}),
+                {.max_iterations = 10, .function_tolerance = 1e-16, .initial_lambda = 1e-8});
 }
 
 /// Twelve free panoramas amid held ones, as after each registration.
@@ -88,6 +125,13 @@ BENCHMARK_CAPTURE(BM_AdjustLocally, ceres, BundleSolver::kCeres)->Unit(benchmark
 BENCHMARK_CAPTURE(BM_AdjustCorridor, schur_cauchy, BundleSolver::kSchur, BundleLoss::kCauchy)
     ->Arg(100)
     ->Arg(400)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_AdjustLongCorridor)
+    ->Arg(2000)
+    ->Arg(4000)
+    ->Arg(8000)
+    ->Arg(16000)
+    ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_AdjustCorridor,
                   schur_least_squares,

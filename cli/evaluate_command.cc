@@ -31,6 +31,7 @@ void Print(const PoseErrors& errors, size_t compared, size_t known) {
               errors.unaligned_rmse_m);
   std::printf("              %.4f m RMSE of the step to the next camera\n",
               errors.neighbour_rmse_m);
+  std::printf("              %.4f m RMSE within every 30 cameras in a row\n", errors.window_rmse_m);
   std::printf("  rotation    %.4f deg median, %.4f deg max\n",
               errors.rotation_median_deg,
               errors.rotation_max_deg);
@@ -54,7 +55,7 @@ absl::Status Evaluate(const EvaluateArguments& arguments) {
   const auto errors = ComparePoses(estimated, reference);
   if (!errors) {
     return absl::InvalidArgumentError("fewer than three cameras of the model have a pose in " +
-                                      arguments.truth + ", or they lie on one line");
+                                      arguments.truth + ", or they are in one place");
   }
   Print(*errors, estimated.size(), truth.size());
   return absl::OkStatus();

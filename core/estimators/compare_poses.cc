@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "core/base/status.h"
-#include "core/estimators/estimate_similarity.h"
+#include "core/estimators/align_cameras.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
 namespace {
 
 constexpr int kTrimmedRefits = 30;
+constexpr size_t kWindow = 30;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 std::vector<Eigen::Vector3d> Centres(std::span<const Rigid3> cams) {
@@ -37,12 +38,14 @@ std::vector<double> Distances(const Sim3& b_from_a,
   return distances;
 }
 
-std::optional<Sim3> FitTrimmed(const std::vector<Eigen::Vector3d>& a,
-                               const std::vector<Eigen::Vector3d>& b) {
+std::optional<Sim3> FitTrimmed(std::span<const Rigid3> cams_from_a,
+                               std::span<const Rigid3> cams_from_b) {
+  const std::vector<Eigen::Vector3d> a = Centres(cams_from_a);
+  const std::vector<Eigen::Vector3d> b = Centres(cams_from_b);
   std::vector<double> weights(a.size(), 1.0);
   std::optional<Sim3> fit;
   for (int refit = 0; refit < kTrimmedRefits; ++refit) {
-    const std::optional<Sim3> next = FitSimilarity(a, b, weights);
+    const std::optional<Sim3> next = AlignCameras(cams_from_a, cams_from_b, weights);
     if (!next) return fit;
     fit = next;
     const std::vector<double> distances = Distances(*fit, a, b);
@@ -63,6 +66,22 @@ double Rms(const std::vector<double>& values) {
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
+/// Errors of all windows of `kWindow` cameras in a row, each after its own similarity; of the whole
+/// where it is shorter.
+double WindowRmse(std::span<const Rigid3> cams_from_a, std::span<const Rigid3> cams_from_b) {
+  const size_t size = std::min(kWindow, cams_from_a.size());
+  std::vector<double> errors;
+  for (size_t first = 0; first + size <= cams_from_a.size(); ++first) {
+    const auto a = cams_from_a.subspan(first, size);
+    const auto b = cams_from_b.subspan(first, size);
+    const std::optional<Sim3> fit = FitTrimmed(a, b);
+    if (!fit) continue;
+    const std::vector<double> distances = Distances(*fit, Centres(a), Centres(b));
+    errors.insert(errors.end(), distances.begin(), distances.end());
+  }
+  return Rms(errors);
+}
+
 }  // namespace
 
 std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
@@ -71,7 +90,7 @@ std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
   if (cams_from_model.size() < 3) return std::nullopt;
   const std::vector<Eigen::Vector3d> in_model = Centres(cams_from_model);
   const std::vector<Eigen::Vector3d> in_reference = Centres(cams_from_reference);
-  const std::optional<Sim3> fit = FitTrimmed(in_model, in_reference);
+  const std::optional<Sim3> fit = FitTrimmed(cams_from_model, cams_from_reference);
   if (!fit) return std::nullopt;
 
   std::vector<double> rotations_deg;
@@ -92,7 +111,8 @@ std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
       .rotation_median_deg = Median(rotations_deg),
       .rotation_max_deg = *std::max_element(rotations_deg.begin(), rotations_deg.end()),
       .unaligned_rmse_m = Rms(Distances({}, in_model, in_reference)),
-      .neighbour_rmse_m = Rms(steps)};
+      .neighbour_rmse_m = Rms(steps),
+      .window_rmse_m = WindowRmse(cams_from_model, cams_from_reference)};
 }
 
 }  // namespace orbweave

@@ -19,12 +19,15 @@ struct PoseErrors {
   double rotation_max_deg = 0.0;
   double unaligned_rmse_m = 0.0;  ///< as georeferenced, without any similarity
   double neighbour_rmse_m =
-      0.0;  ///< of the vector to the next camera in order, after the similarity
+      0.0;                     ///< of the vector to the next camera in order, after the similarity
+  double window_rmse_m = 0.0;  ///< centres of every 30 cameras in a row, after a similarity of
+                               ///< their own: what drift along the street leaves alone
 };
 
 /// Compares cameras pair by pair, in order. The similarity is refitted on the cameras within three
-/// median errors, so that a lost camera shows in the errors and does not bend the frame. nullopt
-/// for fewer than three cameras or collinear centres.
+/// median errors, so that a lost camera shows in the errors and does not bend the frame. A straight
+/// street takes its roll from the rotations (AlignCameras). nullopt for fewer than three cameras or
+/// centres in one place.
 [[nodiscard]] std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
                                                      std::span<const Rigid3> cams_from_reference);
 
