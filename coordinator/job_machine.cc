@@ -30,9 +30,14 @@ JobMachine::JobMachine(JobSpec spec, JobPlan plan, RetryPolicy policy, double no
     : spec_(std::move(spec)), plan_(std::move(plan)), policy_(policy), submitted_s_(now_s) {}
 
 std::optional<uint32_t> JobMachine::StageToPlan() const {
-  if (state_ != JobState::kRunning || stages_.size() == plan_.stages.size()) return std::nullopt;
-  if (!stages_.empty() && stages_.back().done < stages_.back().tasks.size()) return std::nullopt;
-  return static_cast<uint32_t>(stages_.size());
+  if (state_ != JobState::kRunning) return std::nullopt;
+  if (!runs_.empty() && runs_.back().done < runs_.back().tasks.size()) return std::nullopt;
+  const uint32_t next = NextStage();
+  return next < plan_.stages.size() ? std::optional(next) : std::nullopt;
+}
+
+uint32_t JobMachine::NextStage() const {
+  return runs_.empty() ? 0 : StageAfter(plan_, runs_.back().stage, runs_.back().tasks.size());
 }
 
 bool JobMachine::MayTake(const TaskRecord& task,
@@ -49,11 +54,11 @@ bool JobMachine::MayTake(const TaskRecord& task,
 std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
                                              const std::vector<std::string>& alive,
                                              double now_s) const {
-  if (state_ != JobState::kRunning || stages_.empty()) return std::nullopt;
-  const StageRecord& stage = stages_.back();
-  for (const uint32_t part : stage.ready) {
-    if (!MayTake(stage.tasks[part], worker, alive, now_s)) continue;
-    return TaskRef{static_cast<uint32_t>(stages_.size() - 1), part};
+  if (state_ != JobState::kRunning || runs_.empty()) return std::nullopt;
+  const StageRun& run = runs_.back();
+  for (const uint32_t part : run.ready) {
+    if (!MayTake(run.tasks[part], worker, alive, now_s)) continue;
+    return TaskRef{static_cast<uint32_t>(runs_.size() - 1), part};
   }
   return std::nullopt;
 }
@@ -66,32 +71,36 @@ bool JobMachine::WasDoneBy(const Digest& task, uint64_t epoch) const {
 void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
                              std::vector<std::optional<TaskResult>> found,
                              double now_s) {
-  ORBWEAVE_CHECK(StageToPlan().has_value() && tasks.size() == found.size());
-  const auto number = static_cast<uint32_t>(stages_.size());
-  StageRecord& stage = stages_.emplace_back();
-  results_.emplace_back(tasks.size());
+  const std::optional<uint32_t> stage = StageToPlan();
+  ORBWEAVE_CHECK(stage.has_value() && tasks.size() == found.size());
+  const auto number = static_cast<uint32_t>(runs_.size());
+  StageRun& run = runs_.emplace_back();
+  run.stage = *stage;
+  if (results_.size() <= *stage) results_.resize(*stage + 1);
+  std::vector<TaskResult>& results = results_[*stage];
+  results.assign(tasks.size(), {});
   for (uint32_t part = 0; part < tasks.size(); ++part) {
-    TaskRecord& task = stage.tasks.emplace_back();
+    TaskRecord& task = run.tasks.emplace_back();
     task.id = tasks[part].Id();
     task.spec = std::move(tasks[part]);
     refs_[task.id] = {number, part};
     if (!found[part]) {
-      stage.ready.insert(part);
+      run.ready.insert(part);
       continue;
     }
     task.done = true;
-    results_.back()[part] = *std::move(found[part]);
-    ++stage.done;
-    ++stage.reused;
+    results[part] = *std::move(found[part]);
+    ++run.done;
+    ++run.reused;
   }
   EndIfAllDone(now_s);
 }
 
 void JobMachine::TaskLeased(TaskRef ref, const TaskHolder& holder, double now_s) {
-  StageRecord& stage = stages_[ref.stage];
-  ORBWEAVE_CHECK(stage.ready.erase(ref.part) == 1);
-  stage.running.insert(ref.part);
-  if (!stage.first_lease_s) stage.first_lease_s = now_s;
+  StageRun& run = runs_[ref.run];
+  ORBWEAVE_CHECK(run.ready.erase(ref.part) == 1);
+  run.running.insert(ref.part);
+  if (!run.first_lease_s) run.first_lease_s = now_s;
   TaskRecord& task = Task(ref);
   task.holder = holder;
   task.leased_s = now_s;
@@ -104,7 +113,7 @@ void JobMachine::TaskProgressed(TaskRef ref, const Progress& progress) {
 
 void JobMachine::AttemptEnds(TaskRef ref, bool ok, double now_s) {
   const TaskRecord& task = Task(ref);
-  ORBWEAVE_CHECK(stages_[ref.stage].running.erase(ref.part) == 1);
+  ORBWEAVE_CHECK(runs_[ref.run].running.erase(ref.part) == 1);
   timings_.push_back({.stage = task.spec.stage,
                       .part = ref.part,
                       .worker = task.holder.worker,
@@ -117,20 +126,20 @@ void JobMachine::AttemptEnds(TaskRef ref, bool ok, double now_s) {
 void JobMachine::TaskDone(TaskRef ref, TaskResult result, double now_s) {
   if (state_ != JobState::kRunning) return;
   AttemptEnds(ref, true, now_s);
-  StageRecord& stage = stages_[ref.stage];
+  StageRun& run = runs_[ref.run];
   Task(ref).done = true;
-  ++stage.done;
-  stage.last_result_s = now_s;
-  stage.cpu_s += result.cpu_s;
-  results_[ref.stage][ref.part] = std::move(result);
+  ++run.done;
+  run.last_result_s = now_s;
+  run.cpu_s += result.cpu_s;
+  results_[run.stage][ref.part] = std::move(result);
   EndIfAllDone(now_s);
 }
 
 void JobMachine::TaskFailed(TaskRef ref, const absl::Status& error, double now_s) {
   if (state_ != JobState::kRunning) return;
   AttemptEnds(ref, false, now_s);
-  StageRecord& stage = stages_[ref.stage];
-  stage.ready.insert(ref.part);
+  StageRun& run = runs_[ref.run];
+  run.ready.insert(ref.part);
   const FailureClass failure = ClassifyFailure(error.code());
   if (failure == FailureClass::kReturned) return;
   TaskRecord& task = Task(ref);
@@ -147,7 +156,7 @@ void JobMachine::TaskFailed(TaskRef ref, const absl::Status& error, double now_s
                           TextOf(error)),
              now_s);
   } else {
-    ++stage.retries;
+    ++run.retries;
     task.failed_on.push_back(task.holder.worker);
     task.not_before_s = now_s + policy_.WaitAfter(task.failures);
   }
@@ -163,47 +172,44 @@ void JobMachine::JobIsCancelled(double now_s) {
 }
 
 void JobMachine::EndIfAllDone(double now_s) {
-  const bool all_planned = stages_.size() == plan_.stages.size();
-  if (all_planned && stages_.back().done == stages_.back().tasks.size())
-    JobEnds(JobState::kDone, now_s);
+  const bool last_is_done = runs_.back().done == runs_.back().tasks.size();
+  if (last_is_done && NextStage() == plan_.stages.size()) JobEnds(JobState::kDone, now_s);
 }
 
 void JobMachine::JobEnds(JobState state, double now_s) {
   state_ = state;
   ended_s_ = now_s;
-  for (StageRecord& stage : stages_) stage.running.clear();
+  for (StageRun& run : runs_) run.running.clear();
 }
 
-StageStatus JobMachine::StatusOfStage(uint32_t number) const {
-  StageStatus status{.stage = plan_.stages[number].stage};
-  if (number >= stages_.size()) return status;
-  const StageRecord& stage = stages_[number];
-  status.tasks_total = static_cast<uint32_t>(stage.tasks.size());
-  status.tasks_done = stage.done;
-  status.tasks_reused = stage.reused;
-  status.tasks_running = static_cast<uint32_t>(stage.running.size());
-  status.retries = stage.retries;
-  if (stage.first_lease_s)
-    status.wall_s = std::max(0.0, stage.last_result_s - *stage.first_lease_s);
-  status.cpu_s = stage.cpu_s;
-  for (const uint32_t part : stage.running)
-    status.fraction_running += FractionOf(stage.tasks[part].progress);
-  return status;
+void JobMachine::AddTo(StageStatus& status, const StageRun& run) {
+  status.tasks_total += static_cast<uint32_t>(run.tasks.size());
+  status.tasks_done += run.done;
+  status.tasks_reused += run.reused;
+  status.tasks_running += static_cast<uint32_t>(run.running.size());
+  status.retries += run.retries;
+  if (run.first_lease_s) status.wall_s += std::max(0.0, run.last_result_s - *run.first_lease_s);
+  status.cpu_s += run.cpu_s;
+  for (const uint32_t part : run.running)
+    status.fraction_running += FractionOf(run.tasks[part].progress);
 }
 
 JobStatus JobMachine::Status(double now_s) const {
   JobStatus status{.id = spec_.Id(), .state = state_, .error = error_, .spec = spec_};
   status.elapsed_s = (state_ == JobState::kRunning ? now_s : ended_s_) - submitted_s_;
-  for (uint32_t s = 0; s < plan_.stages.size(); ++s) status.stages.push_back(StatusOfStage(s));
+  for (const StageRule& rule : plan_.stages) status.stages.push_back({.stage = rule.stage});
+  for (const StageRun& run : runs_) AddTo(status.stages[run.stage], run);
   return status;
 }
 
 std::vector<TaskOutcome> JobMachine::Outcomes() const {
+  std::map<uint32_t, const StageRun*> last_runs;
+  for (const StageRun& run : runs_) last_runs[run.stage] = &run;
   std::vector<TaskOutcome> outcomes;
-  for (uint32_t s = 0; s < stages_.size(); ++s) {
-    for (uint32_t part = 0; part < stages_[s].tasks.size(); ++part) {
-      const TaskRecord& task = stages_[s].tasks[part];
-      if (task.done) outcomes.push_back({task.spec.stage, part, task.id, results_[s][part]});
+  for (const auto& [stage, run] : last_runs) {
+    for (uint32_t part = 0; part < run->tasks.size(); ++part) {
+      const TaskRecord& task = run->tasks[part];
+      if (task.done) outcomes.push_back({task.spec.stage, part, task.id, results_[stage][part]});
     }
   }
   return outcomes;

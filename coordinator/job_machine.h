@@ -18,7 +18,7 @@ namespace orbweave {
 
 /// A task's place in its job.
 struct TaskRef {
-  uint32_t stage = 0;
+  uint32_t run = 0;  ///< of a stage: loops run a stage several times
   uint32_t part = 0;
   friend auto operator<=>(const TaskRef&, const TaskRef&) = default;
 };
@@ -33,8 +33,10 @@ struct TaskHolder {
 /// One job as a state machine: events go in with the time at which they happened, what may be done
 /// next comes out. No clock, no files, no threads: equal events give equal states.
 ///
-///   stage:  unplanned --StageBegins--> running --all its tasks done--> done   (one stage after the
-///   other) task:   ready --TaskLeased--> leased --TaskDone--> done
+///   stage:  unplanned --StageBegins--> running --all its tasks done--> done   (one after the
+///   other;
+///           the stages of a loop again and again)
+///   task:   ready --TaskLeased--> leased --TaskDone--> done
 ///                   ^----TaskFailed------'      (ready again after a wait; too often: the job
 ///                   fails)
 ///   job:    running --> done | failed | cancelled
@@ -46,12 +48,12 @@ class JobMachine {
   [[nodiscard]] const JobPlan& plan() const { return plan_; }
   [[nodiscard]] JobState state() const { return state_; }
   [[nodiscard]] const std::string& error() const { return error_; }
-  /// What each part of each stage left behind.
+  /// What each part of each stage left behind when the stage last ran.
   [[nodiscard]] const std::vector<std::vector<TaskResult>>& results() const { return results_; }
   [[nodiscard]] const TaskSpec& Spec(TaskRef ref) const { return Task(ref).spec; }
   [[nodiscard]] const Digest& TaskId(TaskRef ref) const { return Task(ref).id; }
 
-  /// The stage whose tasks are to be written down now: all stages before it are done.
+  /// The stage whose tasks are to be written down now: all that come before it are done.
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
   /// The first task that `worker` may do now. A task that failed here waits for another worker
   /// while one that has not failed it is in `alive`.
@@ -76,6 +78,7 @@ class JobMachine {
 
   /// All but the workers.
   [[nodiscard]] JobStatus Status(double now_s) const;
+  /// Of the last run of each stage.
   [[nodiscard]] std::vector<TaskOutcome> Outcomes() const;
   [[nodiscard]] const std::vector<TaskTiming>& Timings() const { return timings_; }
 
@@ -91,7 +94,8 @@ class JobMachine {
     std::vector<std::string> failed_on{};
     Progress progress{};
   };
-  struct StageRecord {
+  struct StageRun {
+    uint32_t stage = 0;  ///< of the plan
     std::vector<TaskRecord> tasks{};
     std::set<uint32_t> ready{};
     std::set<uint32_t> running{};
@@ -103,15 +107,15 @@ class JobMachine {
     double cpu_s = 0.0;
   };
 
-  [[nodiscard]] const TaskRecord& Task(TaskRef ref) const {
-    return stages_[ref.stage].tasks[ref.part];
-  }
-  [[nodiscard]] TaskRecord& Task(TaskRef ref) { return stages_[ref.stage].tasks[ref.part]; }
+  [[nodiscard]] const TaskRecord& Task(TaskRef ref) const { return runs_[ref.run].tasks[ref.part]; }
+  [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
+  /// The stage that comes after the last run; the number of stages: none.
+  [[nodiscard]] uint32_t NextStage() const;
   [[nodiscard]] bool MayTake(const TaskRecord& task,
                              const std::string& worker,
                              const std::vector<std::string>& alive,
                              double now_s) const;
-  [[nodiscard]] StageStatus StatusOfStage(uint32_t stage) const;
+  static void AddTo(StageStatus& status, const StageRun& run);
   void AttemptEnds(TaskRef ref, bool ok, double now_s);
   void JobEnds(JobState state, double now_s);
   void EndIfAllDone(double now_s);
@@ -123,7 +127,7 @@ class JobMachine {
   double ended_s_ = 0.0;
   JobState state_ = JobState::kRunning;
   std::string error_;
-  std::vector<StageRecord> stages_;  ///< of the stages that were planned
+  std::vector<StageRun> runs_;  ///< in order
   std::vector<std::vector<TaskResult>> results_;
   std::map<Digest, TaskRef> refs_;
   std::vector<TaskTiming> timings_;

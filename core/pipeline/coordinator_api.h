@@ -33,7 +33,7 @@ struct StageStatus {
   uint32_t tasks_reused = 0;  ///< of tasks_done: found finished, not computed again
   uint32_t tasks_running = 0;
   uint32_t retries = 0;
-  double wall_s = 0.0;          ///< first lease to last result
+  double wall_s = 0.0;          ///< first lease to last result; of a loop, summed over its rounds
   double cpu_s = 0.0;           ///< sum over tasks computed now
   double fraction_running = 0;  ///< progress of running tasks, in tasks
 };
@@ -137,7 +137,8 @@ class CoordinatorApi : public BlobAccess {
   [[nodiscard]] virtual absl::StatusOr<JobStatus> GetJob(const Digest& job) = 0;
   [[nodiscard]] virtual absl::StatusOr<std::vector<JobStatus>> ListJobs() = 0;
   [[nodiscard]] virtual absl::Status CancelJob(const Digest& job) = 0;
-  /// Results of a job's finished tasks in (stage, part) order, and timings in order of their end.
+  /// Results of a job's finished tasks in (stage, part) order, of a loop those of its last round,
+  /// and timings in order of their end.
   [[nodiscard]] virtual absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) = 0;
   [[nodiscard]] virtual absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) = 0;
 

@@ -13,8 +13,8 @@ namespace {
 
 InputRule JobInput(uint32_t index) { return {InputRule::Kind::kJobInput, "", index}; }
 InputRule Output(std::string stage) { return {InputRule::Kind::kOutput, std::move(stage), 0}; }
-InputRule Collection(std::string stage) {
-  return {InputRule::Kind::kCollection, std::move(stage), 0};
+InputRule AllOutputs(std::string stage) {
+  return {InputRule::Kind::kAllOutputs, std::move(stage), 0};
 }
 InputRule Recipe() { return {InputRule::Kind::kRecipe, "", 0}; }
 
@@ -30,7 +30,7 @@ std::vector<StageRule> ImageStages() {
        .inputs = {Recipe()},
        .option_sections = {"features", "retrieval"}},
       {.stage = "select_image_pairs",
-       .inputs = {Output("ingest_images"), Collection("extract_features")},
+       .inputs = {Output("ingest_images"), AllOutputs("extract_features")},
        .option_sections = {"pairs", "retrieval", "matching"}},
       {.stage = "match_images",
        .parts_from = "select_image_pairs",
@@ -46,17 +46,17 @@ std::vector<StageRule> ModelStages(const InputRule& manifest,
                                    const std::string& matches_stage) {
   return {
       {.stage = "partition_view_graph",
-       .inputs = {manifest, features, Collection(matches_stage)},
+       .inputs = {manifest, features, AllOutputs(matches_stage)},
        .option_sections = {"view_graph", "partition"}},
       {.stage = "reconstruct_cluster",
        .parts_from = "partition_view_graph",
        .inputs = {Recipe()},
        .option_sections = {"mapping"}},
       {.stage = "align_submodels",
-       .inputs = {manifest, Collection("reconstruct_cluster")},
+       .inputs = {manifest, AllOutputs("reconstruct_cluster")},
        .option_sections = {"align"}},
       {.stage = "merge_submodels",
-       .inputs = {manifest, Collection("reconstruct_cluster"), Output("align_submodels")},
+       .inputs = {manifest, AllOutputs("reconstruct_cluster"), Output("align_submodels")},
        .option_sections = {"align"}},
       {.stage = "adjust_globally",
        .inputs = {manifest, Output("merge_submodels")},
@@ -75,7 +75,7 @@ JobPlan SparsePlan() {
   return Joined(
       "sparse",
       ImageStages(),
-      ModelStages(Output("ingest_images"), Collection("extract_features"), "match_images"));
+      ModelStages(Output("ingest_images"), AllOutputs("extract_features"), "match_images"));
 }
 
 JobPlan SparseFromMatchesPlan() {
@@ -94,6 +94,16 @@ absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind) {
   if (kind == "sparse_from_matches") return SparseFromMatchesPlan();
   return absl::NotFoundError(absl::StrCat(
       "there is no job kind '", std::string(kind), "' (known: sparse, sparse_from_matches)"));
+}
+
+uint32_t StageAfter(const JobPlan& plan, uint32_t stage, size_t num_parts) {
+  const std::string& back_to = plan.stages[stage].back_to;
+  if (back_to.empty() || num_parts == 0) return stage + 1;
+  const auto first = std::find_if(plan.stages.begin(),
+                                  plan.stages.end(),
+                                  [&](const StageRule& rule) { return rule.stage == back_to; });
+  ORBWEAVE_CHECK(first - plan.stages.begin() <= stage);
+  return static_cast<uint32_t>(first - plan.stages.begin());
 }
 
 std::string SelectSections(std::string_view options_text,

@@ -18,7 +18,8 @@ struct InputRule {
   enum class Kind {
     kJobInput,    ///< the job's input blob number `index`
     kOutput,      ///< output number `index` of the (only) task of stage `stage`
-    kCollection,  ///< a list blob: all outputs of all parts of `stage`, in part order
+    kCollection,  ///< a list blob: output number `index` of all parts of `stage`, in part order
+    kAllOutputs,  ///< a list blob: all outputs of all parts of `stage`, in part order
     kRecipe,  ///< recipe of this part: what `parts_from` emitted or `parts_listed_in` lists for it
   };
   Kind kind = Kind::kJobInput;
@@ -26,9 +27,10 @@ struct InputRule {
   uint32_t index = 0;
 };
 
-/// One row of a plan. A stage has one part, or as many as stage `parts_from` emitted recipes, or as
-/// many as the collection in job input `parts_listed_in` lists. No part at all is a stage that is
-/// done.
+/// One row of a plan. A stage may read, of a loop, what a stage that comes later (or itself) left
+/// in the round before; in the first round that is the empty blob. A stage has one part, or as many
+/// as stage `parts_from` emitted recipes, or as many as the collection in job input
+/// `parts_listed_in` lists. No part at all is a stage that is done.
 struct StageRule {
   std::string stage{};
   std::string parts_from{};  ///< empty: one part
@@ -37,13 +39,20 @@ struct StageRule {
   std::vector<InputRule> inputs{};
   std::vector<std::string>
       option_sections{};  ///< option sections whose change makes the stage run again
+  /// The last stage of a loop: as long as it has parts, the job goes back to this stage after it.
+  std::string back_to{};
 };
 
-/// A kind of job: its stages in order. A stage starts when all stages before it are done.
+/// A kind of job: its stages in order. A stage starts when all stages before it are done. Loops do
+/// not meet.
 struct JobPlan {
   std::string kind{};
   std::vector<StageRule> stages{};
 };
+
+/// The stage that follows number `stage` when that had `num_parts` parts; the number of stages:
+/// none.
+[[nodiscard]] uint32_t StageAfter(const JobPlan& plan, uint32_t stage, size_t num_parts);
 
 /// "sparse" (from images) and "sparse_from_matches" (from a database). NotFound otherwise.
 [[nodiscard]] absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind);

@@ -16,14 +16,22 @@ struct Planner {
 
   [[nodiscard]] const StageRule& Rule() const { return plan.stages[stage]; }
 
-  /// Results of the stage called `name`, which the plan puts before this one.
+  /// Whether the rule reads what a loop's round before left, and this is the first round.
+  [[nodiscard]] bool IsFirstRound(const InputRule& rule) const {
+    for (uint32_t s = stage; s < plan.stages.size(); ++s) {
+      if (plan.stages[s].stage == rule.stage) return s >= results.size() || results[s].empty();
+    }
+    return false;
+  }
+
+  /// Results of the stage called `name`.
   [[nodiscard]] absl::StatusOr<const std::vector<TaskResult>*> ResultsOf(
       const std::string& name) const {
-    for (uint32_t s = 0; s < stage; ++s) {
+    for (uint32_t s = 0; s < results.size(); ++s) {
       if (plan.stages[s].stage == name) return &results[s];
     }
     return absl::FailedPreconditionError(
-        absl::StrCat("stage ", Rule().stage, " asks for stage ", name, ", which is not before it"));
+        absl::StrCat("stage ", Rule().stage, " asks for stage ", name, ", which did not run"));
   }
 
   [[nodiscard]] absl::StatusOr<Digest> JobInput(uint32_t index) const {
@@ -36,17 +44,37 @@ struct Planner {
     ORBWEAVE_ASSIGN_OR_RETURN(const auto* parts, ResultsOf(rule.stage));
     if (parts->size() == 1 && rule.index < parts->front().outputs.size())
       return parts->front().outputs[rule.index];
+    return NoOutput(rule);
+  }
+
+  [[nodiscard]] absl::Status NoOutput(const InputRule& rule) const {
     return absl::FailedPreconditionError(absl::StrCat(
         "stage ", rule.stage, " left no output ", rule.index, " for stage ", Rule().stage));
   }
 
-  [[nodiscard]] absl::StatusOr<std::string> Collection(const InputRule& rule) const {
+  [[nodiscard]] absl::StatusOr<std::string> AllOutputs(const InputRule& rule) const {
     ORBWEAVE_ASSIGN_OR_RETURN(const auto* parts, ResultsOf(rule.stage));
     std::vector<Digest> outputs;
     for (const TaskResult& part : *parts) {
       outputs.insert(outputs.end(), part.outputs.begin(), part.outputs.end());
     }
     return EncodeCollection(outputs);
+  }
+
+  [[nodiscard]] absl::StatusOr<std::string> Collection(const InputRule& rule) const {
+    ORBWEAVE_ASSIGN_OR_RETURN(const auto* parts, ResultsOf(rule.stage));
+    std::vector<Digest> outputs;
+    for (const TaskResult& part : *parts) {
+      if (rule.index >= part.outputs.size()) return NoOutput(rule);
+      outputs.push_back(part.outputs[rule.index]);
+    }
+    return EncodeCollection(outputs);
+  }
+
+  /// The list a rule asks for; empty in the first round of a loop.
+  [[nodiscard]] absl::StatusOr<std::string> List(const InputRule& rule) const {
+    if (IsFirstRound(rule)) return std::string();
+    return rule.kind == InputRule::Kind::kCollection ? Collection(rule) : AllOutputs(rule);
   }
 
   /// One recipe per part; a single zero digest when the stage has one part that reads none.
@@ -82,13 +110,19 @@ absl::StatusOr<StagePlan> PlanStage(const JobPlan& plan,
         break;
       }
       case InputRule::Kind::kOutput: {
+        if (planner.IsFirstRound(rule)) {
+          common.inputs.push_back(DigestOf(""));
+          stage_plan.collections.emplace_back();
+          break;
+        }
         ORBWEAVE_ASSIGN_OR_RETURN(common.inputs.emplace_back(), planner.Output(rule));
         break;
       }
-      case InputRule::Kind::kCollection: {
-        ORBWEAVE_ASSIGN_OR_RETURN(std::string collection, planner.Collection(rule));
-        common.inputs.push_back(DigestOf(collection));
-        stage_plan.collections.push_back(std::move(collection));
+      case InputRule::Kind::kCollection:
+      case InputRule::Kind::kAllOutputs: {
+        ORBWEAVE_ASSIGN_OR_RETURN(std::string list, planner.List(rule));
+        common.inputs.push_back(DigestOf(list));
+        stage_plan.collections.push_back(std::move(list));
         break;
       }
       case InputRule::Kind::kRecipe: {

@@ -18,7 +18,7 @@ struct StagePlan {
 };
 
 /// Writes down the tasks of stage number `stage` of `plan`. `results[s][p]` is what part p of stage
-/// s < stage left behind; `listed_recipes` is the decoded collection that the stage's
+/// s left behind when it last ran; `listed_recipes` is the decoded collection that the stage's
 /// `parts_listed_in` names (empty otherwise). InvalidArgument: the job has too few inputs.
 /// FailedPrecondition: a stage before left fewer outputs than the plan asks for. Pure: equal
 /// arguments give equal tasks.

@@ -76,6 +76,37 @@ TEST(JobMachine, AStageWithoutTasksIsDone) {
   EXPECT_EQ(machine.state(), JobState::kDone);
 }
 
+TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
+  JobPlan plan = LinePlan({"start", "decide", "work", "end"});
+  plan.stages[2].back_to = "decide";
+  JobMachine machine({.kind = "line"}, plan, {}, 100.0);
+  Begin(machine, "start", 0);
+  for (uint32_t round = 0; round < 3; ++round) {
+    ASSERT_EQ(machine.StageToPlan(), 1U);
+    Begin(machine, "decide", 1);
+    machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cpu_s = 1.0}, 101.0);
+    ASSERT_EQ(machine.StageToPlan(), 2U);
+    Begin(machine, "work", 2);
+    for (int part = 0; part < 2; ++part) {
+      const Digest output = DigestOf(std::to_string(10 * round));
+      machine.TaskDone(LeaseNext(machine, "w", 100.0), {.outputs = {output}}, 101.0);
+    }
+  }
+  EXPECT_EQ(machine.results()[2].size(), 2U);
+  EXPECT_EQ(machine.results()[2][1].outputs[0], DigestOf("20")) << "of the last round";
+  Begin(machine, "decide", 1);
+  machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cpu_s = 1.0}, 101.0);
+  Begin(machine, "work", 0);
+  EXPECT_EQ(machine.StageToPlan(), 3U);
+  const JobStatus status = machine.Status(102.0);
+  EXPECT_EQ(status.stages[1].tasks_done, 4U);
+  EXPECT_DOUBLE_EQ(status.stages[1].cpu_s, 4.0);
+  EXPECT_EQ(status.stages[2].tasks_total, 6U);
+  EXPECT_EQ(machine.Outcomes().size(), 1U) << "the last round of each stage";
+  Begin(machine, "end", 0);
+  EXPECT_EQ(machine.state(), JobState::kDone);
+}
+
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {
   JobMachine machine = MachineFor({"a"});
   machine.StageBegins(Tasks("a", 3), {TaskResult{}, std::nullopt, TaskResult{}}, 100.0);

@@ -83,5 +83,14 @@ TEST(Collection, RefusesATornList) {
   EXPECT_TRUE(absl::IsInvalidArgument(DecodeCollection(bytes.substr(1)).status()));
 }
 
+TEST(StageAfter, GoesBackAsLongAsTheLoopHasParts) {
+  const JobPlan plan{
+      "loop", {{.stage = "a"}, {.stage = "b"}, {.stage = "c", .back_to = "b"}, {.stage = "d"}}};
+  EXPECT_EQ(StageAfter(plan, 0, 1), 1U);
+  EXPECT_EQ(StageAfter(plan, 2, 5), 1U);
+  EXPECT_EQ(StageAfter(plan, 2, 0), 3U);
+  EXPECT_EQ(StageAfter(plan, 3, 1), 4U);
+}
+
 }  // namespace
 }  // namespace orbweave

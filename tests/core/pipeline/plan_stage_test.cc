@@ -19,7 +19,7 @@ JobPlan FanPlan() {
        {.stage = "fan",
         .parts_from = "first",
         .inputs = {{Kind::kJobInput, "", 0}, {Kind::kRecipe, "", 0}}},
-       {.stage = "last", .inputs = {{Kind::kOutput, "first", 1}, {Kind::kCollection, "fan", 0}}}}};
+       {.stage = "last", .inputs = {{Kind::kOutput, "first", 1}, {Kind::kAllOutputs, "fan", 0}}}}};
 }
 
 const JobSpec kJob{.kind = "fan", .inputs = {DigestOf("input")}, .options_text = "a.x=1\nb.y=2\n"};
@@ -58,6 +58,44 @@ TEST(PlanStage, CollectsAllOutputsInPartOrder) {
   EXPECT_THAT(plan->collections, ::testing::ElementsAre(collection));
   EXPECT_THAT(plan->tasks.at(0).inputs,
               ::testing::ElementsAre(DigestOf("o1"), DigestOf(collection)));
+}
+
+TEST(PlanStage, CollectsOneOutputOfEachPart) {
+  JobPlan plan = FanPlan();
+  plan.stages[2].inputs = {{Kind::kCollection, "fan", 1}};
+  const std::vector<TaskResult> fan = {{.outputs = {DigestOf("p0"), DigestOf("q0")}},
+                                       {.outputs = {DigestOf("p1"), DigestOf("q1")}}};
+  const auto last = PlanStage(plan, 2, kJob, {{FirstResult()}, fan}, {});
+  ASSERT_TRUE(last.ok());
+  EXPECT_THAT(last->collections,
+              ::testing::ElementsAre(EncodeCollection({DigestOf("q0"), DigestOf("q1")})));
+  const std::vector<TaskResult> short_fan = {{.outputs = {DigestOf("p0")}}};
+  EXPECT_FALSE(PlanStage(plan, 2, kJob, {{FirstResult()}, short_fan}, {}).ok());
+}
+
+/// decide reads what it and the parts of work left in the round before; work follows its recipes.
+JobPlan LoopPlan() {
+  return {"loop",
+          {{.stage = "decide",
+            .inputs = {{Kind::kOutput, "decide", 0}, {Kind::kCollection, "work", 0}}},
+           {.stage = "work",
+            .parts_from = "decide",
+            .inputs = {{Kind::kRecipe, "", 0}},
+            .back_to = "decide"}}};
+}
+
+TEST(PlanStage, ALoopReadsTheRoundBeforeAndInTheFirstTheEmptyBlob) {
+  const auto first = PlanStage(LoopPlan(), 0, kJob, {}, {});
+  ASSERT_TRUE(first.ok());
+  EXPECT_THAT(first->tasks.at(0).inputs, ::testing::ElementsAre(DigestOf(""), DigestOf("")));
+  EXPECT_THAT(first->collections, ::testing::ElementsAre("", ""));
+
+  const TaskResult decided = {.outputs = {DigestOf("o")}, .recipes = {DigestOf("r")}};
+  const TaskResult worked = {.outputs = {DigestOf("w")}};
+  const auto second = PlanStage(LoopPlan(), 0, kJob, {{decided}, {worked}}, {});
+  ASSERT_TRUE(second.ok());
+  EXPECT_THAT(second->tasks.at(0).inputs,
+              ::testing::ElementsAre(DigestOf("o"), DigestOf(EncodeCollection({DigestOf("w")}))));
 }
 
 TEST(PlanStage, GivesNoTaskWhenThereIsNoRecipe) {
