@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace orbweave {
+
+/// "No block": the observations of such a track stay with the owners of their panoramas, and its
+/// point is a separator.
+inline constexpr uint32_t kSplitTrack = std::numeric_limits<uint32_t>::max();
+
+/// Which block eliminates each track that panoramas of several owners see. `tracks`: the (free)
+/// poses that see it. Per pair of blocks the side with fewer panoramas that look across becomes
+/// separators (that of the smaller block when equal) and the tracks go to the other side; a
+/// panorama that shares at most two tracks with the other side stays interior, and those tracks
+/// are split: a separator point has three variables, a separator panorama six. Afterwards no
+/// unsplit track touches the interiors of two blocks.
+[[nodiscard]] std::vector<uint32_t> AssignTracks(const std::vector<std::vector<uint32_t>>& tracks,
+                                                 const std::vector<uint32_t>& owner_of_pose);
+
+}  // namespace orbweave
