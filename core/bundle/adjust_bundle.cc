@@ -24,7 +24,9 @@ absl::Status CheckFlags(const char* what, size_t size, size_t expected) {
                                     " entries, expected " + std::to_string(expected) + " or none");
 }
 
-absl::Status Validate(const BundleProblem& problem) {
+}  // namespace
+
+absl::Status ValidateBundleProblem(const BundleProblem& problem) {
   const size_t num_poses = problem.cams_from_world.size();
   const size_t num_points = problem.points_in_world.size();
   ORBWEAVE_RETURN_IF_ERROR(CheckFlags("pose_is_fixed", problem.pose_is_fixed.size(), num_poses));
@@ -51,12 +53,10 @@ absl::Status Validate(const BundleProblem& problem) {
   return absl::OkStatus();
 }
 
-}  // namespace
-
 absl::StatusOr<BundleReport> AdjustBundle(BundleProblem& problem,
                                           const BundleOptions& options,
                                           const StageContext& context) {
-  ORBWEAVE_RETURN_IF_ERROR(Validate(problem));
+  ORBWEAVE_RETURN_IF_ERROR(ValidateBundleProblem(problem));
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
   switch (options.solver) {
     case BundleSolver::kCeres:

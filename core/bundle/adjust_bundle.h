@@ -119,6 +119,9 @@ struct BundleReport {
                                                         const BundleOptions& options,
                                                         const StageContext& context);
 
+/// InvalidArgument: an index out of range or a sigma that is not positive.
+[[nodiscard]] absl::Status ValidateBundleProblem(const BundleProblem& problem);
+
 /// Angle between predicted ray and observed bearing, radians.
 [[nodiscard]] double BearingError(const Rigid3& cam_from_world,
                                   const Eigen::Vector3d& point_in_world,

@@ -13,14 +13,35 @@ namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-// position[block] in the AMD elimination order.
-std::vector<uint32_t> EliminationPositions(const SymmetricBlockMatrix& pattern) {
-  const int n = static_cast<int>(pattern.num_blocks);
+uint32_t CountEliminated(uint32_t num_blocks, const std::vector<uint8_t>& is_kept) {
+  const auto num_kept =
+      std::count_if(is_kept.begin(), is_kept.end(), [](uint8_t kept) { return kept != 0; });
+  return num_blocks - static_cast<uint32_t>(num_kept);
+}
+
+// position[block]: the eliminated blocks in the AMD order of their own graph, then the kept ones.
+std::vector<uint32_t> EliminationPositions(const SymmetricBlockMatrix& pattern,
+                                           const std::vector<uint8_t>& is_kept) {
+  const int n = static_cast<int>(CountEliminated(pattern.num_blocks, is_kept));
+  std::vector<uint32_t> block_of_node;
+  std::vector<uint32_t> position(
+      pattern.num_blocks);  // first the node, kept ones behind the others
+  auto next_kept = static_cast<uint32_t>(n);
+  for (uint32_t block = 0; block < pattern.num_blocks; ++block) {
+    if (!is_kept.empty() && is_kept[block]) {
+      position[block] = next_kept++;
+    } else {
+      position[block] = static_cast<uint32_t>(block_of_node.size());
+      block_of_node.push_back(block);
+    }
+  }
   std::vector<Eigen::Triplet<double, int>> graph;
   graph.reserve(2 * pattern.rows.size());
-  for (int j = 0; j < n; ++j) {
-    for (uint32_t p = pattern.column_start[j]; p < pattern.column_start[j + 1]; ++p) {
-      const int i = static_cast<int>(pattern.rows[p]);
+  for (uint32_t column = 0; column < pattern.num_blocks; ++column) {
+    const int j = static_cast<int>(position[column]);
+    for (uint32_t p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
+      const int i = static_cast<int>(position[pattern.rows[p]]);
+      if (i >= n || j >= n) continue;
       graph.emplace_back(i, j, 1.0);
       if (i != j) graph.emplace_back(j, i, 1.0);
     }
@@ -29,9 +50,9 @@ std::vector<uint32_t> EliminationPositions(const SymmetricBlockMatrix& pattern) 
   adjacency.setFromTriplets(graph.begin(), graph.end());
   Eigen::AMDOrdering<int>::PermutationType block_at_position;
   Eigen::AMDOrdering<int>()(adjacency, block_at_position);
-  std::vector<uint32_t> position(pattern.num_blocks);
   for (int p = 0; p < n; ++p) {
-    position[block_at_position.indices()[p]] = static_cast<uint32_t>(p);
+    const auto node = static_cast<size_t>(block_at_position.indices()[p]);
+    position[block_of_node[node]] = static_cast<uint32_t>(p);
   }
   return position;
 }
@@ -90,8 +111,11 @@ void SolveLowerTransposed(const Block6& L, Vector6& x) {
 
 }  // namespace
 
-BlockCholesky::BlockCholesky(const SymmetricBlockMatrix& pattern)
-    : num_blocks_(pattern.num_blocks), position_(EliminationPositions(pattern)) {
+BlockCholesky::BlockCholesky(const SymmetricBlockMatrix& pattern,
+                             const std::vector<uint8_t>& is_kept)
+    : num_blocks_(pattern.num_blocks),
+      num_eliminated_(CountEliminated(pattern.num_blocks, is_kept)),
+      position_(EliminationPositions(pattern, is_kept)) {
   Analyze(pattern);
   values_.resize(rows_.size());
   slot_.resize(num_blocks_);
@@ -180,6 +204,7 @@ bool BlockCholesky::Factorize(const SymmetricBlockMatrix& matrix) {
       enlist(k);
       k = following;
     }
+    if (j >= num_eliminated_) continue;
     if (!FinishColumn(j)) return false;
     next_row_[j] = column_start_[j] + 1;
     enlist(j);
@@ -188,20 +213,47 @@ bool BlockCholesky::Factorize(const SymmetricBlockMatrix& matrix) {
 }
 
 void BlockCholesky::Solve(std::vector<Vector6>& x) const {
+  SolveForward(x);
+  SolveBackward(x);
+}
+
+void BlockCholesky::SolveForward(std::vector<Vector6>& x) const {
   for (uint32_t i = 0; i < num_blocks_; ++i) permuted_[position_[i]] = x[i];
-  for (uint32_t j = 0; j < num_blocks_; ++j) {
+  for (uint32_t j = 0; j < num_eliminated_; ++j) {
     SolveLower(values_[column_start_[j]], permuted_[j]);
     for (uint32_t p = column_start_[j] + 1; p < column_start_[j + 1]; ++p) {
       permuted_[rows_[p]].noalias() -= values_[p] * permuted_[j];
     }
   }
-  for (uint32_t j = num_blocks_; j-- > 0;) {
+  for (uint32_t i = 0; i < num_blocks_; ++i) x[i] = permuted_[position_[i]];
+}
+
+void BlockCholesky::SolveBackward(std::vector<Vector6>& x) const {
+  for (uint32_t i = 0; i < num_blocks_; ++i) permuted_[position_[i]] = x[i];
+  for (uint32_t j = num_eliminated_; j-- > 0;) {
     for (uint32_t p = column_start_[j] + 1; p < column_start_[j + 1]; ++p) {
       permuted_[j].noalias() -= values_[p].transpose() * permuted_[rows_[p]];
     }
     SolveLowerTransposed(values_[column_start_[j]], permuted_[j]);
   }
   for (uint32_t i = 0; i < num_blocks_; ++i) x[i] = permuted_[position_[i]];
+}
+
+SymmetricBlockMatrix BlockCholesky::Remaining() const {
+  std::vector<BlockIndex> pattern;
+  for (uint32_t j = num_eliminated_; j < num_blocks_; ++j) {
+    for (uint32_t p = column_start_[j]; p < column_start_[j + 1]; ++p) {
+      pattern.push_back({.column = rows_[p] - num_eliminated_, .row = j - num_eliminated_});
+    }
+  }
+  SymmetricBlockMatrix remaining = MakeBlockMatrix(num_blocks_ - num_eliminated_, pattern);
+  for (uint32_t j = num_eliminated_; j < num_blocks_; ++j) {
+    for (uint32_t p = column_start_[j]; p < column_start_[j + 1]; ++p) {
+      const BlockIndex index{.column = rows_[p] - num_eliminated_, .row = j - num_eliminated_};
+      remaining.values[remaining.Find(index)] = values_[p].transpose();
+    }
+  }
+  return remaining;
 }
 
 }  // namespace orbweave

@@ -13,16 +13,29 @@ namespace orbweave {
 /// blocks, left-looking by block column. The fill-reducing order P is approximate minimum degree
 /// on the block graph (Amestoy, Davis, Duff: AMD, SIAM J. Matrix Anal. 1996). No BLAS: the same
 /// bits on every machine of the same build. The structure is analysed once, in the constructor.
+///
+/// Some blocks may be kept: the others are eliminated, and their Schur complement remains.
 class BlockCholesky {
  public:
-  explicit BlockCholesky(const SymmetricBlockMatrix& pattern);
+  /// `is_kept` per block; empty: none.
+  explicit BlockCholesky(const SymmetricBlockMatrix& pattern,
+                         const std::vector<uint8_t>& is_kept = {});
 
   /// Factorises values with the pattern of the constructor. False when the matrix is not
-  /// (numerically) positive definite or not finite; Solve must not be called then.
+  /// (numerically) positive definite, as far as it is eliminated; nothing below may be called then.
   [[nodiscard]] bool Factorize(const SymmetricBlockMatrix& matrix);
 
   /// x := A^-1 x.
   void Solve(std::vector<Vector6>& x) const;
+
+  /// Solve is both, one after the other. Forward: eliminated blocks x_e := L^-1 x_e, kept ones
+  /// x_k := x_k - A_ke A_ee^-1 x_e. Backward: x_e := L^-T (x_e - L_ke^T x_k), where x_k is the
+  /// solution of the kept blocks.
+  void SolveForward(std::vector<Vector6>& x) const;
+  void SolveBackward(std::vector<Vector6>& x) const;
+
+  /// A_kk - A_ke A_ee^-1 A_ek, blocks in the order of A.
+  [[nodiscard]] SymmetricBlockMatrix Remaining() const;
 
   /// Blocks in L, diagonal ones included.
   [[nodiscard]] size_t NumFactorBlocks() const { return rows_.size(); }
@@ -33,6 +46,7 @@ class BlockCholesky {
   [[nodiscard]] bool FinishColumn(uint32_t column);
 
   uint32_t num_blocks_ = 0;
+  uint32_t num_eliminated_ = 0;           // the kept blocks come last, in the order of A
   std::vector<uint32_t> position_{};      // of a block of A in the elimination order
   std::vector<uint32_t> column_start_{};  // of L
   std::vector<uint32_t> rows_{};          // of L, ascending, diagonal first

@@ -30,9 +30,7 @@ BlockElimination::BlockElimination(const SymmetricBlockMatrix& pattern,
       cholesky_(pattern, is_kept_) {}
 
 bool BlockElimination::Eliminate(double lambda, NormalSystem& system) {
-  for (uint32_t block = 0; block < system.S.num_blocks; ++block) {
-    if (!is_kept_[block]) DampBlock(lambda, block, system);
-  }
+  DampPoses(lambda, system, is_kept_);
   if (!cholesky_.Factorize(system.S)) return false;
   forward_ = system.rhs;
   cholesky_.SolveForward(forward_);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,8 +10,8 @@
 #include "core/bundle/bundle_layout.h"
 #include "core/bundle/bundle_state.h"
 #include "core/bundle/gauge.h"
+#include "core/bundle/kept_points.h"
 #include "core/bundle/levenberg_marquardt.h"
-#include "core/bundle/point_choice.h"
 #include "core/bundle/reduced_system.h"
 #include "core/bundle/trial_step.h"
 
@@ -31,12 +30,6 @@ struct EvaluatedState {
   PointCosts costs{};  ///< of the points that are eliminated
   /// Of the kept points, where they were before the step that led here.
   std::vector<Eigen::Vector3d> kept_points_before{};
-};
-
-/// A kept point's costs over the observations of one problem.
-struct KeptPointTrial {
-  double cost_before = 0.0;
-  std::array<PointCost, kStepShares.size()> after{};  ///< by share of the step
 };
 
 /// One problem's part in the judgement of a step.

@@ -70,9 +70,12 @@ double HeldDistance(const Gauge& gauge, const BundleProblem& problem) {
 
 void RestoreScale(const Gauge& gauge, double distance, BundleProblem& problem) {
   const double now = HeldDistance(gauge, problem);
-  if (!(now > 0.0) || now == distance) return;
+  if (now > 0.0) ScaleAboutAnchor(gauge, distance / now, problem);
+}
+
+void ScaleAboutAnchor(const Gauge& gauge, double scale, BundleProblem& problem) {
+  if (scale == 1.0) return;
   const Eigen::Vector3d centre = problem.cams_from_world[*gauge.anchor].Centre();
-  const double scale = distance / now;
   for (size_t i = 0; i < problem.cams_from_world.size(); ++i) {
     if (!gauge.pose_scales[i]) continue;
     Rigid3& cam_from_world = problem.cams_from_world[i];

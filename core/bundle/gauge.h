@@ -31,6 +31,9 @@ struct Gauge {
 /// and so the cost, do not notice. No-op unless the gauge holds a distance.
 void RestoreScale(const Gauge& gauge, double distance, BundleProblem& problem);
 
+/// Scales what is observed about the anchor. No-op for a scale of 1.
+void ScaleAboutAnchor(const Gauge& gauge, double scale, BundleProblem& problem);
+
 /// The held distance as it is now, 0 when none is held.
 [[nodiscard]] double HeldDistance(const Gauge& gauge, const BundleProblem& problem);
 

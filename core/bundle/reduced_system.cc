@@ -169,12 +169,7 @@ void ResetSums(size_t num_blocks, size_t num_pairs, ChunkSums& sums) {
 }  // namespace
 
 ReducedSystem MakeReducedSystem(const BundleLayout& layout) {
-  ReducedSystem system;
-  system.S = layout.matrix;
-  system.rhs.assign(layout.num_blocks, Vector6::Zero());
-  system.gradient = system.rhs;
-  system.damping = system.rhs;
-  system.trace.assign(layout.num_blocks, Eigen::Vector2d::Zero());
+  ReducedSystem system{MakeNormalSystem(layout.matrix)};
   system.points.resize(layout.points.size());
   return system;
 }
@@ -184,18 +179,6 @@ void Clear(ReducedSystem& system) {
   std::fill(system.rhs.begin(), system.rhs.end(), Vector6::Zero());
   std::fill(system.gradient.begin(), system.gradient.end(), Vector6::Zero());
   std::fill(system.trace.begin(), system.trace.end(), Eigen::Vector2d::Zero());
-}
-
-void DampPoses(double lambda, ReducedSystem& system) {
-  for (uint32_t block = 0; block < system.S.num_blocks; ++block) {
-    // A block that nothing observes has no gradient either: any positive number holds it.
-    const Eigen::Vector2d& trace = system.trace[block];
-    const double mu_rotation = trace[0] > 0.0 ? lambda * trace[0] / 3.0 : 1.0;
-    const double mu_centre = trace[1] > 0.0 ? lambda * trace[1] / 3.0 : 1.0;
-    system.damping[block] << Eigen::Vector3d::Constant(mu_rotation),
-        Eigen::Vector3d::Constant(mu_centre);
-    system.S.Diagonal(block).diagonal() += system.damping[block];
-  }
 }
 
 BearingReducer::BearingReducer(const BundleLayout& layout, int num_threads)

@@ -7,6 +7,7 @@
 #include "core/bundle/block_matrix.h"
 #include "core/bundle/bundle_layout.h"
 #include "core/bundle/bundle_state.h"
+#include "core/bundle/normal_system.h"
 #include "core/bundle/robust_loss.h"
 
 namespace orbweave {
@@ -20,15 +21,8 @@ struct PointFactor {
 
 /// Normal equations of all poses and biases after the points are eliminated:
 ///   S = U + mu I - sum W (V + mu I)^-1 W^T,   rhs = -(g - sum W (V + mu I)^-1 g_point).
-/// `gradient` and `damping` (mu of rotation and centre) are those of the full system.
-/// mu = lambda x mean diagonal entry of the 3x3 block: unlike Marquardt's diagonal it turns with
-/// the world, so that the steps do too.
-struct ReducedSystem {
-  SymmetricBlockMatrix S{};
-  std::vector<Vector6> rhs{};
-  std::vector<Vector6> gradient{};
-  std::vector<Eigen::Vector2d> trace{};  ///< of U: rotation, centre
-  std::vector<Vector6> damping{};
+/// mu is as of DampPoses.
+struct ReducedSystem : NormalSystem {
   std::vector<PointFactor> points{};  ///< per layout.points
 };
 
@@ -37,9 +31,6 @@ struct ReducedSystem {
 
 /// Everything but the structure to zero.
 void Clear(ReducedSystem& system);
-
-/// Adds mu to the diagonal of S, once all terms are in.
-void DampPoses(double lambda, ReducedSystem& system);
 
 /// Sums of one chunk, in its own dense triangle.
 struct ChunkSums {

@@ -12,34 +12,6 @@
 namespace orbweave {
 namespace {
 
-// Rise of a point's cost that calls for a shorter step, and what is tried then.
-constexpr double kLeap = 0.1;
-constexpr double kShorterSteps[] = {0.25, 0.0};
-
-struct PointCost {
-  double cost = 0.0;
-  bool any_behind = false;
-};
-
-PointCost CostAt(const BundleLayout& layout,
-                 const PackedPoint& point,
-                 const Eigen::Vector3d& point_in_world,
-                 const std::vector<PoseState>& poses,
-                 const RobustLoss& loss) {
-  PointCost result;
-  RobustLoss::Sum sum(loss);
-  for (uint32_t k = point.first; k < point.end; ++k) {
-    const PackedObservation& seen = layout.observations[k];
-    const PoseState& pose = poses[seen.pose];
-    const BearingAngle angle =
-        EvaluateBearing(pose.centre, point_in_world, pose.world_from_cam * seen.bearing);
-    sum.Add(angle.squared_angle * seen.weight);
-    result.any_behind |= angle.behind;
-  }
-  result.cost = 0.5 * sum.Value();
-  return result;
-}
-
 // W^T step, W^T = M [-[d]x; -I] summed over the observations of one point.
 Eigen::Vector3d PullOfPoses(const BundleLayout& layout,
                             const PackedPoint& point,
@@ -69,6 +41,25 @@ double SumInOrder(const std::vector<double>& values) {
 
 }  // namespace
 
+PointCost EvaluatePointCost(const BundleLayout& layout,
+                            const PackedPoint& point,
+                            const Eigen::Vector3d& point_in_world,
+                            const std::vector<PoseState>& poses,
+                            const RobustLoss& loss) {
+  PointCost result;
+  RobustLoss::Sum sum(loss);
+  for (uint32_t k = point.first; k < point.end; ++k) {
+    const PackedObservation& seen = layout.observations[k];
+    const PoseState& pose = poses[seen.pose];
+    const BearingAngle angle =
+        EvaluateBearing(pose.centre, point_in_world, pose.world_from_cam * seen.bearing);
+    sum.Add(angle.squared_angle * seen.weight);
+    result.any_behind |= angle.behind;
+  }
+  result.cost = 0.5 * sum.Value();
+  return result;
+}
+
 PointCosts EvaluatePointCosts(const BundleLayout& layout,
                               const BundleState& state,
                               const RobustLoss& loss,
@@ -78,7 +69,8 @@ PointCosts EvaluatePointCosts(const BundleLayout& layout,
   ParallelFor(layout.chunks.size(), num_threads, [&](size_t c) {
     for (uint32_t p = layout.chunks[c].first_point; p < layout.chunks[c].end_point; ++p) {
       const PackedPoint& point = layout.points[p];
-      costs.per_point[p] = CostAt(layout, point, state.points[point.point], state.poses, loss).cost;
+      costs.per_point[p] =
+          EvaluatePointCost(layout, point, state.points[point.point], state.poses, loss).cost;
     }
   });
   costs.total = SumInOrder(costs.per_point);
@@ -124,18 +116,16 @@ double PointStepper::StepPoints(const BundleState& state,
       const Eigen::Vector3d pull = PullOfPoses(layout_, point, state, step, loss);
       delta = -(factor.G * (factor.G.transpose() * (factor.gradient + pull)));
     }
-    Eigen::Vector3d after = before + delta;
-    PointCost now = CostAt(layout_, point, after, trial.poses, loss);
-    for (const double share : kShorterSteps) {
-      if (point.is_fixed || (!now.any_behind && now.cost <= costs.per_point[p] + kLeap)) break;
-      const Eigen::Vector3d nearer = before + share * delta;
-      const PointCost other = CostAt(layout_, point, nearer, trial.poses, loss);
-      if (now.cost <= other.cost) continue;
-      now = other;
-      after = nearer;
-    }
-    trial.points[point.point] = after;
-    trial_costs.per_point[p] = now.cost;
+    const auto after = [&](size_t share) -> Eigen::Vector3d {
+      return before + kStepShares[share] * delta;
+    };
+    const auto cost_at = [&](size_t share) {
+      return EvaluatePointCost(layout_, point, after(share), trial.poses, loss);
+    };
+    const PointChoice choice = point.is_fixed ? PointChoice{.cost = cost_at(0).cost}
+                                              : ChoosePointStep(costs.per_point[p], cost_at);
+    trial.points[point.point] = after(choice.share);
+    trial_costs.per_point[p] = choice.cost;
     return 0.5 * (factor.mu * delta.squaredNorm() - factor.gradient.dot(delta));
   };
   ParallelFor(layout_.chunks.size(), num_threads_, [&](size_t c) {

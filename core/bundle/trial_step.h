@@ -6,6 +6,7 @@
 
 #include "core/bundle/bundle_layout.h"
 #include "core/bundle/bundle_state.h"
+#include "core/bundle/point_choice.h"
 #include "core/bundle/reduced_system.h"
 #include "core/bundle/robust_loss.h"
 
@@ -16,6 +17,13 @@ struct PointCosts {
   std::vector<double> per_point{};
   double total = 0.0;
 };
+
+/// One point's cost at `point_in_world`.
+[[nodiscard]] PointCost EvaluatePointCost(const BundleLayout& layout,
+                                          const PackedPoint& point,
+                                          const Eigen::Vector3d& point_in_world,
+                                          const std::vector<PoseState>& poses,
+                                          const RobustLoss& loss);
 
 [[nodiscard]] PointCosts EvaluatePointCosts(const BundleLayout& layout,
                                             const BundleState& state,
@@ -31,9 +39,7 @@ void StepBlocks(const BundleLayout& layout,
 
 /// Back-substitutes the points into `trial` (from StepBlocks) and evaluates their costs there:
 ///   (V + mu I) x = -(g_point + W^T step).
-/// A point whose step was a leap, because rays are nearly parallel (it falls behind a panorama, or
-/// its cost rises by more than one sigma^2 per observation), stays where it is when that is
-/// cheaper: one such point cannot spoil the step of all others.
+/// A point takes as much of its step as ChoosePointStep says.
 class PointStepper {
  public:
   PointStepper(const BundleLayout& layout, int num_threads);

@@ -14,10 +14,10 @@ namespace orbweave {
 /// Levenberg-Marquardt over blocks that meet in separators only.
 struct BlockwiseReport {
   BundleReport bundle{};
-  std::vector<double> accepted_costs{};            ///< the initial one first
+  std::vector<double> accepted_costs{};  ///< the initial one first
   std::vector<uint32_t> separators_of_block{};
-  std::vector<size_t> message_bytes_of_block{};    ///< of its system, per step
-  size_t largest_node_bytes = 0;                   ///< of a sum's remaining system, per step
+  std::vector<size_t> message_bytes_of_block{};  ///< of its system, per step
+  size_t largest_node_bytes = 0;                 ///< of a sum's remaining system, per step
 };
 
 /// AdjustBundle with the same path of steps to rounding, computed block by block: every block is

@@ -26,9 +26,9 @@ struct AdjustmentBlock {
   BundleProblem problem{};  ///< with indices of its own; its priors and observations are disjoint
                             ///< from the other blocks'
   Gauge gauge{};            ///< the whole problem's, restricted to this block
-  std::vector<uint32_t> pose_ids{};   ///< per pose: in the whole problem; ascending
-  std::vector<uint32_t> point_ids{};  ///< per point; ascending
-  std::vector<uint32_t> bias_ids{};   ///< per bias group; ascending
+  std::vector<uint32_t> pose_ids{};       ///< per pose: in the whole problem; ascending
+  std::vector<uint32_t> point_ids{};      ///< per point; ascending
+  std::vector<uint32_t> bias_ids{};       ///< per bias group; ascending
   std::vector<SeparatorId> separators{};  ///< ascending: poses, biases, points
 };
 

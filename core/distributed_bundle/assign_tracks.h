@@ -13,11 +13,12 @@ namespace orbweave {
 inline constexpr uint32_t kSplitTrack = std::numeric_limits<uint32_t>::max();
 
 /// Which block eliminates each track that panoramas of several owners see. `tracks`: the (free)
-/// poses that see it. Per pair of blocks the side with fewer panoramas that look across becomes
-/// separators (that of the smaller block when equal) and the tracks go to the other side; a
-/// panorama that shares at most two tracks with the other side stays interior, and those tracks
-/// are split: a separator point has three variables, a separator panorama six. Afterwards no
-/// unsplit track touches the interiors of two blocks.
+/// poses that see it, each once, at least one. Per pair of blocks the panoramas of one side that
+/// look across become separators and the tracks go to the other side; a panorama that shares at
+/// most two tracks with the other side stays interior, and those tracks are split, since a
+/// separator point has three variables, a separator panorama six. The side with fewer variables is
+/// taken, that of the smaller block when equal. Afterwards no unsplit track touches the interiors
+/// of two blocks.
 [[nodiscard]] std::vector<uint32_t> AssignTracks(const std::vector<std::vector<uint32_t>>& tracks,
                                                  const std::vector<uint32_t>& owner_of_pose);
 

@@ -17,7 +17,7 @@ namespace orbweave {
 struct SeparatorSystem {
   std::vector<SeparatorId> variables{};  ///< ascending
   NormalSystem normal{};                 ///< a block per variable
-  bool is_definite = true;  ///< false: the step failed, there is nothing else here
+  bool is_definite = true;               ///< false: the step failed, there is nothing else here
 };
 
 struct SeparatorStep {

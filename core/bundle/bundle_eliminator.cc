@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/bundle/bundle_eliminator.h"
+
+#include "core/bundle/prior_terms.h"
+
+namespace orbweave {
+namespace {
+
+BundleState StateOf(const BundleProblem& problem) {
+  BundleState state;
+  for (const Rigid3& cam_from_world : problem.cams_from_world) {
+    const Eigen::Quaterniond rotation = cam_from_world.rotation.normalized();
+    state.poses.push_back(
+        {rotation, rotation.conjugate().toRotationMatrix(), cam_from_world.Centre()});
+  }
+  state.points = problem.points_in_world;
+  state.biases.assign(problem.bias_sigma_m.size(), Eigen::Vector3d::Zero());
+  return state;
+}
+
+std::vector<uint8_t> KeptBlocks(const BundleLayout& layout, const KeptVariables& kept) {
+  std::vector<uint8_t> is_kept(layout.num_blocks, 0);
+  for (const uint32_t pose : kept.poses) is_kept[layout.pose_block[pose]] = 1;
+  for (const uint32_t bias : kept.biases) is_kept[layout.bias_block[bias]] = 1;
+  for (uint32_t k = layout.first_kept_point; k < layout.num_blocks; ++k) is_kept[k] = 1;
+  return is_kept;
+}
+
+}  // namespace
+
+BundleEliminator::BundleEliminator(const BundleProblem& problem,
+                                   const Gauge& gauge,
+                                   const KeptVariables& kept,
+                                   const BundleOptions& options,
+                                   int num_threads)
+    : problem_(problem),
+      gauge_(gauge),
+      num_threads_(num_threads),
+      loss_(options.loss, options.loss_scale),
+      layout_(MakeBundleLayout(problem, gauge, kept.points)),
+      elimination_(layout_.matrix, KeptBlocks(layout_, kept)),
+      reducer_(layout_, num_threads),
+      stepper_(layout_, num_threads),
+      system_(MakeReducedSystem(layout_)) {}
+
+EvaluatedState BundleEliminator::Start() const {
+  EvaluatedState state{.variables = StateOf(problem_)};
+  state.costs = EvaluatePointCosts(layout_, state.variables, loss_, num_threads_);
+  for (const PackedPoint& point : layout_.kept_points) {
+    state.kept_points_before.push_back(state.variables.points[point.point]);
+  }
+  return state;
+}
+
+double BundleEliminator::Cost(const EvaluatedState& state) const {
+  double cost = state.costs.total + PriorCost(problem_, state.variables);
+  for (const PackedPoint& point : layout_.kept_points) {
+    const Eigen::Vector3d& point_in_world = state.variables.points[point.point];
+    cost += EvaluatePointCost(layout_, point, point_in_world, state.variables.poses, loss_).cost;
+  }
+  return cost;
+}
+
+bool BundleEliminator::Linearize(const EvaluatedState& state, const StepControl& control) {
+  loss_ = loss_.Bent(control.is_bent);
+  Clear(system_);
+  reducer_.AddBearings(state.variables, loss_, control.lambda, system_);
+  AddKeptPoints(layout_, state.variables, loss_, system_);
+  AddPriorTerms(problem_, layout_, state.variables, system_);
+  HoldDistance(state.variables);
+  return elimination_.Eliminate(control.lambda, system_);
+}
+
+// A spring on the held distance. The gradient has no part along the scale, so that the step, too,
+// has none, whatever the spring's stiffness.
+void BundleEliminator::HoldDistance(const BundleState& state) {
+  if (!gauge_.farthest) return;
+  const uint32_t block = layout_.pose_block[*gauge_.farthest];
+  const Eigen::Vector3d axis =
+      (state.poses[*gauge_.farthest].centre - state.poses[*gauge_.anchor].centre).normalized();
+  const double stiffness = system_.trace[block][1] / 3.0;
+  system_.S.Diagonal(block).bottomRightCorner<3, 3>() += stiffness * axis * axis.transpose();
+}
+
+TrialCost BundleEliminator::BackSubstitute(const EvaluatedState& state,
+                                           const std::vector<Vector6>& kept_step,
+                                           EvaluatedState& trial) {
+  const std::vector<Vector6> step = elimination_.BackSubstitute(kept_step);
+  StepBlocks(layout_, state.variables, step, trial.variables);
+  trial.variables.points = state.variables.points;
+  trial.kept_points_before.clear();
+  for (const PackedPoint& point : layout_.kept_points) {
+    trial.kept_points_before.push_back(state.variables.points[point.point]);
+  }
+  StepKeptPoints(layout_, state.variables, step, trial.variables);
+
+  TrialCost cost;
+  cost.predicted_decrease =
+      elimination_.PredictedDecrease(system_, step) +
+      stepper_.StepPoints(
+          state.variables, loss_, step, system_, state.costs, trial.variables, trial.costs);
+  cost.cost = trial.costs.total + PriorCost(problem_, trial.variables);
+  cost.kept_points = EvaluateKeptPoints(layout_, state.variables, step, trial.variables, loss_);
+  return cost;
+}
+
+void WriteBack(const BundleLayout& layout, const BundleState& state, BundleProblem& problem) {
+  for (size_t i = 0; i < state.poses.size(); ++i) {
+    if (layout.pose_block[i] == kHeld) continue;
+    problem.cams_from_world[i] = Rigid3::FromCentre(state.poses[i].rotation, state.poses[i].centre);
+  }
+  problem.points_in_world = state.points;
+}
+
+}  // namespace orbweave
