@@ -24,6 +24,7 @@ constexpr int kDoublings = 3;  // of the separator tree: eight children a node
 absl::Status ValidateOwners(const BundleProblem& problem,
                             const std::vector<uint32_t>& owner_of_pose,
                             uint32_t num_blocks) {
+  if (num_blocks == 0) return absl::InvalidArgumentError("num_blocks must be positive");
   if (owner_of_pose.size() != problem.cams_from_world.size()) {
     return absl::InvalidArgumentError("owner_of_pose has " + std::to_string(owner_of_pose.size()) +
                                       " entries, there are " +

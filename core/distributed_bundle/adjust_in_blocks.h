@@ -23,8 +23,8 @@ struct BlockwiseReport {
 /// AdjustBundle with the same path of steps to rounding, computed block by block: every block is
 /// linearised on its own, the systems of their separators are added along a fixed tree
 /// (MakeSeparatorTree), steps come back the same way. Blocks run on `context.num_threads` threads;
-/// same bytes for any number of them. Errors as AdjustBundle; InvalidArgument also for an owner
-/// that is not below `num_blocks`.
+/// same bytes for any number of them. Errors as AdjustBundle; InvalidArgument also for
+/// no blocks or an owner that is not below `num_blocks`.
 [[nodiscard]] absl::StatusOr<BlockwiseReport> AdjustInBlocks(
     BundleProblem& problem,
     const std::vector<uint32_t>& owner_of_pose,
