@@ -12,6 +12,7 @@
 
 #include "core/base/random.h"
 #include "core/bundle/adjust_bundle.h"
+#include "core/distributed_bundle/adjust_in_blocks.h"
 #include "core/geometry/rotation.h"
 #include "core/synthetic/corridor.h"
 
@@ -73,6 +74,15 @@ void ResetPeak() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
+void CountSteps(benchmark::State& state, const BundleProblem& problem, int64_t steps) {
+  const auto work = static_cast<double>(steps) * static_cast<double>(problem.observations.size());
+  state.counters["observations"] = static_cast<double>(problem.observations.size());
+  state.counters["steps"] =
+      benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kAvgIterations);
+  state.counters["step_per_observation"] =
+      benchmark::Counter(work, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 void RunAdjustment(benchmark::State& state,
                    const BundleProblem& start,
                    const BundleOptions& options) {
@@ -90,14 +100,9 @@ void RunAdjustment(benchmark::State& state,
     peak_bytes = std::max(peak_bytes, StatusBytes("VmHWM:") - scene_bytes);
     state.ResumeTiming();
   }
-  const auto num_observations = static_cast<double>(start.observations.size());
-  state.counters["bytes_per_observation"] = peak_bytes / num_observations;
-  const double work = static_cast<double>(steps) * num_observations;
-  state.counters["observations"] = num_observations;
-  state.counters["steps"] =
-      benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kAvgIterations);
-  state.counters["step_per_observation"] =
-      benchmark::Counter(work, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["bytes_per_observation"] =
+      peak_bytes / static_cast<double>(start.observations.size());
+  CountSteps(state, start, steps);
 }
 
 void BM_AdjustCorridor(benchmark::State& state, BundleSolver solver, BundleLoss loss) {
@@ -111,6 +116,32 @@ void BM_AdjustLongCorridor(benchmark::State& state) {
   RunAdjustment(state,
                 CorridorProblem(static_cast<int>(state.range(0)), {}),
                 {.max_iterations = 10, .function_tolerance = 1e-16, .initial_lambda = 1e-8});
+}
+
+/// The same path of steps, block by block: consecutive panoramas in equal shares. `message_bytes`
+/// is the largest system that a block sends per step.
+void BM_AdjustInBlocks(benchmark::State& state) {
+  const BundleProblem start = CorridorProblem(static_cast<int>(state.range(0)), {});
+  const auto num_blocks = static_cast<uint32_t>(state.range(1));
+  const size_t num_poses = start.cams_from_world.size();
+  std::vector<uint32_t> owners;
+  for (size_t pose = 0; pose < num_poses; ++pose) {
+    owners.push_back(static_cast<uint32_t>(pose * num_blocks / num_poses));
+  }
+  int64_t steps = 0;
+  size_t message_bytes = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    BundleProblem problem = start;
+    state.ResumeTiming();
+    const absl::StatusOr<BlockwiseReport> report =
+        AdjustInBlocks(problem, owners, num_blocks, {.initial_lambda = 1e-8}, {});
+    steps += report->bundle.iterations;
+    const std::vector<size_t>& bytes = report->message_bytes_of_block;
+    message_bytes = *std::max_element(bytes.begin(), bytes.end());
+  }
+  CountSteps(state, start, steps);
+  state.counters["message_bytes"] = static_cast<double>(message_bytes);
 }
 
 /// Twelve free panoramas amid held ones, as after each registration.
@@ -138,6 +169,11 @@ BENCHMARK_CAPTURE(BM_AdjustCorridor,
                   BundleSolver::kSchur,
                   BundleLoss::kLeastSquares)
     ->Arg(400)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_AdjustInBlocks)
+    ->Args({400, 1})
+    ->Args({400, 4})
+    ->Args({400, 16})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_AdjustCorridor, ceres_cauchy, BundleSolver::kCeres, BundleLoss::kCauchy)
     ->Arg(100)

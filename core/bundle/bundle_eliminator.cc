@@ -11,9 +11,8 @@ namespace {
 BundleState StateOf(const BundleProblem& problem) {
   BundleState state;
   for (const Rigid3& cam_from_world : problem.cams_from_world) {
-    const Eigen::Quaterniond rotation = cam_from_world.rotation.normalized();
     state.poses.push_back(
-        {rotation, rotation.conjugate().toRotationMatrix(), cam_from_world.Centre()});
+        MakePoseState(cam_from_world.rotation.normalized(), cam_from_world.Centre()));
   }
   state.points = problem.points_in_world;
   state.biases.assign(problem.bias_sigma_m.size(), Eigen::Vector3d::Zero());

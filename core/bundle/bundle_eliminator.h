@@ -50,6 +50,8 @@ class BundleEliminator {
                    const KeptVariables& kept,
                    const BundleOptions& options,
                    int num_threads);
+  BundleEliminator(const BundleEliminator&) = delete;
+  BundleEliminator& operator=(const BundleEliminator&) = delete;
 
   /// The problem's own poses and points, no bias, evaluated.
   [[nodiscard]] EvaluatedState Start() const;

@@ -15,6 +15,12 @@ struct PoseState {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
 };
 
+/// `rotation` (cam_from_world) is unit.
+[[nodiscard]] inline PoseState MakePoseState(const Eigen::Quaterniond& rotation,
+                                             const Eigen::Vector3d& centre) {
+  return {rotation, rotation.conjugate().toRotationMatrix(), centre};
+}
+
 /// The variables of one solve, held ones included.
 struct BundleState {
   std::vector<PoseState> poses{};

@@ -87,9 +87,8 @@ void StepBlocks(const BundleLayout& layout,
     if (layout.pose_block[i] == kHeld) continue;
     PoseState& pose = trial.poses[i];
     const Vector6& delta = step[layout.pose_block[i]];
-    pose.rotation = (pose.rotation * RotationFromVector(delta.head<3>())).normalized();
-    pose.world_from_cam = pose.rotation.conjugate().toRotationMatrix();
-    pose.centre += delta.tail<3>();
+    pose = MakePoseState((pose.rotation * RotationFromVector(delta.head<3>())).normalized(),
+                         pose.centre + delta.tail<3>());
   }
   for (size_t g = 0; g < trial.biases.size(); ++g) {
     if (layout.bias_block[g] != kHeld) trial.biases[g] += step[layout.bias_block[g]].tail<3>();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <limits>
 
 #include "core/base/random.h"
@@ -62,6 +63,42 @@ TEST(BlockCholesky, SolvesWhatDenseCholeskySolves) {
     for (uint32_t i = 0; i < num_blocks; ++i) {
       EXPECT_LT((x[i] - expected.segment<6>(6 * i)).norm(), 1e-12 * expected.norm());
     }
+  }
+}
+
+TEST(BlockCholesky, LeavesTheSchurComplementOfKeptBlocks) {
+  const uint32_t num_blocks = 12;
+  const SymmetricBlockMatrix matrix = RandomMatrix(num_blocks, 5);
+  std::vector<uint8_t> is_kept(num_blocks, 0);
+  for (const size_t block : {1U, 4U, 10U}) is_kept[block] = 1;
+  BlockCholesky cholesky(matrix, is_kept);
+  ASSERT_TRUE(cholesky.Factorize(matrix));
+  // The inverse of the complement is the kept part of the inverse.
+  const Eigen::MatrixXd inverse = Dense(matrix).inverse();
+  const Eigen::MatrixXd complement = Dense(cholesky.Remaining());
+  Eigen::MatrixXd kept_inverse(18, 18);
+  const Eigen::Index kept[] = {1, 4, 10};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      kept_inverse.block<6, 6>(6 * i, 6 * j) = inverse.block<6, 6>(6 * kept[i], 6 * kept[j]);
+    }
+  }
+  EXPECT_LT((complement * kept_inverse - Eigen::MatrixXd::Identity(18, 18)).norm(), 1e-12);
+
+  std::vector<Vector6> x(num_blocks, Vector6::Ones());
+  cholesky.SolveForward(x);
+  Eigen::VectorXd kept_rhs(18);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    kept_rhs.segment<6>(6 * i) = x[static_cast<size_t>(kept[i])];
+  }
+  const Eigen::VectorXd kept_solution = complement.llt().solve(kept_rhs);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    x[static_cast<size_t>(kept[i])] = kept_solution.segment<6>(6 * i);
+  }
+  cholesky.SolveBackward(x);
+  const Eigen::VectorXd expected = inverse * Eigen::VectorXd::Ones(6 * num_blocks);
+  for (uint32_t i = 0; i < num_blocks; ++i) {
+    EXPECT_LT((x[i] - expected.segment<6>(6 * i)).norm(), 1e-12);
   }
 }
 

@@ -9,6 +9,8 @@
 #include <map>
 
 #include "core/distributed_bundle/divide_into_blocks.h"
+#include "core/distributed_bundle/judge_trial.h"
+#include "core/distributed_bundle/solve_along_tree.h"
 #include "tests/core/distributed_bundle/corridor_problem.h"
 
 namespace orbweave {
@@ -95,6 +97,45 @@ TEST(BlockSolver, MovesCopiesOfASeparatorAlike) {
     }
   }
   EXPECT_GT(num_shared, 0U);
+}
+
+// A point 100 km away that two distant blocks share, taken for near: its step is a leap.
+TEST(BlockSolver, ShortensTheLeapOfASeparatorPointAsOneProcessDoes) {
+  BundleProblem problem = MakeCorridorProblem({.has_fixed = true});
+  const Eigen::Vector3d far_away(1e4, 1e5, 0.0);
+  const auto point = static_cast<uint32_t>(problem.points_in_world.size());
+  problem.points_in_world.push_back(problem.cams_from_world[5].Centre() +
+                                    20.0 * far_away.normalized());
+  problem.point_is_fixed.push_back(0);
+  for (const uint32_t pose : {5U, 55U}) {
+    const Eigen::Vector3d bearing = (problem.cams_from_world[pose] * far_away).normalized();
+    problem.observations.push_back(
+        {.pose = pose, .point = point, .bearing = bearing, .sigma_rad = 1e-3});
+  }
+  const std::vector<AdjustmentBlock> blocks =
+      DivideIntoBlocks(problem, ConsecutiveOwners(60, 5), 5);
+  std::vector<std::vector<SeparatorId>> separators;
+  std::vector<SeparatorSystem> systems;
+  std::vector<EvaluatedState> starts;
+  for (const AdjustmentBlock& block : blocks) {
+    separators.push_back(block.separators);
+    starts.push_back(BlockSolver(block, {}, 1).Start().state);
+    systems.push_back(LinearizeBlock(block, starts.back(), kControl, {}, 1));
+  }
+  const std::optional<SeparatorSolution> solution =
+      SolveAlongTree(MakeSeparatorTree(separators, 1), systems, kControl.lambda);
+  ASSERT_TRUE(solution.has_value());
+  std::vector<TrialCost> costs;
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    const SeparatorStep& step = solution->step_of_block[b];
+    costs.push_back(BackSubstituteBlock(blocks[b], starts[b], kControl, step, {}, 1).cost);
+  }
+  const JudgedTrial judged = JudgeTrial(separators, costs, solution->predicted_decrease);
+  ASSERT_EQ(judged.shortened.size(), 1U);
+  EXPECT_EQ(judged.shortened[0].point, point);
+  const absl::StatusOr<BundleReport> one = AdjustBundle(problem, {.max_iterations = 1}, {});
+  ASSERT_TRUE(one.ok());
+  EXPECT_NEAR(judged.cost, one->final_cost, 1e-9 * one->final_cost);
 }
 
 TEST(BlockSolver, AcceptedShortensSharedPoints) {
