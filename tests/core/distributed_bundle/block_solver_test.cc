@@ -99,21 +99,25 @@ TEST(BlockSolver, MovesCopiesOfASeparatorAlike) {
   EXPECT_GT(num_shared, 0U);
 }
 
-// A point 100 km away that two distant blocks share, taken for near: its step is a leap.
+// A point that two distant blocks share, taken for much farther than it is: its step is a leap to
+// behind the street.
 TEST(BlockSolver, ShortensTheLeapOfASeparatorPointAsOneProcessDoes) {
   BundleProblem problem = MakeCorridorProblem({.has_fixed = true});
-  const Eigen::Vector3d far_away(1e4, 1e5, 0.0);
+  const Eigen::Vector3d first = problem.cams_from_world[1].Centre();
+  const Eigen::Vector3d last = problem.cams_from_world[58].Centre();
+  const Eigen::Vector3d middle = 0.5 * (first + last);
+  const Eigen::Vector3d aside = (last - first).cross(Eigen::Vector3d::UnitZ());
   const auto point = static_cast<uint32_t>(problem.points_in_world.size());
-  problem.points_in_world.push_back(problem.cams_from_world[5].Centre() +
-                                    20.0 * far_away.normalized());
+  problem.points_in_world.push_back(middle + 8.0 * aside);
   problem.point_is_fixed.push_back(0);
-  for (const uint32_t pose : {5U, 55U}) {
-    const Eigen::Vector3d bearing = (problem.cams_from_world[pose] * far_away).normalized();
+  for (const uint32_t pose : {1U, 58U}) {
+    const Eigen::Vector3d bearing = problem.cams_from_world[pose] * (middle + 2.0 * aside);
     problem.observations.push_back(
-        {.pose = pose, .point = point, .bearing = bearing, .sigma_rad = 1e-3});
+        {.pose = pose, .point = point, .bearing = bearing.normalized(), .sigma_rad = 1e-3});
   }
   const std::vector<AdjustmentBlock> blocks =
       DivideIntoBlocks(problem, ConsecutiveOwners(60, 5), 5);
+  ASSERT_EQ(blocks[0].separators.back(), (SeparatorId{SeparatorId::Kind::kPoint, point}));
   std::vector<std::vector<SeparatorId>> separators;
   std::vector<SeparatorSystem> systems;
   std::vector<EvaluatedState> starts;
