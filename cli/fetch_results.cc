@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/job_plan.h"
+#include "proto/codec/adjustment_codec.h"
+#include "proto/codec/block_codec.h"
 #include "proto/codec/features_codec.h"
 #include "proto/codec/manifest_codec.h"
 #include "proto/codec/reconstruction_codec.h"
@@ -22,6 +24,17 @@ std::vector<Digest> OutputsOf(const std::vector<TaskOutcome>& outcomes, std::str
   for (const TaskOutcome& outcome : outcomes) {
     if (outcome.stage != stage) continue;
     outputs.insert(outputs.end(), outcome.result.outputs.begin(), outcome.result.outputs.end());
+  }
+  return outputs;
+}
+
+/// The first output of each part of a stage, in part order.
+std::vector<Digest> FirstOutputsOf(const std::vector<TaskOutcome>& outcomes,
+                                   std::string_view stage) {
+  std::vector<Digest> outputs;
+  for (const TaskOutcome& outcome : outcomes) {
+    if (outcome.stage == stage && !outcome.result.outputs.empty())
+      outputs.push_back(outcome.result.outputs.front());
   }
   return outputs;
 }
@@ -45,6 +58,14 @@ absl::StatusOr<std::vector<Digest>> ExtractedBlobs(CoordinatorApi& coordinator,
   if (job.kind != kFromMatches) return OutputsOf(outcomes, "extract_features");
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(job.inputs[1]));
   return DecodeCollection(bytes);
+}
+
+/// The report counts a cluster's tracks; what they see is in the model.
+ClusterResult WithoutObservations(ClusterResult cluster) {
+  for (Reconstruction& component : cluster.reconstruction.components) {
+    for (Track& track : component.tracks) track.observations = {};
+  }
+  return cluster;
 }
 
 std::vector<std::string> ImageProblems(const std::vector<TaskOutcome>& outcomes) {
@@ -77,15 +98,27 @@ absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
   ORBWEAVE_ASSIGN_OR_RETURN(
       results.view_graph,
       FetchOne(coordinator, outcomes, "partition_view_graph", DecodeDividedViewGraph));
-  for (const Digest& digest : OutputsOf(outcomes, "reconstruct_cluster")) {
+  for (const Digest& digest : FirstOutputsOf(outcomes, "reconstruct_cluster")) {
     ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
     ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult cluster, DecodeClusterResult(bytes));
-    results.clusters.push_back(std::move(cluster));
+    results.clusters.push_back(WithoutObservations(std::move(cluster)));
   }
   ORBWEAVE_ASSIGN_OR_RETURN(results.alignment,
                             FetchOne(coordinator, outcomes, "align_submodels", DecodeAlignment));
   ORBWEAVE_ASSIGN_OR_RETURN(
-      results.worlds, FetchOne(coordinator, outcomes, "adjust_globally", DecodeAdjustedWorlds));
+      const ConcludedModel model,
+      FetchOne(coordinator, outcomes, "conclude_adjustment", DecodeConcludedModel));
+  for (size_t world = 0; world < model.worlds.size(); ++world) {
+    std::vector<WorldBlock> blocks;
+    for (const Digest& digest : model.blocks[world]) {
+      ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
+      ORBWEAVE_ASSIGN_OR_RETURN(blocks.emplace_back(), DecodeWorldBlock(bytes));
+    }
+    results.worlds.push_back(
+        {GatherWorld(model.worlds[world], std::move(blocks)), model.worlds[world].report});
+    const std::vector<SeamCertificate>& seams = model.worlds[world].seams;
+    results.certificates.insert(results.certificates.end(), seams.begin(), seams.end());
+  }
   return results;
 }
 

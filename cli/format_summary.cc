@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/io/html_text.h"
 
 namespace orbweave {
 namespace {
@@ -16,6 +17,19 @@ std::string GnssLine(const ReportGnss& gnss) {
                          gnss.num_inliers,
                          gnss.num_priors,
                          gnss.residual_rms_inliers_m);
+}
+
+std::string SigmaLine(const JobReport& report) {
+  const ReportUncertainty& uncertainty = report.uncertainty;
+  if (!uncertainty.known) return "unknown: " + uncertainty.reason;
+  return absl::StrCat(
+      SigmaText(uncertainty.position_median),
+      report.gnss.used ? " m" : " units",
+      ", ",
+      SigmaText(uncertainty.rotation_median_deg),
+      " deg (median, ",
+      uncertainty.held_image.empty() ? "absolute" : "relative to " + uncertainty.held_image,
+      ")");
 }
 
 std::string LeftOut(const JobReport& report) {
@@ -71,6 +85,7 @@ std::string FormatSummary(const JobReport& report, const std::string& output) {
   absl::StrAppendFormat(
       &text, "  clusters    %u, %u seams\n", report.clusters.size(), report.seams.size());
   absl::StrAppend(&text, "  GNSS        ", GnssLine(report.gnss), "\n");
+  absl::StrAppend(&text, "  sigma       ", SigmaLine(report), "\n");
   absl::StrAppend(&text, LeftOut(report));
   for (const std::string& warning : report.warnings)
     absl::StrAppend(&text, "  warning     ", warning, "\n");

@@ -47,16 +47,17 @@ void AddFields(CLI::App& command, Options& options) {
 }
 
 std::string GnssCsv(const ImageManifest& manifest) {
-  std::string csv = "name,latitude,longitude,altitude,accuracy\n";
+  std::string csv = "name,latitude,longitude,altitude,accuracy,drive\n";
   for (const ImageRecord& image : manifest.images) {
     if (!image.prior.geodetic) continue;
     absl::StrAppendFormat(&csv,
-                          "%s,%.9f,%.9f,%.4f,%.3f\n",
+                          "%s,%.9f,%.9f,%.4f,%.3f,%d\n",
                           image.name,
                           image.prior.geodetic->latitude_deg,
                           image.prior.geodetic->longitude_deg,
                           image.prior.geodetic->altitude_m,
-                          image.prior.horizontal_sigma_m);
+                          image.prior.horizontal_sigma_m,
+                          image.drive);
   }
   return csv;
 }

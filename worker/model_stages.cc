@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/graph/build_view_graph.h"
+#include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/partition_view_graph.h"
-#include "core/merging/adjust_globally.h"
 #include "core/merging/align_submodels.h"
-#include "core/merging/merge_submodels.h"
+#include "core/merging/rim.h"
+#include "core/scene/view_edge_of.h"
 #include "core/stages/assemble_cluster.h"
 #include "core/stages/plan_recipes.h"
 #include "proto/codec/features_codec.h"
@@ -21,15 +22,6 @@
 
 namespace orbweave {
 namespace {
-
-ViewEdge ToEdge(const TwoViewGeometry& geometry) {
-  return {.pair = geometry.pair,
-          .kind = geometry.kind,
-          .b_from_a = geometry.b_from_a,
-          .num_inliers = static_cast<uint32_t>(geometry.inliers.size()),
-          .median_angle_rad = geometry.median_angle_rad,
-          .spread = geometry.spread};
-}
 
 /// Edges of all verified pairs, one blob open at a time.
 struct CollectedEdges {
@@ -44,26 +36,18 @@ absl::StatusOr<CollectedEdges> CollectEdges(const std::vector<Digest>& match_blo
     ORBWEAVE_ASSIGN_OR_RETURN(const auto geometries,
                               FetchBlob(digest, blobs, DecodeTwoViewGeometries));
     for (const TwoViewGeometry& geometry : geometries) {
-      collected.edges.push_back(ToEdge(geometry));
+      collected.edges.push_back(ViewEdgeOf(geometry));
       collected.blob_of_pair[geometry.pair] = digest;
     }
   }
   return collected;
 }
 
-/// Every component of every cluster, by cluster and then by size.
-absl::StatusOr<std::vector<Submodel>> LoadSubmodels(const TaskSpec& spec, BlobAccess& blobs) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests,
-                            FetchInput(spec, 1, blobs, DecodeCollection));
-  std::vector<Submodel> submodels;
-  for (const Digest& digest : digests) {
-    ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult result, FetchBlob(digest, blobs, DecodeClusterResult));
-    uint32_t component = 0;
-    for (Reconstruction& reconstruction : result.reconstruction.components) {
-      submodels.push_back({result.cluster, component++, std::move(reconstruction)});
-    }
-  }
-  return submodels;
+ClusterResult RimOfCluster(const ClusterResult& cluster, const std::vector<ImageId>& shared) {
+  ClusterResult rim{.cluster = cluster.cluster};
+  for (const Reconstruction& component : cluster.reconstruction.components)
+    rim.reconstruction.components.push_back(RimOf(component, shared));
+  return rim;
 }
 
 }  // namespace
@@ -79,10 +63,11 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> match_blobs,
                             FetchInput(spec, 2, blobs, DecodeCollection));
   ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
-  const FilteredViewGraph filtered = BuildViewGraph(static_cast<uint32_t>(manifest.images.size()),
-                                                    std::move(collected.edges),
-                                                    options.view_graph);
-  DividedViewGraph divided{.dropped = filtered.dropped};
+  EdgesByGnss by_gnss = DropEdgesAgainstGnss(collected.edges, manifest);
+  const FilteredViewGraph filtered = BuildViewGraph(
+      static_cast<uint32_t>(manifest.images.size()), std::move(by_gnss.kept), options.view_graph);
+  DividedViewGraph divided{.dropped = std::move(by_gnss.dropped)};
+  divided.dropped.insert(divided.dropped.end(), filtered.dropped.begin(), filtered.dropped.end());
   ORBWEAVE_ASSIGN_OR_RETURN(divided.partition,
                             PartitionViewGraph(filtered.graph, options.partition));
   for (const ViewEdge& edge : filtered.graph.edges) divided.edges.push_back(edge.pair);
@@ -121,13 +106,17 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeClusterResult(cluster), blobs, result));
+  ORBWEAVE_RETURN_IF_ERROR(
+      PutOutput(EncodeClusterResult(RimOfCluster(cluster, recipe.shared)), blobs, result));
   size_t registered = 0;
   for (const Reconstruction& component : cluster.reconstruction.components)
     registered += component.images.size();
   result.report_json = nlohmann::json{{"images", problem.images.size()},
                                       {"registered", registered},
                                       {"components", cluster.reconstruction.components.size()},
-                                      {"residual_rms_px", cluster.reconstruction.residual_rms_px}}
+                                      {"residual_rms_px", cluster.reconstruction.residual_rms_px},
+                                      {"started_globally", cluster.reconstruction.started_globally},
+                                      {"start_remark", cluster.reconstruction.start_remark}}
                            .dump();
   return result;
 }
@@ -136,50 +125,13 @@ absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
                                              BlobAccess& blobs,
                                              const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadSubmodels(spec, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadRims(spec, 0, blobs));
   ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment,
                             AlignSubmodels(submodels, options.align, context));
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAlignment(alignment), blobs, result));
   result.report_json =
       nlohmann::json{{"submodels", submodels.size()}, {"seams", alignment.seams.size()}}.dump();
-  return result;
-}
-
-absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec,
-                                             BlobAccess& blobs,
-                                             const StageContext&) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadSubmodels(spec, blobs));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 2, blobs, DecodeAlignment));
-  if (alignment.world.size() != submodels.size()) {
-    return absl::InvalidArgumentError("merge_submodels: the alignment is of other submodels");
-  }
-  const std::vector<MergedWorld> worlds = MergeSubmodels(submodels, alignment);
-  TaskResult result;
-  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeMergedWorlds(worlds), blobs, result));
-  result.report_json = nlohmann::json{{"worlds", worlds.size()}}.dump();
-  return result;
-}
-
-absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec,
-                                             BlobAccess& blobs,
-                                             const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
-                            FetchInput(spec, 0, blobs, DecodeImageManifest));
-  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MergedWorld> worlds,
-                            FetchInput(spec, 1, blobs, DecodeMergedWorlds));
-  std::vector<GloballyAdjusted> adjusted;
-  for (MergedWorld& world : worlds) {
-    ORBWEAVE_ASSIGN_OR_RETURN(
-        GloballyAdjusted done,
-        AdjustGlobally(
-            std::move(world.reconstruction), manifest, options.global, options.bundle, context));
-    adjusted.push_back(std::move(done));
-  }
-  TaskResult result;
-  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAdjustedWorlds(adjusted), blobs, result));
-  result.report_json = nlohmann::json{{"worlds", adjusted.size()}}.dump();
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/task.h"
 
-/// The stages from verified pairs to one model, as tasks. Inputs and outputs:
+/// The stages from verified pairs to aligned submodels, as tasks. Inputs and outputs:
 /// core/pipeline/job_plan.cc.
 
 namespace orbweave {
@@ -15,20 +15,12 @@ namespace orbweave {
 absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
                                                  BlobAccess& blobs,
                                                  const StageContext& context);
-/// ClusterRecipe -> ClusterResult.
+/// ClusterRecipe -> ClusterResult, and the same with rims alone.
 absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
                                                  BlobAccess& blobs,
                                                  const StageContext& context);
-/// manifest, cluster results -> Alignment.
+/// Rims -> Alignment.
 absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
-                                             BlobAccess& blobs,
-                                             const StageContext& context);
-/// manifest, cluster results, Alignment -> MergedWorlds.
-absl::StatusOr<TaskResult> RunMergeSubmodels(const TaskSpec& spec,
-                                             BlobAccess& blobs,
-                                             const StageContext& context);
-/// manifest, MergedWorlds -> AdjustedWorlds.
-absl::StatusOr<TaskResult> RunAdjustGlobally(const TaskSpec& spec,
                                              BlobAccess& blobs,
                                              const StageContext& context);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worker/stage_io.h"
 
+#include "proto/codec/reconstruction_codec.h"
+
 namespace orbweave {
 
 absl::StatusOr<ExtractedBlobs> SplitExtracted(std::string_view collection) {
@@ -16,6 +18,21 @@ absl::StatusOr<ExtractedBlobs> SplitExtracted(std::string_view collection) {
     blobs.places.push_back(digests[i + 1]);
   }
   return blobs;
+}
+
+absl::StatusOr<std::vector<Submodel>> LoadRims(const TaskSpec& spec,
+                                               size_t index,
+                                               BlobAccess& blobs) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests,
+                            FetchInput(spec, index, blobs, DecodeCollection));
+  std::vector<Submodel> rims;
+  for (const Digest& digest : digests) {
+    ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult rim, FetchBlob(digest, blobs, DecodeClusterResult));
+    uint32_t component = 0;
+    for (Reconstruction& reconstruction : rim.reconstruction.components)
+      rims.push_back({rim.cluster, component++, std::move(reconstruction)});
+  }
+  return rims;
 }
 
 }  // namespace orbweave

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/status.h"
+#include "core/merging/align_submodels.h"
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/job_plan.h"
 #include "core/pipeline/task.h"
@@ -63,5 +64,11 @@ struct ExtractedBlobs {
   std::vector<Digest> places{};
 };
 absl::StatusOr<ExtractedBlobs> SplitExtracted(std::string_view collection);
+
+/// The rims of all submodels, from the collection that is input number `index`: every component of
+/// every cluster, by cluster and then by size.
+absl::StatusOr<std::vector<Submodel>> LoadRims(const TaskSpec& spec,
+                                               size_t index,
+                                               BlobAccess& blobs);
 
 }  // namespace orbweave

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "worker/adjustment_stages.h"
 #include "worker/image_stages.h"
 #include "worker/model_stages.h"
 
@@ -20,8 +21,11 @@ const StageFunction* FindStage(std::string_view stage) {
       {"partition_view_graph", RunPartitionViewGraph},
       {"reconstruct_cluster", RunReconstructCluster},
       {"align_submodels", RunAlignSubmodels},
-      {"merge_submodels", RunMergeSubmodels},
-      {"adjust_globally", RunAdjustGlobally},
+      {"join_submodels", RunJoinSubmodels},
+      {"assemble_block", RunAssembleBlock},
+      {"steer_adjustment", RunSteerAdjustment},
+      {"adjust_block", RunAdjustBlock},
+      {"conclude_adjustment", RunConcludeAdjustment},
   };
   const auto found = kTable->find(stage);
   return found == kTable->end() ? nullptr : &found->second;

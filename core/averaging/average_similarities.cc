@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/averaging/solve_similarity_graph.h"
+#include "core/averaging/spanning_forest.h"
 #include "core/graph/disjoint_sets.h"
 
 namespace orbweave {
@@ -55,48 +55,20 @@ std::vector<uint8_t> ChooseFixedNodes(const SimilarityGraph& graph,
   return is_fixed;
 }
 
-// Edges of a maximum spanning forest by strength.
-std::vector<uint32_t> SpanningForest(const SimilarityGraph& graph) {
-  std::vector<uint32_t> order(graph.edges.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
-    return graph.edges[x].strength > graph.edges[y].strength;
-  });
-  DisjointSets sets(static_cast<uint32_t>(graph.node_length.size()));
-  std::vector<uint32_t> forest;
-  for (const uint32_t e : order) {
-    if (sets.Unite(graph.edges[e].a, graph.edges[e].b)) forest.push_back(e);
-  }
-  return forest;
-}
-
-// Chains the measurements of a forest outward from the fixed nodes.
-std::vector<Sim3> ChainForest(const SimilarityGraph& graph,
-                              const std::vector<uint32_t>& forest,
-                              const std::vector<uint8_t>& is_fixed) {
-  std::vector<std::vector<uint32_t>> edges_of(is_fixed.size());
-  for (const uint32_t e : forest) {
-    edges_of[graph.edges[e].a].push_back(e);
-    edges_of[graph.edges[e].b].push_back(e);
+// Chains the strongest measurements outward from the fixed nodes.
+std::vector<Sim3> ChainForest(const SimilarityGraph& graph, const std::vector<uint8_t>& is_fixed) {
+  std::vector<GraphEdge> edges;
+  Eigen::VectorXd strength(static_cast<Eigen::Index>(graph.edges.size()));
+  for (const SimilarityEdge& edge : graph.edges) {
+    strength[static_cast<Eigen::Index>(edges.size())] = edge.strength;
+    edges.push_back({edge.a, edge.b});
   }
   std::vector<Sim3> world_from_node(is_fixed.size());
-  std::vector<uint8_t> is_placed = is_fixed;
-  std::vector<uint32_t> queue;
-  for (uint32_t i = 0; i < is_fixed.size(); ++i) {
-    if (is_fixed[i] != 0) queue.push_back(i);
-  }
-  for (size_t next = 0; next < queue.size(); ++next) {
-    const uint32_t from = queue[next];
-    for (const uint32_t e : edges_of[from]) {
-      const SimilarityEdge& edge = graph.edges[e];
-      const uint32_t to = edge.a == from ? edge.b : edge.a;
-      if (is_placed[to] != 0) continue;
-      const Sim3& a_from_b = edge.measured.a_from_b;
-      world_from_node[to] =
-          world_from_node[from] * (edge.a == from ? a_from_b : a_from_b.Inverse());
-      is_placed[to] = 1;
-      queue.push_back(to);
-    }
+  for (const ForestStep& step : WalkSpanningForest(edges, strength, is_fixed)) {
+    const Sim3& a_from_b = graph.edges[step.edge].measured.a_from_b;
+    const bool is_forward = step.from == graph.edges[step.edge].a;
+    world_from_node[step.to] =
+        world_from_node[step.from] * (is_forward ? a_from_b : a_from_b.Inverse());
   }
   return world_from_node;
 }
@@ -135,7 +107,7 @@ absl::StatusOr<AveragedSimilarities> AverageSimilarities(const SimilarityGraph& 
   result.part = NumberParts(graph);
   result.is_used.assign(graph.edges.size(), 1);
   const std::vector<uint8_t> is_fixed = ChooseFixedNodes(graph, result.part);
-  const std::vector<Sim3> chained = ChainForest(graph, SpanningForest(graph), is_fixed);
+  const std::vector<Sim3> chained = ChainForest(graph, is_fixed);
 
   SimilaritySolver solver(graph, is_fixed);
   ORBWEAVE_ASSIGN_OR_RETURN(SimilaritySolution best,

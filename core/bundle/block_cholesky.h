@@ -36,6 +36,10 @@ class BlockCholesky {
 
   /// A_kk - A_ke A_ee^-1 A_ek, blocks in the order of A.
   [[nodiscard]] SymmetricBlockMatrix Remaining() const;
+  /// The diagonal blocks of A^-1, by the sparse inverse subset: of A^-1 only the blocks in the
+  /// pattern of L are formed (Takahashi 1973, Erisman 1975), at about the cost of Factorize, which
+  /// must have succeeded.
+  [[nodiscard]] std::vector<Block6> InverseDiagonal() const;
 
   /// Blocks in L, diagonal ones included.
   [[nodiscard]] size_t NumFactorBlocks() const { return rows_.size(); }

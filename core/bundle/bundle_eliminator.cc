@@ -8,17 +8,6 @@
 namespace orbweave {
 namespace {
 
-BundleState StateOf(const BundleProblem& problem) {
-  BundleState state;
-  for (const Rigid3& cam_from_world : problem.cams_from_world) {
-    state.poses.push_back(
-        MakePoseState(cam_from_world.rotation.normalized(), cam_from_world.Centre()));
-  }
-  state.points = problem.points_in_world;
-  state.biases.assign(problem.bias_sigma_m.size(), Eigen::Vector3d::Zero());
-  return state;
-}
-
 std::vector<uint8_t> KeptBlocks(const BundleLayout& layout, const KeptVariables& kept) {
   std::vector<uint8_t> is_kept(layout.num_blocks, 0);
   for (const uint32_t pose : kept.poses) is_kept[layout.pose_block[pose]] = 1;
@@ -45,7 +34,7 @@ BundleEliminator::BundleEliminator(const BundleProblem& problem,
       system_(MakeReducedSystem(layout_)) {}
 
 EvaluatedState BundleEliminator::Start() const {
-  EvaluatedState state{.variables = StateOf(problem_)};
+  EvaluatedState state{.variables = InitialState(problem_)};
   state.costs = EvaluatePointCosts(layout_, state.variables, loss_, num_threads_);
   for (const PackedPoint& point : layout_.kept_points) {
     state.kept_points_before.push_back(state.variables.points[point.point]);
@@ -68,19 +57,8 @@ bool BundleEliminator::Linearize(const EvaluatedState& state, const StepControl&
   reducer_.AddBearings(state.variables, loss_, control.lambda, system_);
   AddKeptPoints(layout_, state.variables, loss_, system_);
   AddPriorTerms(problem_, layout_, state.variables, system_);
-  HoldDistance(state.variables);
+  AddDistanceSpring(gauge_, layout_, state.variables, system_);
   return elimination_.Eliminate(control.lambda, system_);
-}
-
-// A spring on the held distance. The gradient has no part along the scale, so that the step, too,
-// has none, whatever the spring's stiffness.
-void BundleEliminator::HoldDistance(const BundleState& state) {
-  if (!gauge_.farthest) return;
-  const uint32_t block = layout_.pose_block[*gauge_.farthest];
-  const Eigen::Vector3d axis =
-      (state.poses[*gauge_.farthest].centre - state.poses[*gauge_.anchor].centre).normalized();
-  const double stiffness = system_.trace[block][1] / 3.0;
-  system_.S.Diagonal(block).bottomRightCorner<3, 3>() += stiffness * axis * axis.transpose();
 }
 
 TrialCost BundleEliminator::BackSubstitute(const EvaluatedState& state,

@@ -50,6 +50,7 @@ class BundleEliminator {
                    const KeptVariables& kept,
                    const BundleOptions& options,
                    int num_threads);
+
   BundleEliminator(const BundleEliminator&) = delete;
   BundleEliminator& operator=(const BundleEliminator&) = delete;
 
@@ -75,8 +76,6 @@ class BundleEliminator {
   [[nodiscard]] const BundleLayout& layout() const { return layout_; }
 
  private:
-  void HoldDistance(const BundleState& state);
-
   const BundleProblem& problem_;
   const Gauge& gauge_;
   int num_threads_;

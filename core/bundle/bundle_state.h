@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "core/bundle/adjust_bundle.h"
+
 namespace orbweave {
 
 /// A pose (R, C); the matrix is kept beside the quaternion because every observation turns by it.
@@ -15,7 +17,7 @@ struct PoseState {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
 };
 
-/// `rotation` (cam_from_world) is unit.
+/// `rotation` is of unit length.
 [[nodiscard]] inline PoseState MakePoseState(const Eigen::Quaterniond& rotation,
                                              const Eigen::Vector3d& centre) {
   return {rotation, rotation.conjugate().toRotationMatrix(), centre};
@@ -27,5 +29,8 @@ struct BundleState {
   std::vector<Eigen::Vector3d> points{};
   std::vector<Eigen::Vector3d> biases{};
 };
+
+/// The problem's poses and points; biases zero.
+[[nodiscard]] BundleState InitialState(const BundleProblem& problem);
 
 }  // namespace orbweave

@@ -11,13 +11,6 @@
 namespace orbweave {
 namespace {
 
-// diag(1/sigma) (C + bias - position)
-Eigen::Vector3d WhitenedResidual(const PositionPrior& prior, const BundleState& state) {
-  Eigen::Vector3d difference = state.poses[prior.pose].centre - prior.position_in_world;
-  if (prior.bias_group) difference += state.biases[*prior.bias_group];
-  return difference.cwiseQuotient(prior.sigma_m);
-}
-
 // A direction is a point at unit distance from a camera in the origin.
 BearingTerm LineariseDirection(const DirectionPrior& prior, const BundleState& state) {
   return LineariseBearing(Eigen::Vector3d::Zero(),
@@ -89,6 +82,12 @@ void AddDirectionTerms(const BundleProblem& problem,
 
 }  // namespace
 
+Eigen::Vector3d WhitenedResidual(const PositionPrior& prior, const BundleState& state) {
+  Eigen::Vector3d difference = state.poses[prior.pose].centre - prior.position_in_world;
+  if (prior.bias_group) difference += state.biases[*prior.bias_group];
+  return difference.cwiseQuotient(prior.sigma_m);
+}
+
 double PriorCost(const BundleProblem& problem, const BundleState& state) {
   double cost = 0.0;
   for (const PositionPrior& prior : problem.position_priors) {
@@ -112,6 +111,19 @@ void AddPriorTerms(const BundleProblem& problem,
   AddPositionTerms(problem, layout, state, system);
   AddBiasTerms(problem, layout, state, system);
   AddDirectionTerms(problem, layout, state, system);
+}
+
+double AddDistanceSpring(const Gauge& gauge,
+                         const BundleLayout& layout,
+                         const BundleState& state,
+                         ReducedSystem& system) {
+  if (!gauge.farthest) return 0.0;
+  const uint32_t block = layout.pose_block[*gauge.farthest];
+  const Eigen::Vector3d axis =
+      (state.poses[*gauge.farthest].centre - state.poses[*gauge.anchor].centre).normalized();
+  const double stiffness = system.trace[block][1] / 3.0;
+  system.S.Diagonal(block).bottomRightCorner<3, 3>() += stiffness * axis * axis.transpose();
+  return stiffness;
 }
 
 }  // namespace orbweave

@@ -5,9 +5,14 @@
 #include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_layout.h"
 #include "core/bundle/bundle_state.h"
+#include "core/bundle/gauge.h"
 #include "core/bundle/reduced_system.h"
 
 namespace orbweave {
+
+/// diag(1/sigma) (C + bias - position)
+[[nodiscard]] Eigen::Vector3d WhitenedResidual(const PositionPrior& prior,
+                                               const BundleState& state);
 
 /// Half the Cauchy losses (scale one sigma) of the position priors, the squares of the biases and
 /// those of the direction priors.
@@ -18,5 +23,12 @@ void AddPriorTerms(const BundleProblem& problem,
                    const BundleLayout& layout,
                    const BundleState& state,
                    ReducedSystem& system);
+
+/// A spring on the distance that the gauge holds, if any; returns its stiffness. The gradient has
+/// no part along the scale, so that the step, too, has none, whatever the stiffness.
+double AddDistanceSpring(const Gauge& gauge,
+                         const BundleLayout& layout,
+                         const BundleState& state,
+                         ReducedSystem& system);
 
 }  // namespace orbweave

@@ -19,8 +19,6 @@
 namespace orbweave {
 namespace {
 
-constexpr int kDoublings = 3;  // of the separator tree: eight children a node
-
 absl::Status ValidateOwners(const BundleProblem& problem,
                             const std::vector<uint32_t>& owner_of_pose,
                             uint32_t num_blocks) {
@@ -51,7 +49,7 @@ class BlockwiseSolver {
         states_(blocks.size()),
         blocks_(blocks) {
     for (const AdjustmentBlock& block : blocks) separators_.push_back(block.separators);
-    tree_ = MakeSeparatorTree(separators_, kDoublings);
+    tree_ = MakeSeparatorTree(separators_);
   }
 
   absl::Status Solve(const StageContext& context) {

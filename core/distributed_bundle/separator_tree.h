@@ -22,11 +22,15 @@ struct SeparatorTree {
   std::vector<SeparatorNode> nodes{};  ///< children before parents, the root last
 };
 
+/// Eight children a node.
+inline constexpr int kTreeDoublings = 3;
+
 /// Nested elimination: from the blocks upwards, groups that share the most separators are joined
 /// (heavy-edge matching), `doublings` times per level (2^doublings children at most), until one is
 /// left. On a street a group keeps the separators at its two ends, whatever its length.
 /// `doublings` = 0: a root over all blocks.
 [[nodiscard]] SeparatorTree MakeSeparatorTree(
-    const std::vector<std::vector<SeparatorId>>& separators_of_block, int doublings);
+    const std::vector<std::vector<SeparatorId>>& separators_of_block,
+    int doublings = kTreeDoublings);
 
 }  // namespace orbweave

@@ -11,6 +11,7 @@
 #include "core/estimators/explain_by_ray_map.h"
 #include "core/estimators/refine_two_view.h"
 #include "core/estimators/resolve_cheirality.h"
+#include "core/estimators/split_by_motion.h"
 #include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
@@ -21,6 +22,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegenerateShare = 0.9;  // of the inliers: a rotation or a plane explains the pair
+constexpr double kNotedShare = 0.1;       // of the matches: fewer that are fixed do no harm
+constexpr double kCarrierSpread = 0.25;   // the carrier covers no more of the sphere
 constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
 
@@ -99,15 +102,14 @@ absl::StatusOr<Verdict> Classify(const BearingPairs& pairs,
   return verdict;
 }
 
-}  // namespace
-
-absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
-                                                std::span<const Vector3d> bearings_a,
-                                                std::span<const Vector3d> bearings_b,
-                                                std::span<const FeatureMatch> matches,
-                                                double max_error_rad,
-                                                const TwoViewOptions& options,
-                                                const StageContext& context) {
+/// The geometry of the given matches, whatever they show.
+absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
+                                             std::span<const Vector3d> bearings_a,
+                                             std::span<const Vector3d> bearings_b,
+                                             std::span<const FeatureMatch> matches,
+                                             double max_error_rad,
+                                             const TwoViewOptions& options,
+                                             const StageContext& context) {
   TwoViewGeometry geometry{.pair = pair, .num_putative = static_cast<uint32_t>(matches.size())};
   if (matches.size() < static_cast<size_t>(options.min_inliers)) return geometry;
   const BearingPairs pairs = ArrangePairs(bearings_a, bearings_b, matches, context.seed);
@@ -133,6 +135,38 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
   }
   geometry.spread = SphereSpread(a);
   geometry.median_angle_rad = MedianAngle({std::move(a), std::move(b)}, geometry.b_from_a.rotation);
+  return geometry;
+}
+
+/// Whether nothing but the carrier matches: the pair says nothing of where the cameras were.
+bool ShowsTheCarrierAlone(const TwoViewGeometry& geometry, double max_error_rad) {
+  return geometry.kind == TwoViewKind::kPureRotation && geometry.spread <= kCarrierSpread &&
+         RotationAngle(geometry.b_from_a.rotation) <= max_error_rad;
+}
+
+}  // namespace
+
+absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
+                                                std::span<const Vector3d> bearings_a,
+                                                std::span<const Vector3d> bearings_b,
+                                                std::span<const FeatureMatch> matches,
+                                                double max_error_rad,
+                                                const TwoViewOptions& options,
+                                                const StageContext& context) {
+  const auto estimate_from = [&](std::span<const FeatureMatch> chosen) {
+    return EstimateFrom(pair, bearings_a, bearings_b, chosen, max_error_rad, options, context);
+  };
+  const auto num_putative = static_cast<uint32_t>(matches.size());
+  const MatchesByMotion split = SplitByMotion(bearings_a, bearings_b, matches, max_error_rad);
+  if (static_cast<double>(split.fixed.size()) >= kNotedShare * static_cast<double>(num_putative)) {
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry moved, estimate_from(split.moved));
+    moved.num_putative = num_putative;
+    if (moved.kind != TwoViewKind::kNone && moved.spread > split.fixed_spread) return moved;
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, estimate_from(matches));
+  if (ShowsTheCarrierAlone(geometry, max_error_rad)) {
+    return TwoViewGeometry{.pair = pair, .num_putative = num_putative};
+  }
   return geometry;
 }
 

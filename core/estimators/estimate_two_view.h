@@ -52,7 +52,10 @@ struct TwoViewOptions {
 
 /// Relative pose of two panoramas from putative matches by RANSAC with local optimisation on
 /// bearings: inliers by the angle to the epipolar plane (7) below `max_error_rad` and by cheirality
-/// on both spheres (paper 3.3), refined over all inliers; flags pure rotation and planes.
+/// on both spheres (paper 3.3), refined over all inliers; flags pure rotation and planes. Matches
+/// at the same place of both panoramas are set aside where the others have a geometry of their own
+/// that covers more of the sphere: they show the carrier, not the scene. A pair in which nothing
+/// but the carrier matches has no geometry.
 /// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera
 /// frames; `matches` index into them. Returns kind kNone (and num_putative) when no geometry is
 /// supported. Cancelled when asked to stop. `context.seed` seeds the sampler.

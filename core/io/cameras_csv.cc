@@ -37,17 +37,29 @@ void AppendGeodetic(std::string& line,
   AppendNumber(line, position.altitude_m, 4);
 }
 
+void AppendUncertainty(std::string& line, const std::optional<PoseUncertainty>& uncertainty) {
+  if (!uncertainty) {
+    line += ",,,,";
+    return;
+  }
+  const Eigen::Vector3d sigmas = uncertainty->PositionSigmas();
+  for (int axis = 0; axis < 3; ++axis) AppendNumber(line, sigmas[axis], 6);
+  AppendNumber(line, uncertainty->RotationSigma_deg(), 7);
+}
+
 }  // namespace
 
 std::string CamerasCsv(const Reconstruction& reconstruction,
                        const ImageManifest& manifest,
                        bool georeferenced) {
-  std::string csv = "name,x,y,z,qw,qx,qy,qz,latitude,longitude,altitude,state\n";
+  std::string csv =
+      "name,x,y,z,qw,qx,qy,qz,latitude,longitude,altitude,state,"
+      "sigma_x,sigma_y,sigma_z,sigma_rotation_deg\n";
   for (const ImageRecord& record : manifest.images) {
     csv += CsvField(record.name);
     const auto image = reconstruction.images.find(record.id);
     if (image == reconstruction.images.end()) {
-      csv += ",,,,,,,,,,,not_registered\n";
+      csv += ",,,,,,,,,,,not_registered,,,,\n";
       continue;
     }
     AppendPose(csv, image->second.cam_from_world);
@@ -56,7 +68,9 @@ std::string CamerasCsv(const Reconstruction& reconstruction,
     } else {
       csv += ",,,";
     }
-    csv += image->second.loose ? ",loose\n" : ",registered\n";
+    csv += image->second.loose ? ",loose" : ",registered";
+    AppendUncertainty(csv, image->second.uncertainty);
+    csv += '\n';
   }
   return csv;
 }

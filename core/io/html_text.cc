@@ -3,6 +3,7 @@
 
 #include "core/io/html_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -101,6 +102,11 @@ std::string ShortText(double value) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;
+}
+
+std::string SigmaText(double sigma) {
+  if (!(sigma > 0.0) || sigma >= 10.0) return ShortText(sigma);
+  return DecimalText(sigma, std::min(1 - static_cast<int>(std::floor(std::log10(sigma))), 12));
 }
 
 std::string DurationText(double seconds) {

@@ -19,6 +19,8 @@ namespace orbweave {
 /// About three significant digits without trailing zeros: "0.031", "4.2", "50", "1,250"; "-" when
 /// it is not finite.
 [[nodiscard]] std::string ShortText(double value);
+/// A standard deviation with two significant digits, however small: "0.00031", "4.2", "130".
+[[nodiscard]] std::string SigmaText(double sigma);
 /// "0.4 s", "12 s", "3 min 05 s", "2 h 07 min".
 [[nodiscard]] std::string DurationText(double seconds);
 /// `seconds` to a tenth, for columns: "12.3".

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "core/scene/image_manifest.h"
+#include "core/scene/reconstruction.h"
 
 namespace orbweave {
 
@@ -28,6 +30,7 @@ struct ReportImage {
   bool gnss_outlier = false;
   uint32_t observations = 0;
   double residual_px_mean = 0.0;
+  std::optional<PoseUncertainty> uncertainty{};
 };
 
 struct ReportStage {
@@ -48,6 +51,30 @@ struct ReportCluster {
   double residual_px_rms = 0.0;
 };
 
+/// Whether the two sides of a seam agree within what the noise of bearings explains.
+enum class SeamVerdict { kUnknown, kGood, kDoubtful, kBad };
+
+/// How far apart the two sides would put the images of the overlap, and what noise explains.
+struct SeamFit {
+  uint32_t images = 0;  ///< that both sides can place; 0: unknown
+  double position_jump_m = 0.0;
+  double rotation_jump_deg = 0.0;
+  double position_noise_m = 0.0;
+  double rotation_noise_deg = 0.0;
+
+  /// The larger of both jumps over its noise.
+  [[nodiscard]] double Ratio() const {
+    const auto ratio = [](double jump, double noise) { return noise > 0.0 ? jump / noise : 0.0; };
+    return std::max(ratio(position_jump_m, position_noise_m),
+                    ratio(rotation_jump_deg, rotation_noise_deg));
+  }
+  [[nodiscard]] SeamVerdict Verdict() const {
+    if (images == 0) return SeamVerdict::kUnknown;
+    if (Ratio() < 3.0) return SeamVerdict::kGood;
+    return Ratio() < 6.0 ? SeamVerdict::kDoubtful : SeamVerdict::kBad;
+  }
+};
+
 struct ReportSeam {
   uint32_t cluster_a = 0;
   uint32_t cluster_b = 0;
@@ -59,6 +86,7 @@ struct ReportSeam {
   double rotation_jump_deg = 0.0;
   bool used = true;
   std::string reason{};  ///< why it is not used
+  SeamFit after{};       ///< the global adjustment
 };
 
 struct ReportGnss {
@@ -69,6 +97,23 @@ struct ReportGnss {
   double residual_median_m = 0.0;
   double residual_rms_inliers_m = 0.0;
   std::vector<std::string> outliers{};  ///< names
+};
+
+/// Sigmas of the main model's poses: of positions root of the trace, in its units (metres with
+/// GNSS), of rotations rms angles.
+struct ReportUncertainty {
+  bool known = false;
+  std::string reason{};            ///< why not
+  std::string held_image{};        ///< whose pose counts as exact; empty: absolute by GNSS
+  std::string held_distance_to{};  ///< whose distance to it counts as exact
+  double bearing_sigma_factor = 1.0;
+  double horizontal_gnss_sigma_factor = 1.0;
+  double vertical_gnss_sigma_factor = 1.0;
+  double position_median = 0.0;
+  double position_p95 = 0.0;
+  double rotation_median_deg = 0.0;
+  double rotation_p95_deg = 0.0;
+  std::vector<uint32_t> worst{};  ///< of JobReport.images, least certain first
 };
 
 struct ReportWorker {
@@ -103,6 +148,7 @@ struct JobReport {
   std::vector<ReportCluster> clusters{};
   std::vector<ReportSeam> seams{};
   ReportGnss gnss{};
+  ReportUncertainty uncertainty{};
   std::optional<GeodeticPosition>
       origin{};                       ///< of the east-north-up frame; absent: the frame is free
   std::vector<ReportStage> stages{};  ///< in order

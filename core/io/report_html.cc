@@ -9,7 +9,9 @@
 #include "core/io/html_text.h"
 #include "core/io/report_charts.h"
 #include "core/io/report_map.h"
+#include "core/io/report_seams.h"
 #include "core/io/report_style.h"
+#include "core/io/report_uncertainty.h"
 
 namespace orbweave {
 namespace {
@@ -70,6 +72,12 @@ std::string Cards(const JobReport& report) {
                                CountText(report.gnss.num_priors),
                                " agree"));
   }
+  if (report.uncertainty.known) {
+    cards += Card(SigmaText(report.uncertainty.position_median),
+                  report.gnss.used ? "m" : "units",
+                  "median position sigma (" + SigmaText(report.uncertainty.rotation_median_deg) +
+                      "° of rotation)");
+  }
   return "<div class=\"cards\">" + cards + "</div>\n";
 }
 
@@ -93,7 +101,12 @@ std::string MapKey(const JobReport& report) {
     key += "<span><i class=\"ring\"></i>in two clusters or more</span>";
   if (any([](const ReportImage& image) { return image.loose; }))
     key += "<span><i class=\"hollow\"></i>placed by GNSS only</span>";
-  if (!report.seams.empty()) key += "<span><i class=\"diamond\"></i>seam</span>";
+  if (!report.seams.empty())
+    key +=
+        "<span><i class=\"diamond\"></i>seam that fits</span><span><i class=\"diamond "
+        "warn\"></i>doubtful</span><span><i class=\"diamond bad\"></i>bad or not used</span>";
+  if (any([](const ReportImage& image) { return image.uncertainty.has_value(); }))
+    key += "<span><i class=\"sigma\"></i>error ellipse, one sigma</span>";
   if (any([](const ReportImage& image) { return image.gnss_outlier; }))
     key += "<span><i class=\"dash\"></i>contradicted GNSS position</span>";
   return "<div class=\"key\">" + key + "</div>";
@@ -184,38 +197,15 @@ std::string Clusters(const JobReport& report) {
 }
 
 std::string Seams(const JobReport& report) {
-  if (report.seams.empty()) return "";
-  std::string rows;
-  for (size_t i = 0; i < std::min(report.seams.size(), kMaxRows); ++i) {
-    const ReportSeam& seam = report.seams[i];
-    absl::StrAppend(&rows,
-                    "<tr><td>",
-                    seam.cluster_a,
-                    " - ",
-                    seam.cluster_b,
-                    "</td><td>",
-                    CountText(seam.common_images),
-                    "</td><td>",
-                    CountText(seam.inlier_tracks),
-                    " of ",
-                    CountText(seam.common_tracks),
-                    "</td><td>",
-                    ShortText(seam.condition_number),
-                    "</td><td>",
-                    ShortText(seam.position_jump_m),
-                    "</td><td>",
-                    ShortText(seam.rotation_jump_deg),
-                    "</td><td class=\"text ",
-                    seam.used ? "good\">used" : "bad\">not used: " + EscapeHtml(seam.reason),
-                    "</td></tr>");
-  }
-  const std::string unit = report.gnss.used ? "m" : "units";
-  return Section("Seams",
-                 "Where two clusters share panoramas, and how well they agree there.",
-                 "<table><thead><tr><th>clusters</th><th>images</th><th>tracks that "
-                 "agree</th><th>condition</th><th>jump, " +
-                     unit + "</th><th>jump, °</th><th class=\"text\"></th></tr></thead><tbody>" +
-                     rows + "</tbody></table>");
+  const std::string table = SeamsHtml(report);
+  if (table.empty()) return "";
+  return Section(
+      "Seams",
+      "Where two clusters share panoramas. Jump: how far apart the two sides put them; "
+      "before the global adjustment as reconstructed and aligned, after it by the points "
+      "that panoramas of one side see and of the other. Good: less than three times what "
+      "the noise of bearings explains.",
+      table);
 }
 
 std::string Gnss(const JobReport& report) {
@@ -244,6 +234,14 @@ std::string Gnss(const JobReport& report) {
                                               " contradicted</p><p class=\"sub\">",
                                               names,
                                               "</p>"));
+}
+
+std::string Uncertainty(const JobReport& report) {
+  if (report.images.empty()) return "";
+  return Section("Uncertainty",
+                 "One standard deviation of poses, " +
+                     EscapeHtml(UncertaintyFrameText(report.uncertainty)) + ".",
+                 UncertaintyHtml(report));
 }
 
 std::string LeftOut(const JobReport& report) {
@@ -324,6 +322,7 @@ std::string ReportHtml(const JobReport& report) {
       Clusters(report),
       Seams(report),
       Gnss(report),
+      Uncertainty(report),
       LeftOut(report),
       Warnings(report),
       Workers(report),

@@ -4,6 +4,8 @@
 #include "core/io/report_json.h"
 
 #include "core/io/json_text.h"
+#include "core/io/report_seams.h"
+#include "core/io/report_uncertainty.h"
 
 namespace orbweave {
 namespace {
@@ -28,6 +30,16 @@ Json Clusters(const JobReport& report) {
   return list;
 }
 
+Json SeamAfter(const SeamFit& after) {
+  if (after.images == 0) return nullptr;
+  return {{"images", after.images},
+          {"position_jump_m", after.position_jump_m},
+          {"rotation_jump_deg", after.rotation_jump_deg},
+          {"position_noise_m", after.position_noise_m},
+          {"rotation_noise_deg", after.rotation_noise_deg},
+          {"times_noise", after.Ratio()}};
+}
+
 Json Seams(const JobReport& report) {
   Json list = Json::array();
   for (const ReportSeam& seam : report.seams) {
@@ -38,6 +50,8 @@ Json Seams(const JobReport& report) {
                     {"condition_number", seam.condition_number},
                     {"position_jump_m", seam.position_jump_m},
                     {"rotation_jump_deg", seam.rotation_jump_deg},
+                    {"after_adjustment", SeamAfter(seam.after)},
+                    {"verdict", VerdictText(seam.after.Verdict())},
                     {"used", seam.used},
                     {"reason", seam.reason}});
   }
@@ -52,6 +66,28 @@ Json Gnss(const ReportGnss& gnss) {
           {"residual_median_m", gnss.residual_median_m},
           {"residual_rms_inliers_m", gnss.residual_rms_inliers_m},
           {"outliers", gnss.outliers}};
+}
+
+Json Uncertainty(const JobReport& report) {
+  const ReportUncertainty& uncertainty = report.uncertainty;
+  Json json = {{"known", uncertainty.known}, {"frame", UncertaintyFrameText(uncertainty)}};
+  if (!uncertainty.known) return json;
+  json["unit"] = report.gnss.used ? "metre" : "free";
+  json["position_sigma_median"] = uncertainty.position_median;
+  json["position_sigma_p95"] = uncertainty.position_p95;
+  json["rotation_sigma_median_deg"] = uncertainty.rotation_median_deg;
+  json["rotation_sigma_p95_deg"] = uncertainty.rotation_p95_deg;
+  json["bearing_sigma_factor"] = uncertainty.bearing_sigma_factor;
+  json["gnss_sigma_factors"] = {{"horizontal", uncertainty.horizontal_gnss_sigma_factor},
+                                {"vertical", uncertainty.vertical_gnss_sigma_factor}};
+  json["worst"] = Json::array();
+  for (const uint32_t index : uncertainty.worst) {
+    const ReportImage& image = report.images[index];
+    json["worst"].push_back({{"name", image.name},
+                             {"position_sigma", image.uncertainty->PositionSigma()},
+                             {"rotation_sigma_deg", image.uncertainty->RotationSigma_deg()}});
+  }
+  return json;
 }
 
 Json Stages(const JobReport& report) {
@@ -97,6 +133,7 @@ std::string ReportJson(const JobReport& report) {
   json["clusters"] = Clusters(report);
   json["seams"] = Seams(report);
   json["gnss"] = Gnss(report.gnss);
+  json["uncertainty"] = Uncertainty(report);
   json["stages"] = Stages(report);
   json["workers"] = Workers(report);
   json["elapsed_s"] = report.elapsed_s;

@@ -3,7 +3,6 @@
 
 #include "core/io/report_map.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,80 +12,21 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/io/html_text.h"
+#include "core/io/map_view.h"
+#include "core/io/report_seams.h"
+#include "core/io/uncertainty_ellipses.h"
 
 namespace orbweave {
 namespace {
 
-constexpr double kWidth = 1000.0;
-constexpr double kMinHeight = 220.0;
-constexpr double kMaxHeight = 680.0;
-constexpr double kMargin = 46.0;
 constexpr size_t kMaxDots = 3000;
 
-using Images = std::vector<const ReportImage*>;
-
-Images ImagesOf(const JobReport& report, uint32_t model) {
-  Images images;
+MapImages ImagesOf(const JobReport& report, uint32_t model) {
+  MapImages images;
   for (const ReportImage& image : report.images) {
     if (image.registered && image.model == model) images.push_back(&image);
   }
   return images;
-}
-
-/// Two rows that take a world point to the plane of the map, x right and y up.
-Eigen::Matrix<double, 2, 3> MapAxes(const Images& images, bool georeferenced) {
-  Eigen::Matrix<double, 2, 3> axes = Eigen::Matrix<double, 2, 3>::Identity();
-  if (georeferenced || images.size() < 3) return axes;
-  Eigen::Vector3d mean(0, 0, 0);
-  for (const ReportImage* image : images)
-    mean += image->centre_in_world / static_cast<double>(images.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const ReportImage* image : images) {
-    const Eigen::Vector3d d = image->centre_in_world - mean;
-    covariance += d * d.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  axes.row(0) = solver.eigenvectors().col(2).transpose();
-  axes.row(1) = solver.eigenvectors().col(1).transpose();
-  for (int row = 0; row < 2; ++row) {  // a sign that does not depend on the solver
-    int largest = 0;
-    axes.row(row).cwiseAbs().maxCoeff(&largest);
-    if (axes(row, largest) < 0.0) axes.row(row) *= -1.0;
-  }
-  return axes;
-}
-
-/// From the world to the page.
-struct MapView {
-  Eigen::Matrix<double, 2, 3> axes;
-  Eigen::Vector2d low;
-  double units_per_pixel = 1.0;
-  double height = kMinHeight;
-  Eigen::Vector2d offset;
-
-  [[nodiscard]] Eigen::Vector2d Page(const Eigen::Vector3d& point_in_world) const {
-    const Eigen::Vector2d on_map = (axes * point_in_world - low) / units_per_pixel;
-    return {offset.x() + on_map.x(), height - offset.y() - on_map.y()};
-  }
-};
-
-MapView FitView(const Images& images, bool georeferenced) {
-  MapView view;
-  view.axes = MapAxes(images, georeferenced);
-  view.low.setConstant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -view.low;
-  for (const ReportImage* image : images) {
-    const Eigen::Vector2d p = view.axes * image->centre_in_world;
-    view.low = view.low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const Eigen::Vector2d extent = (high - view.low).cwiseMax(1e-9);
-  view.units_per_pixel =
-      std::max(extent.x() / (kWidth - 2 * kMargin), extent.y() / (kMaxHeight - 2 * kMargin));
-  const Eigen::Vector2d drawn = extent / view.units_per_pixel;
-  view.height = std::max(kMinHeight, drawn.y() + 2 * kMargin);
-  view.offset = 0.5 * (Eigen::Vector2d(kWidth, view.height) - drawn);
-  return view;
 }
 
 std::string PairText(const Eigen::Vector2d& p) {
@@ -94,7 +34,7 @@ std::string PairText(const Eigen::Vector2d& p) {
 }
 
 /// A thin line per drive through its images.
-std::string DriveLines(const Images& images, const MapView& view) {
+std::string DriveLines(const MapImages& images, const MapView& view) {
   std::map<uint32_t, std::string> points;
   std::map<uint32_t, Eigen::Vector2d> last;
   for (const ReportImage* image : images) {
@@ -108,6 +48,15 @@ std::string DriveLines(const Images& images, const MapView& view) {
   for (const auto& [drive, list] : points)
     absl::StrAppend(&svg, "<polyline class=\"path\" points=\"", list, "\"/>");
   return svg;
+}
+
+std::string UncertaintyText(const ReportImage& image) {
+  if (!image.uncertainty) return "";
+  return absl::StrCat("\nsigma ",
+                      SigmaText(image.uncertainty->PositionSigma()),
+                      ", ",
+                      SigmaText(image.uncertainty->RotationSigma_deg()),
+                      " deg");
 }
 
 std::string Dot(const ReportImage& image, const MapView& view, double radius) {
@@ -133,10 +82,12 @@ std::string Dot(const ReportImage& image, const MapView& view, double radius) {
                       CountText(image.observations),
                       " observations, ",
                       DecimalText(image.residual_px_mean, 2),
-                      " px</title></circle>");
+                      " px",
+                      UncertaintyText(image),
+                      "</title></circle>");
 }
 
-std::string Dots(const Images& images, const MapView& view) {
+std::string Dots(const MapImages& images, const MapView& view) {
   const size_t stride = (images.size() + kMaxDots - 1) / kMaxDots;
   const double radius = images.size() > 1000 ? 2.0 : images.size() > 200 ? 3.0 : 4.2;
   std::string svg;
@@ -145,7 +96,7 @@ std::string Dots(const Images& images, const MapView& view) {
 }
 
 /// Dashes from a camera to the GNSS position that it contradicts.
-std::string GnssOutliers(const Images& images, const MapView& view) {
+std::string GnssOutliers(const MapImages& images, const MapView& view) {
   std::string svg;
   for (const ReportImage* image : images) {
     if (!image->gnss_outlier || !image->gnss_in_world) continue;
@@ -166,7 +117,7 @@ std::string GnssOutliers(const Images& images, const MapView& view) {
 }
 
 /// Middle of the closest pair of images, one of each cluster.
-std::optional<Eigen::Vector3d> SeamPlace(const std::map<int, Images>& by_cluster,
+std::optional<Eigen::Vector3d> SeamPlace(const std::map<int, MapImages>& by_cluster,
                                          const ReportSeam& seam) {
   const auto a = by_cluster.find(static_cast<int>(seam.cluster_a));
   const auto b = by_cluster.find(static_cast<int>(seam.cluster_b));
@@ -184,8 +135,8 @@ std::optional<Eigen::Vector3d> SeamPlace(const std::map<int, Images>& by_cluster
   return middle;
 }
 
-std::string Seams(const JobReport& report, const Images& images, const MapView& view) {
-  std::map<int, Images> by_cluster;
+std::string Seams(const JobReport& report, const MapImages& images, const MapView& view) {
+  std::map<int, MapImages> by_cluster;
   for (const ReportImage* image : images) by_cluster[image->cluster].push_back(image);
   std::string svg;
   const double r = report.seams.size() > 120 ? 3.0 : report.seams.size() > 40 ? 5.0 : 8.0;
@@ -194,7 +145,7 @@ std::string Seams(const JobReport& report, const Images& images, const MapView& 
     if (!place) continue;
     absl::StrAppend(&svg,
                     "<path class=\"seam",
-                    seam.used ? "" : " unused",
+                    seam.used ? " " + VerdictText(seam.after.Verdict()) : " unused",
                     "\" d=\"M",
                     PairText(view.Page(*place)),
                     "m0,",
@@ -222,6 +173,11 @@ std::string Seams(const JobReport& report, const Images& images, const MapView& 
                     " of ",
                     CountText(seam.common_tracks),
                     " common tracks agree",
+                    seam.after.images == 0 ? ""
+                                           : absl::StrCat("\nafter the adjustment ",
+                                                          ShortText(seam.after.Ratio()),
+                                                          " times the noise: ",
+                                                          VerdictText(seam.after.Verdict())),
                     seam.used ? "" : "\nnot used: " + EscapeHtml(seam.reason),
                     "</title></path>");
   }
@@ -230,7 +186,7 @@ std::string Seams(const JobReport& report, const Images& images, const MapView& 
 
 /// A bar of 1, 2 or 5 times a power of ten, about a fifth of the map.
 std::string ScaleBar(const MapView& view, bool metric) {
-  const double wanted = 0.2 * kWidth * view.units_per_pixel;
+  const double wanted = 0.2 * kMapWidth * view.units_per_pixel;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double length = power * (wanted >= 5.0 * power ? 5.0 : wanted >= 2.0 * power ? 2.0 : 1.0);
   const double y = view.height - 16.0;
@@ -255,16 +211,17 @@ std::string NorthArrow() {
 }  // namespace
 
 std::string TrajectoryMapSvg(const JobReport& report, uint32_t model) {
-  const Images images = ImagesOf(report, model);
+  const MapImages images = ImagesOf(report, model);
   if (images.empty()) return "";
   const bool georeferenced = report.gnss.used;
-  const MapView view = FitView(images, georeferenced);
+  const MapView view = FitMapView(images, georeferenced);
   return absl::StrCat("<svg class=\"map\" viewBox=\"0 0 ",
-                      kWidth,
+                      kMapWidth,
                       " ",
                       DecimalText(view.height, 0),
                       "\" role=\"img\" aria-label=\"Trajectory from above\">",
                       DriveLines(images, view),
+                      UncertaintyEllipses(images, view),
                       GnssOutliers(images, view),
                       Dots(images, view),
                       Seams(report, images, view),

@@ -32,7 +32,12 @@ svg text{fill:var(--soft);font-size:12px;font-variant-numeric:tabular-nums}
 .path{fill:none;stroke:var(--soft);opacity:.35;stroke-width:2.5;stroke-linejoin:round}
 .overlap{stroke:var(--ink);stroke-width:1.3}
 .outlier{fill:none;stroke:var(--bad);stroke-width:1.4;stroke-dasharray:4 3}
+.sigma{fill:var(--accent);fill-opacity:.13;stroke:var(--accent);stroke-opacity:.6}
+.sigma.cut{stroke-dasharray:5 4}
 .seam{fill:var(--card);stroke:var(--ink);stroke-width:1.8}
+.seam.good{stroke:var(--good)}
+.seam.doubtful{stroke:var(--warn);fill:var(--warn)}
+.seam.bad{stroke:var(--bad);fill:var(--bad)}
 .seam.unused{stroke:var(--bad);fill:var(--bad)}
 .scale{fill:none;stroke:var(--soft);stroke-width:1.5}
 .north{fill:var(--soft)}
@@ -56,7 +61,10 @@ td.text{overflow-wrap:anywhere}
 .key i.wall,.key i.cpu{border-radius:3px}
 .key i.ring{background:none;border:2px solid var(--ink)}
 .key i.hollow{background:none;border:2px solid var(--soft)}
-.key i.diamond{border-radius:0;transform:rotate(45deg) scale(.8);background:var(--card);border:2px solid var(--ink)}
+.key i.sigma{width:17px;border-radius:50%;background:var(--accent2);border:1px solid var(--accent)}
+.key i.diamond{border-radius:0;transform:rotate(45deg) scale(.8);background:var(--card);border:2px solid var(--good)}
+.key i.diamond.warn{background:var(--warn);border-color:var(--warn)}
+.key i.diamond.bad{background:var(--bad);border-color:var(--bad)}
 .key i.dash{border-radius:0;height:0;border-top:2px dashed var(--bad);background:none;vertical-align:4px}
 .good{color:var(--good)}.bad{color:var(--bad)}.warn{color:var(--warn)}
 ul{margin:0;padding-left:20px}

@@ -28,6 +28,17 @@ Json Feature(const char* type, Json coordinates, Json properties) {
           {"properties", std::move(properties)}};
 }
 
+Json PropertiesOf(const ImageRecord& record, const RegisteredImage& image) {
+  Json properties = {{"name", record.name}, {"drive", record.drive}, {"loose", image.loose}};
+  if (!image.uncertainty) return properties;
+  const Eigen::Vector3d sigmas_m = image.uncertainty->PositionSigmas();
+  properties["sigma_east_m"] = Rounded(sigmas_m.x(), 1e-6);
+  properties["sigma_north_m"] = Rounded(sigmas_m.y(), 1e-6);
+  properties["sigma_up_m"] = Rounded(sigmas_m.z(), 1e-6);
+  properties["sigma_rotation_deg"] = Rounded(image.uncertainty->RotationSigma_deg(), 1e-7);
+  return properties;
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> TrajectoryGeoJson(const Reconstruction& reconstruction,
@@ -40,10 +51,7 @@ absl::StatusOr<std::string> TrajectoryGeoJson(const Reconstruction& reconstructi
     const ImageRecord& record = manifest.At(id);
     Json position = PositionOf(image.cam_from_world, *manifest.origin);
     line_of_drive[record.drive].push_back(position);
-    points.push_back(
-        Feature("Point",
-                std::move(position),
-                {{"name", record.name}, {"drive", record.drive}, {"loose", image.loose}}));
+    points.push_back(Feature("Point", std::move(position), PropertiesOf(record, image)));
   }
   Json features = Json::array();
   for (auto& [drive, line] : line_of_drive) {

@@ -11,8 +11,8 @@
 namespace orbweave {
 
 /// RFC 7946 FeatureCollection in WGS84: one LineString per drive through its registered images in
-/// id order, then one Point per registered image with its name. FailedPrecondition: the manifest
-/// has no origin.
+/// id order, then one Point per registered image with its name and sigmas. FailedPrecondition: the
+/// manifest has no origin.
 [[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(const Reconstruction& reconstruction,
                                                             const ImageManifest& manifest);
 

@@ -15,6 +15,8 @@ struct MappingSchedule {
   bool relaxes_registration = true;
   /// Seeds by matches of the first image, then of the pair, as in the paper; else by pair alone.
   bool seeds_by_image = false;
+  /// The paper begins with a seed pair.
+  MappingStart start = MappingStart::kIncremental;
 };
 
 /// The paper asks for 30 visible points and knows neither relaxed registration nor proposals.
@@ -22,8 +24,10 @@ struct MappingSchedule {
   if (options.preset == MappingPreset::kPaper) {
     return {.min_visible = 30, .relaxes_registration = false, .seeds_by_image = true};
   }
-  return {
-      .min_visible = options.min_inliers, .relaxes_registration = true, .seeds_by_image = false};
+  return {.min_visible = options.min_inliers,
+          .relaxes_registration = true,
+          .seeds_by_image = false,
+          .start = options.start};
 }
 
 [[nodiscard]] inline TrackLimits LimitsOf(const MappingOptions& options) {

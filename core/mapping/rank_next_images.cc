@@ -16,11 +16,12 @@ std::vector<ImageSlot> RankNextImages(const MappingState& state,
       images.push_back(image);
     }
   }
+  const auto rank = [&](ImageSlot image) {
+    const VisibilityPyramid& visible = state.Visible(image);
+    return uint64_t{visible.Count()} * visible.Count() * visible.Score();
+  };
   std::sort(images.begin(), images.end(), [&](ImageSlot x, ImageSlot y) {
-    const VisibilityPyramid& visible_x = state.Visible(x);
-    const VisibilityPyramid& visible_y = state.Visible(y);
-    return std::tuple(visible_y.Score(), visible_y.Count(), x) <
-           std::tuple(visible_x.Score(), visible_x.Count(), y);
+    return std::tuple(rank(y), x) < std::tuple(rank(x), y);
   });
   return images;
 }

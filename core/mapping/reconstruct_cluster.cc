@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/mapping/export_component.h"
+#include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/reconstruct_component.h"
 
@@ -72,6 +73,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   RegistrationLog log(problem.images.size());
   ClusterReconstruction result;
   ResidualSum residuals;
+  size_t largest = 0;
 
   while (CountAvailable(available) >= static_cast<uint32_t>(options.min_component_images)) {
     ORBWEAVE_ASSIGN_OR_RETURN(
@@ -79,6 +81,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
         ReconstructComponent(problem, graph, available, options, log, context));
     result.num_global_adjustments += component.growth.num_global_adjustments;
     result.num_local_adjustments += component.growth.num_local_adjustments;
+    if (result.components.empty()) result.start_remark = component.start_remark;
     if (!component.state) break;
     const std::vector<ImageSlot>& registered = component.state->Registered();
     const bool kept = registered.size() >= static_cast<size_t>(options.min_component_images);
@@ -92,6 +95,13 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
     if (!kept) continue;
     result.components.push_back(ExportComponent(*component.state));
     residuals.Add(problem, result.components.back());
+    const std::vector<ImagePair> contradicted = FindContradictedPairs(*component.state, options);
+    result.contradicted_pairs.insert(
+        result.contradicted_pairs.end(), contradicted.begin(), contradicted.end());
+    if (registered.size() <= largest) continue;
+    largest = registered.size();
+    result.started_globally = component.started_globally;
+    result.start_remark = component.start_remark;
   }
 
   SortLargestFirst(result.components);

@@ -22,9 +22,22 @@ struct EnumNames<MappingPreset> {
       {{MappingPreset::kOrbweave, "orbweave"}, {MappingPreset::kPaper, "paper"}}};
 };
 
+/// How a model is begun: image by image from a seed pair, or with all images at once from their
+/// pairs (StartGlobally); auto: globally where the result proves good, else from a seed.
+enum class MappingStart { kIncremental, kGlobal, kAuto };
+
+template <>
+struct EnumNames<MappingStart> {
+  static constexpr std::array<std::pair<MappingStart, std::string_view>, 3> kNames = {
+      {{MappingStart::kIncremental, "incremental"},
+       {MappingStart::kGlobal, "global"},
+       {MappingStart::kAuto, "auto"}}};
+};
+
 /// Incremental mapping of one cluster; the paper's section 4 with what has been learned since.
 struct MappingOptions {
   MappingPreset preset = MappingPreset::kOrbweave;
+  MappingStart start = MappingStart::kIncremental;
   int seed_min_inliers = 100;
   double seed_min_angle_deg = 16.0;
   int min_inliers = 20;
@@ -39,6 +52,10 @@ struct MappingOptions {
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("preset", self.preset, "orbweave, or the paper's own schedule for comparisons");
+    visit(
+        "start",
+        self.start,
+        "incremental: from a seed pair; global: all images at once; auto: globally where it holds");
     visit("seed_min_inliers",
           self.seed_min_inliers,
           "matches of the seed pair; relaxed when none qualifies",
@@ -108,15 +125,18 @@ struct ClusterReconstruction {
   /// Largest first; an image is in at most one. Each in its own frame and scale.
   std::vector<Reconstruction> components{};
   std::vector<NotRegistered> not_registered{};
+  std::vector<ImagePair> contradicted_pairs{};  ///< by the components; FindContradictedPairs
   int num_global_adjustments = 0;
   int num_local_adjustments = 0;
   double residual_rms_px = 0.0;
+  bool started_globally = false;  ///< the largest component
+  std::string start_remark{};     ///< why not globally, or what speaks against it; empty: nothing
 };
 
-/// Incremental spherical SfM: seed pair, next-best image by visibility on the sphere, P3P,
-/// triangulation, track completion and merging, filtering, local and global adjustment, retries,
-/// several components. No component is a value (every image in `not_registered`). Cancelled when
-/// asked to stop.
+/// Incremental spherical SfM: seed pair (or all images at once, options.start), next-best image by
+/// visibility on the sphere, P3P, triangulation, track completion and merging, filtering, local and
+/// global adjustment, retries, several components. No component is a value (every image in
+/// `not_registered`). Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<ClusterReconstruction> ReconstructCluster(
     const ClusterProblem& problem, const MappingOptions& options, const StageContext& context);
 

@@ -7,6 +7,8 @@
 
 #include "core/mapping/find_seed_pairs.h"
 #include "core/mapping/initialise_from_pair.h"
+#include "core/mapping/mapping_schedule.h"
+#include "core/mapping/reconstruct_globally.h"
 
 namespace orbweave {
 namespace {
@@ -15,6 +17,8 @@ constexpr int kMaxFailuresPerImage = 2;
 constexpr int kMaxGrownModels = 3;
 /// A model of this share of the images that its seed's matches reach is taken for good.
 constexpr double kGoodShare = 0.5;
+/// The same for a model begun with all images at once, as seeds may do better.
+constexpr double kNearlyAll = 0.9;
 
 /// Number of available images that matches connect with `start`.
 uint32_t CountReachable(const CorrespondenceGraph& graph,
@@ -64,15 +68,14 @@ void ResetAttempts(RegistrationLog& log) {
   }
 }
 
-}  // namespace
-
-absl::StatusOr<ComponentResult> ReconstructComponent(const ClusterProblem& problem,
-                                                     const CorrespondenceGraph& graph,
-                                                     std::span<const uint8_t> available,
-                                                     const MappingOptions& options,
-                                                     RegistrationLog& log,
-                                                     const StageContext& context) {
-  ComponentResult result;
+/// Grows models from seed pairs and keeps the largest, or the one that `result` holds already.
+absl::Status GrowFromSeeds(const ClusterProblem& problem,
+                           const CorrespondenceGraph& graph,
+                           std::span<const uint8_t> available,
+                           const MappingOptions& options,
+                           RegistrationLog& log,
+                           const StageContext& context,
+                           ComponentResult& result) {
   SpentSeeds spent(graph.NumImages());
   int tried = 0;
   int grown = 0;
@@ -98,10 +101,59 @@ absl::StatusOr<ComponentResult> ReconstructComponent(const ClusterProblem& probl
     spent.NoteFailure(pair);
     spent.NoteModel(state);
     const auto size = state.Registered().size();
-    if (!result.state || size > result.state->Registered().size())
+    if (!result.state || size > result.state->Registered().size()) {
       result.state.emplace(std::move(state));
+      result.started_globally = false;
+    }
     if (static_cast<double>(size) >= kGoodShare * CountReachable(graph, available, pair.a)) break;
   }
+  return absl::OkStatus();
+}
+
+/// Begins with all images at once; true when that settles the matter.
+absl::StatusOr<bool> GrowGlobally(const ClusterProblem& problem,
+                                  const CorrespondenceGraph& graph,
+                                  std::span<const uint8_t> available,
+                                  const MappingOptions& options,
+                                  RegistrationLog& log,
+                                  const StageContext& context,
+                                  ComponentResult& result) {
+  ResetAttempts(log);
+  ORBWEAVE_ASSIGN_OR_RETURN(GlobalModel model,
+                            ReconstructGlobally(problem, graph, available, options, log, context));
+  result.growth = model.growth;
+  result.start_remark = model.fault;
+  const bool is_forced = options.start == MappingStart::kGlobal;
+  if (!model.state || model.state->Registered().empty()) return false;
+  if (!model.fault.empty() && !is_forced) return false;
+  const auto size = model.state->Registered().size();
+  const uint32_t reachable = CountReachable(graph, available, model.state->Registered().front());
+  result.state.emplace(std::move(*model.state));
+  result.started_globally = true;
+  if (static_cast<double>(size) >= kNearlyAll * reachable) return true;
+  if (result.start_remark.empty()) {
+    result.start_remark =
+        std::to_string(size) + " of " + std::to_string(reachable) + " images stay registered";
+  }
+  return is_forced;
+}
+
+}  // namespace
+
+absl::StatusOr<ComponentResult> ReconstructComponent(const ClusterProblem& problem,
+                                                     const CorrespondenceGraph& graph,
+                                                     std::span<const uint8_t> available,
+                                                     const MappingOptions& options,
+                                                     RegistrationLog& log,
+                                                     const StageContext& context) {
+  ComponentResult result;
+  if (ScheduleOf(options).start != MappingStart::kIncremental) {
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        const bool is_settled,
+        GrowGlobally(problem, graph, available, options, log, context, result));
+    if (is_settled) return result;
+  }
+  ORBWEAVE_RETURN_IF_ERROR(GrowFromSeeds(problem, graph, available, options, log, context, result));
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/mapping/grow_component.h"
 
@@ -12,11 +13,19 @@ namespace orbweave {
 struct ComponentResult {
   std::optional<MappingState> state{};  ///< absent: nothing could be started
   GrowthReport growth{};                ///< of all starts together
+  bool started_globally = false;
+  std::string start_remark{};  ///< why not globally, or what speaks against it; empty: nothing
 };
 
-/// The largest model that can be grown among the available images: starts from the best seed pairs
-/// (FindSeedPairs), options.max_seeds at most, and starts again elsewhere when a seed does not hold
-/// or its model stays small against what its matches reach. Takes no image twice as a failed seed.
+/// The largest model that can be grown among the available images.
+///
+/// With options.start not incremental all images at once come first (ReconstructGlobally). `auto`
+/// takes that model when nothing speaks against it and it holds nearly all images that matches
+/// reach; a sound one that is smaller still competes by its size. `global` takes any there is.
+///
+/// Else from the best seed pairs (FindSeedPairs), options.max_seeds at most; starts again elsewhere
+/// when a seed does not hold or its model stays small against what its matches reach. Takes no
+/// image twice as a failed seed.
 [[nodiscard]] absl::StatusOr<ComponentResult> ReconstructComponent(
     const ClusterProblem& problem,
     const CorrespondenceGraph& graph,

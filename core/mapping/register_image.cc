@@ -26,6 +26,11 @@ StageContext ContextOf(const StageContext& context, ImageId image) {
 
 }  // namespace
 
+uint32_t NeededInliers(const RegistrationLimits& limits, uint32_t num_visible) {
+  return static_cast<uint32_t>(std::max<double>(
+      limits.min_inliers, std::ceil(limits.min_inlier_share * static_cast<double>(num_visible))));
+}
+
 absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                   ImageSlot image,
                                                   const RegistrationLimits& limits,
@@ -34,9 +39,7 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
   const double max_error_rad = problem_image.camera.AngleFromPixels(limits.max_error_px);
   const SceneCorrespondences correspondences = FindSceneCorrespondences(state, image);
   RegistrationAttempt attempt{.num_visible = state.Visible(image).Count()};
-  const auto needed = static_cast<uint32_t>(std::max<double>(
-      limits.min_inliers,
-      std::ceil(limits.min_inlier_share * static_cast<double>(attempt.num_visible))));
+  const uint32_t needed = NeededInliers(limits, attempt.num_visible);
 
   const auto accept = [&](const Rigid3& cam_from_world) {
     const PoseSupport support = SupportOf(cam_from_world, correspondences, max_error_rad);

@@ -13,6 +13,9 @@ struct RegistrationLimits {
   bool propose_from_pairs = false;  ///< try EstimatePoseFromPairs where P3P finds nothing
 };
 
+/// How many points must agree with the pose of an image that sees `num_visible` of them.
+[[nodiscard]] uint32_t NeededInliers(const RegistrationLimits& limits, uint32_t num_visible);
+
 struct RegistrationAttempt {
   bool registered = false;
   uint32_t num_visible = 0;

@@ -3,21 +3,10 @@
 
 #include "core/mapping/retriangulate_pairs.h"
 
+#include "core/mapping/reconstructed_share.h"
+
 namespace orbweave {
 namespace {
-
-double ReconstructedShare(const MappingState& state, const LinkedPair& pair) {
-  const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
-  uint32_t common = 0;
-  for (const FeatureMatch& match : geometry.inliers) {
-    const PointIndex point = state.PointOf(state.Graph().node_of_feature[pair.a][match.a]);
-    if (point != kNoPoint &&
-        point == state.PointOf(state.Graph().node_of_feature[pair.b][match.b])) {
-      ++common;
-    }
-  }
-  return static_cast<double>(common) / static_cast<double>(geometry.inliers.size());
-}
 
 void RetriangulateMatch(MappingState& state, Node a, Node b, const TrackLimits& limits) {
   const bool a_is_free = state.PointOf(a) == kNoPoint;

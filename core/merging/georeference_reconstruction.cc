@@ -236,8 +236,13 @@ void Judge(const Positions& positions, Georeference& result) {
 
 absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& reconstruction,
                                                         const ImageManifest& manifest,
+                                                        GnssUse use,
                                                         const StageContext& context) {
   Georeference result;
+  if (use == GnssUse::kOff) {
+    result.reason = "switched off";
+    return result;
+  }
   const Positions positions = Collect(reconstruction, manifest);
   if (positions.size() < kMinPositions) {
     result.reason = positions.size() == 0 ? "no image has a GNSS position"

@@ -8,6 +8,7 @@
 
 #include "core/base/stage_context.h"
 #include "core/geometry/sim3.h"
+#include "core/merging/global_options.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
 
@@ -35,10 +36,12 @@ struct Georeference {
 /// GNSS carries the scale when its scatter leaves the scale uncertain by 10 % at most and is
 /// smaller than the extent of the centres (rms distance from their mean), and 70 % of the positions
 /// agree within three sigmas; a phone indoors fails. Drives of eight positions or more are judged
-/// without their bias. Loose images take no part. Cancelled when asked to stop.
+/// without their bias. Loose images take no part. `use` kOff: not attempted. Cancelled when asked
+/// to stop.
 [[nodiscard]] absl::StatusOr<Georeference> GeoreferenceReconstruction(
     const Reconstruction& reconstruction,
     const ImageManifest& manifest,
+    GnssUse use,
     const StageContext& context);
 
 }  // namespace orbweave

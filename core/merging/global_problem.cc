@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "core/merging/find_gravity.h"
 
 namespace orbweave {
 namespace {
-
-constexpr uint32_t kNoPose = std::numeric_limits<uint32_t>::max();
 
 // Drives of the images that have a position, numbered from 0 in order of their number.
 std::map<uint32_t, uint32_t> GroupsOfDrives(const GlobalProblem& problem,
@@ -62,25 +59,10 @@ void AddGravity(const Reconstruction& reconstruction, GlobalProblem& problem) {
 
 GlobalProblem MakeGlobalProblem(const Reconstruction& reconstruction) {
   GlobalProblem problem;
-  std::vector<uint32_t> pose_of_image;
   for (const auto& [id, image] : reconstruction.images) {
-    pose_of_image.resize(id.value + 1, kNoPose);
     if (image.loose) continue;
-    pose_of_image[id.value] = static_cast<uint32_t>(problem.image_of_pose.size());
     problem.image_of_pose.push_back(id);
     problem.bundle.cams_from_world.push_back(image.cam_from_world);
-  }
-  for (const Track& track : reconstruction.tracks) {
-    const auto point = static_cast<uint32_t>(problem.bundle.points_in_world.size());
-    problem.bundle.points_in_world.push_back(track.point_in_world);
-    for (const Observation& seen : track.observations) {
-      const uint32_t image = seen.ref.image.value;
-      if (image >= pose_of_image.size() || pose_of_image[image] == kNoPose) continue;
-      problem.bundle.observations.push_back({.pose = pose_of_image[image],
-                                             .point = point,
-                                             .bearing = seen.bearing,
-                                             .sigma_rad = seen.sigma_rad});
-    }
   }
   return problem;
 }
@@ -92,17 +74,6 @@ void AddGnss(const Reconstruction& reconstruction,
              GlobalProblem& problem) {
   AddPositions(manifest, georeference, bias_sigma_m, problem);
   AddGravity(reconstruction, problem);
-}
-
-Reconstruction WithPosesAndPoints(const GlobalProblem& problem, Reconstruction reconstruction) {
-  for (size_t i = 0; i < problem.image_of_pose.size(); ++i) {
-    reconstruction.images.at(problem.image_of_pose[i]).cam_from_world =
-        problem.bundle.cams_from_world[i];
-  }
-  for (size_t i = 0; i < reconstruction.tracks.size(); ++i) {
-    reconstruction.tracks[i].point_in_world = problem.bundle.points_in_world[i];
-  }
-  return reconstruction;
 }
 
 }  // namespace orbweave

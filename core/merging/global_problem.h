@@ -11,14 +11,13 @@
 
 namespace orbweave {
 
-/// A whole reconstruction as a bundle problem: a pose per image that is not loose, in id order, a
-/// point per track in track order.
+/// The poses of a world and what GNSS says of them: a pose per image that is not loose, in id
+/// order.
 struct GlobalProblem {
   BundleProblem bundle{};
   std::vector<ImageId> image_of_pose{};
 };
 
-/// Observations of loose images are left out.
 [[nodiscard]] GlobalProblem MakeGlobalProblem(const Reconstruction& reconstruction);
 
 /// GNSS as position priors for a model in east-north-up metres, no more trusted than the scatter
@@ -31,9 +30,5 @@ void AddGnss(const Reconstruction& reconstruction,
              const Georeference& georeference,
              double bias_sigma_m,
              GlobalProblem& problem);
-
-/// The reconstruction with the problem's poses and points.
-[[nodiscard]] Reconstruction WithPosesAndPoints(const GlobalProblem& problem,
-                                                Reconstruction reconstruction);
 
 }  // namespace orbweave

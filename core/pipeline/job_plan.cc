@@ -13,6 +13,9 @@ namespace {
 
 InputRule JobInput(uint32_t index) { return {InputRule::Kind::kJobInput, "", index}; }
 InputRule Output(std::string stage) { return {InputRule::Kind::kOutput, std::move(stage), 0}; }
+InputRule Collection(std::string stage, uint32_t index) {
+  return {InputRule::Kind::kCollection, std::move(stage), index};
+}
 InputRule AllOutputs(std::string stage) {
   return {InputRule::Kind::kAllOutputs, std::move(stage), 0};
 }
@@ -53,14 +56,33 @@ std::vector<StageRule> ModelStages(const InputRule& manifest,
        .inputs = {Recipe()},
        .option_sections = {"mapping"}},
       {.stage = "align_submodels",
-       .inputs = {manifest, AllOutputs("reconstruct_cluster")},
+       .inputs = {Collection("reconstruct_cluster", 1)},
        .option_sections = {"align"}},
-      {.stage = "merge_submodels",
-       .inputs = {manifest, AllOutputs("reconstruct_cluster"), Output("align_submodels")},
-       .option_sections = {"align"}},
-      {.stage = "adjust_globally",
-       .inputs = {manifest, Output("merge_submodels")},
-       .option_sections = {"global", "bundle"}},
+      {.stage = "join_submodels",
+       .inputs = {manifest,
+                  Output("partition_view_graph"),
+                  Collection("reconstruct_cluster", 0),
+                  Collection("reconstruct_cluster", 1),
+                  Output("align_submodels")},
+       .option_sections = {"global"}},
+      {.stage = "assemble_block", .parts_from = "join_submodels", .inputs = {Recipe()}},
+      {.stage = "steer_adjustment",
+       .inputs = {Output("join_submodels"),
+                  Collection("assemble_block", 0),
+                  Output("steer_adjustment"),
+                  Collection("adjust_block", 0)},
+       .option_sections = {"global", "bundle", "blocks"}},
+      {.stage = "adjust_block",
+       .parts_from = "steer_adjustment",
+       .inputs = {Recipe()},
+       .option_sections = {"global", "bundle"},
+       .back_to = "steer_adjustment"},
+      {.stage = "conclude_adjustment",
+       .inputs = {manifest,
+                  Output("join_submodels"),
+                  Output("steer_adjustment"),
+                  Output("partition_view_graph")},
+       .option_sections = {"global"}},
   };
 }
 

@@ -9,17 +9,20 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kVersions = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kVersions = {{
     {"ingest_images", "1"},
     {"extract_features", "1"},
     {"select_image_pairs", "1"},
-    {"match_images", "1"},
-    {"verify_matches", "1"},
-    {"partition_view_graph", "1"},
-    {"reconstruct_cluster", "1"},
-    {"align_submodels", "1"},
-    {"merge_submodels", "1"},
-    {"adjust_globally", "1"},
+    {"match_images", "2"},
+    {"verify_matches", "2"},
+    {"partition_view_graph", "2"},
+    {"reconstruct_cluster", "3"},
+    {"align_submodels", "2"},
+    {"join_submodels", "1"},
+    {"assemble_block", "1"},
+    {"steer_adjustment", "1"},
+    {"adjust_block", "1"},
+    {"conclude_adjustment", "1"},
 }};
 
 }  // namespace

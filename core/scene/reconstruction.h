@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/rigid3.h"
@@ -32,10 +34,31 @@ struct Track {
   [[nodiscard]] const FeatureRef& Name() const { return observations.front().ref; }
 };
 
+/// How far a pose may be off: one standard deviation, relative to what the adjustment holds.
+struct PoseUncertainty {
+  /// Of the camera centre, world axes, world units squared.
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();
+  /// Root of the trace of the rotation's covariance: rms angle of the error, the same in camera
+  /// and world axes.
+  double rotation_sigma_rad = 0.0;
+
+  /// Along each world axis.
+  [[nodiscard]] Eigen::Vector3d PositionSigmas() const {
+    return position_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  }
+  /// Root of the trace: rms distance of the error (the point error of Helmert).
+  [[nodiscard]] double PositionSigma() const { return PositionSigmas().norm(); }
+  [[nodiscard]] double RotationSigma_deg() const {
+    return rotation_sigma_rad * 180.0 / std::numbers::pi;
+  }
+};
+
 struct RegisteredImage {
   Rigid3 cam_from_world{};
   /// Placed by GNSS and neighbours only, not by its own observations.
   bool loose = false;
+  /// Absent before the global adjustment, and where that could not tell.
+  std::optional<PoseUncertainty> uncertainty{};
 };
 
 /// Poses and points in one frame ("world").
@@ -55,10 +78,16 @@ struct Reconstruction {
   }
 };
 
-/// The same reconstruction in frame b.
+/// The same reconstruction in frame b. The similarity counts as exact.
 inline Reconstruction Transformed(const Sim3& b_from_world, Reconstruction reconstruction) {
-  for (auto& [id, image] : reconstruction.images)
+  const Eigen::Matrix3d turn_and_scale =
+      b_from_world.scale * b_from_world.rotation.toRotationMatrix();
+  for (auto& [id, image] : reconstruction.images) {
     image.cam_from_world = TransformCamera(b_from_world, image.cam_from_world);
+    if (!image.uncertainty) continue;
+    image.uncertainty->position_covariance =
+        turn_and_scale * image.uncertainty->position_covariance * turn_and_scale.transpose();
+  }
   for (Track& track : reconstruction.tracks)
     track.point_in_world = b_from_world * track.point_in_world;
   return reconstruction;

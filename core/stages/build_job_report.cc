@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/io/measure_reconstruction.h"
+#include "core/stages/summarise_uncertainty.h"
 
 namespace orbweave {
 namespace {
@@ -41,6 +42,7 @@ void FillWorld(const JobResults& results,
     row.registered = true;
     row.loose = image.loose;
     row.model = model;
+    row.uncertainty = image.uncertainty;
     row.centre_in_world = image.cam_from_world.Centre();
     if (world.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
     row.gnss_outlier = outliers.contains(record.name);
@@ -103,6 +105,20 @@ void WarnOfLooseImages(JobReport& report) {
   }
 }
 
+void WarnOfContradictedPairs(const JobResults& results, JobReport& report) {
+  std::set<ImagePair> pairs;
+  for (const ClusterResult& cluster : results.clusters) {
+    pairs.insert(cluster.reconstruction.contradicted_pairs.begin(),
+                 cluster.reconstruction.contradicted_pairs.end());
+  }
+  if (pairs.empty()) return;
+  report.warnings.push_back(std::to_string(pairs.size()) +
+                            " verified pairs contradict the model, first " +
+                            results.manifest.At(pairs.begin()->a).name + " and " +
+                            results.manifest.At(pairs.begin()->b).name +
+                            ": places that look alike, or a model folded onto itself");
+}
+
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
   for (size_t c = 0; c < rows.size(); ++c) {
@@ -120,6 +136,19 @@ std::vector<ReportCluster> ClusterRows(const JobResults& results) {
     }
   }
   return rows;
+}
+
+SeamFit FitAfter(const JobResults& results, const ReportSeam& seam) {
+  for (const SeamCertificate& certificate : results.certificates) {
+    if (certificate.cluster_a != seam.cluster_a || certificate.cluster_b != seam.cluster_b)
+      continue;
+    return {.images = certificate.num_images,
+            .position_jump_m = certificate.position_jump_m,
+            .rotation_jump_deg = certificate.rotation_jump_deg,
+            .position_noise_m = certificate.position_noise_m,
+            .rotation_noise_deg = certificate.rotation_noise_deg};
+  }
+  return {};
 }
 
 /// Seams speak of submodels; the report names their clusters.
@@ -141,6 +170,7 @@ std::vector<ReportSeam> SeamRows(const JobResults& results) {
                     .rotation_jump_deg = seam.rotation_jump_deg,
                     .used = seam.used,
                     .reason = seam.reason});
+    if (seam.used) rows.back().after = FitAfter(results, rows.back());
   }
   return rows;
 }
@@ -179,8 +209,10 @@ JobReport BuildJobReport(const JobResults& results) {
   report.seams = SeamRows(results);
   report.warnings = results.manifest.warnings;
   WarnOfLooseImages(report);
+  WarnOfContradictedPairs(results, report);
   if (!results.worlds.empty()) {
     report.gnss = GnssRow(results.worlds.front().report.gnss);
+    report.uncertainty = SummariseUncertainty(results.worlds.front());
     if (report.gnss.used) report.origin = results.manifest.origin;
   }
   return report;

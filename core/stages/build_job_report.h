@@ -21,7 +21,8 @@ struct JobResults {
   DividedViewGraph view_graph{};
   std::vector<ClusterResult> clusters{};
   Alignment alignment{};
-  std::vector<GloballyAdjusted> worlds{};  ///< most images first
+  std::vector<GloballyAdjusted> worlds{};       ///< most images first
+  std::vector<SeamCertificate> certificates{};  ///< of all worlds
 };
 
 /// The part of the report that follows from results alone: counts, residuals (recomputed from the

@@ -37,6 +37,7 @@ struct PipelineOptions {
   AlignOptions align{};
   GlobalAdjustOptions global{};
   BundleOptions bundle{};
+  BlocksOptions blocks{};
 
   template <typename Self, typename Visitor>
   static void VisitSections(Self& self, Visitor&& visit) {
@@ -52,6 +53,7 @@ struct PipelineOptions {
     visit("align", self.align);
     visit("global", self.global);
     visit("bundle", self.bundle);
+    visit("blocks", self.blocks);
   }
 };
 

@@ -36,6 +36,15 @@ std::vector<MatchRecipe> PlanMatching(const std::vector<MatchRecipe::Pair>& pair
   return recipes;
 }
 
+std::vector<ImageId> SharedImages(const Partition& partition, uint32_t cluster) {
+  std::set<ImageId> shared;
+  for (const Seam& seam : partition.seams) {
+    if (seam.cluster_a == cluster || seam.cluster_b == cluster)
+      shared.insert(seam.shared.begin(), seam.shared.end());
+  }
+  return {shared.begin(), shared.end()};
+}
+
 std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
                                         const ViewGraph& graph,
                                         const std::vector<Digest>& features,
@@ -49,6 +58,7 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
       clusters_of_image[id.value].push_back(c);
     }
   }
+  for (ClusterRecipe& recipe : recipes) recipe.shared = SharedImages(partition, recipe.cluster);
   std::vector<std::set<Digest>> blobs(recipes.size());
   for (const ViewEdge& edge : graph.edges) {
     const auto& of_a = clusters_of_image[edge.pair.a.value];

@@ -20,6 +20,9 @@ namespace orbweave {
                                                     const std::vector<Digest>& features,
                                                     size_t pairs_per_task);
 
+/// The images of a cluster that other clusters have too, sorted.
+[[nodiscard]] std::vector<ImageId> SharedImages(const Partition& partition, uint32_t cluster);
+
 /// One recipe per cluster: its images, the edges of `graph` among them, and the blobs these are in.
 [[nodiscard]] std::vector<ClusterRecipe> PlanClusters(
     const Partition& partition,

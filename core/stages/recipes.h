@@ -47,6 +47,7 @@ struct ClusterRecipe {
   uint32_t cluster = 0;
   std::vector<FeatureFile> images{};  ///< sorted
   std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
+  std::vector<ImageId> shared{};      ///< images that other clusters have too, sorted
   std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others
 };
 

@@ -13,6 +13,10 @@ namespace {
 
 constexpr double kCornerRadiusM = 12.0;
 constexpr double kLongestBlockM = 150.0;
+constexpr double kLaneDistanceM = 5.0;  // of a street's two directions
+constexpr double kSecondDriveM = 2.0;   // beside the first
+constexpr double kTrembleM = 0.002;     // of a carrier that stands
+constexpr double kMouthM = 8.0;         // from here the street before a tunnel is seen
 
 std::vector<Eigen::Vector2d> BendCorners(double length_m, uint64_t seed) {
   Random random(seed);
@@ -64,36 +68,83 @@ StreetPath MakePath(const CorridorOptions& options, double length_m) {
     }
     case CorridorShape::kGrid:
       return {GridCorners(length_m), kCornerRadiusM, false};
+    case CorridorShape::kUturn: {
+      const double turn_m = 0.5 * std::numbers::pi * kLaneDistanceM;
+      const double out_m = 0.5 * std::max(length_m - turn_m, 0.0) + 0.5 * kLaneDistanceM;
+      return {{{0.0, 0.0}, {out_m, 0.0}, {out_m, kLaneDistanceM}, {0.0, kLaneDistanceM}},
+              0.5 * kLaneDistanceM,
+              false};
+    }
     case CorridorShape::kBends:
       break;
   }
   return {BendCorners(length_m, static_cast<uint64_t>(options.seed)), kCornerRadiusM, false};
 }
 
-/// Moves the street so that the median of its places is the origin: where a reader of its GNSS
-/// positions puts the origin as well.
-void Centre(std::vector<PathPlace>& places) {
+/// Subtracts the median of the stations, axis by axis.
+void Centre(CorridorPath& path) {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<double> values;
-    for (const PathPlace& place : places) values.push_back(place.position[axis]);
+    for (const CorridorStation& station : path.stations)
+      values.push_back(station.place.position[axis]);
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     const double median = *middle;
-    for (PathPlace& place : places) place.position[axis] -= median;
+    for (CorridorCell& cell : path.cells) cell.place.position[axis] -= median;
+    for (CorridorStation& station : path.stations) station.place.position[axis] -= median;
+  }
+}
+
+std::vector<CorridorCell> MakeCells(const CorridorOptions& options, int count) {
+  const StreetPath path = MakePath(options, count * options.spacing_m);
+  const double step_m = path.closed() ? path.length_m() / count : options.spacing_m;
+  std::vector<CorridorCell> cells;
+  cells.reserve(static_cast<size_t>(count));
+  const int tunnel_begin = (count - options.tunnel_panoramas) / 2;
+  const int tunnel_end = tunnel_begin + options.tunnel_panoramas;
+  for (int i = 0; i < count; ++i) {
+    const int from_mouth = std::min(i - tunnel_begin, tunnel_end - 1 - i);
+    cells.push_back({.place = path.At(i * step_m),
+                     .in_tunnel = from_mouth >= 0,
+                     .sees_street = from_mouth * step_m < kMouthM});
+  }
+  return cells;
+}
+
+/// Further panoramas at the last station.
+void Stand(int count, Random& random, std::vector<CorridorStation>& stations) {
+  CorridorStation here = stations.back();
+  const Eigen::Vector2d place = here.place.position;
+  here.standing = true;
+  for (int i = 0; i < count; ++i) {
+    here.place.position = place + kTrembleM * Eigen::Vector2d(random.Normal(), random.Normal());
+    stations.push_back(here);
   }
 }
 
 }  // namespace
 
-std::vector<PathPlace> CorridorPlaces(const CorridorOptions& options) {
-  const double length_m = options.panoramas * options.spacing_m;
-  const StreetPath path = MakePath(options, length_m);
-  const double step_m = path.closed() ? path.length_m() / options.panoramas : options.spacing_m;
-  std::vector<PathPlace> places;
-  places.reserve(static_cast<size_t>(options.panoramas));
-  for (int i = 0; i < options.panoramas; ++i) places.push_back(path.At(i * step_m));
-  Centre(places);
-  return places;
+CorridorPath MakeCorridorPath(const CorridorOptions& options) {
+  const int second_drive = options.drives == 2 ? options.panoramas / 2 : 0;
+  const int first_drive = options.panoramas - second_drive;
+  const int standing = std::clamp(options.stop_panoramas - 1, 0, first_drive - 1);
+  const int count = first_drive - standing;
+  CorridorPath path{.cells = MakeCells(options, count)};
+  path.stations.reserve(static_cast<size_t>(options.panoramas));
+  Random random(static_cast<uint64_t>(options.seed) * 3 + 0x57a4d);
+  for (int i = 0; i < count; ++i) {
+    const auto cell = static_cast<uint32_t>(i);
+    path.stations.push_back({.place = path.cells[cell].place, .cell = cell});
+    if (i == count / 2) Stand(standing, random, path.stations);
+  }
+  for (int i = 0; i < second_drive; ++i) {
+    const auto cell = static_cast<uint32_t>(i % count);
+    CorridorStation station{.place = path.cells[cell].place, .cell = cell, .drive = 1};
+    station.place.position += kSecondDriveM * station.place.Left();
+    path.stations.push_back(station);
+  }
+  Centre(path);
+  return path;
 }
 
 }  // namespace orbweave

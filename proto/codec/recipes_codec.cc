@@ -87,6 +87,7 @@ std::string EncodeClusterRecipe(const ClusterRecipe& recipe) {
   proto.set_pairs(codec::Pack(recipe.pairs));
   for (const Digest& blob : recipe.matches) proto.add_matches(codec::PackDigest(blob));
   proto.set_cluster(recipe.cluster);
+  proto.set_shared(codec::Pack(recipe.shared));
   return proto.SerializeAsString();
 }
 
@@ -96,6 +97,7 @@ absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
   ClusterRecipe recipe{.cluster = proto.cluster()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.pairs, codec::Unpack<ImagePair>(proto.pairs(), "pairs"));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.shared, codec::Unpack<ImageId>(proto.shared(), "shared images"));
   for (const std::string& blob : proto.matches()) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(blob));
     recipe.matches.push_back(digest);

@@ -4,12 +4,9 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/base/status.h"
-#include "core/merging/adjust_globally.h"
 #include "core/merging/align_submodels.h"
-#include "core/merging/merge_submodels.h"
 #include "core/scene/reconstruction.h"
 #include "core/stages/stage_results.h"
 
@@ -25,12 +22,5 @@ namespace orbweave {
 
 [[nodiscard]] std::string EncodeAlignment(const Alignment& alignment);
 [[nodiscard]] absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes);
-
-[[nodiscard]] std::string EncodeMergedWorlds(const std::vector<MergedWorld>& worlds);
-[[nodiscard]] absl::StatusOr<std::vector<MergedWorld>> DecodeMergedWorlds(std::string_view bytes);
-
-[[nodiscard]] std::string EncodeAdjustedWorlds(const std::vector<GloballyAdjusted>& worlds);
-[[nodiscard]] absl::StatusOr<std::vector<GloballyAdjusted>> DecodeAdjustedWorlds(
-    std::string_view bytes);
 
 }  // namespace orbweave

@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
+#include "proto/codec/adjustment_codec.h"
 #include "proto/codec/features_codec.h"
 #include "proto/codec/manifest_codec.h"
 #include "proto/codec/recipes_codec.h"
@@ -42,6 +45,9 @@ Reconstruction SomeReconstruction() {
         Rigid3::FromCentre(RotationFromVector(w), Eigen::Vector3d(i, random.Normal(), 0.1)),
         i == 4};
   }
+  Eigen::Matrix3d covariance;
+  covariance << 1.0, 0.1, 0.2, 0.1, 2.0, 0.3, 0.2, 0.3, 4.0;
+  reconstruction.images[ImageId(6)].uncertainty = {covariance, 0.25};
   for (uint32_t p = 0; p < 20; ++p) {
     Track track{.point_in_world = {random.Normal(), random.Normal(), random.Normal()},
                 .color = {1, 2, 250}};
@@ -62,6 +68,12 @@ void ExpectSame(const Reconstruction& a, const Reconstruction& b) {
     EXPECT_EQ(image.cam_from_world.rotation.coeffs(),
               b.images.at(id).cam_from_world.rotation.coeffs());
     EXPECT_EQ(image.loose, b.images.at(id).loose);
+    ASSERT_EQ(image.uncertainty.has_value(), b.images.at(id).uncertainty.has_value());
+    if (!image.uncertainty) continue;
+    EXPECT_EQ(image.uncertainty->position_covariance,
+              b.images.at(id).uncertainty->position_covariance);
+    EXPECT_EQ(image.uncertainty->rotation_sigma_rad,
+              b.images.at(id).uncertainty->rotation_sigma_rad);
   }
   ASSERT_EQ(a.tracks.size(), b.tracks.size());
   for (size_t t = 0; t < a.tracks.size(); ++t) {
@@ -261,6 +273,14 @@ TEST(ReconstructionCodec, RefusesObservationsOfUnregisteredImages) {
   EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
 }
 
+TEST(ReconstructionCodec, RefusesUncertaintiesThatAreNoNumbers) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -1.0}) {
+    Reconstruction in = SomeReconstruction();
+    in.images[ImageId(6)].uncertainty->rotation_sigma_rad = bad;
+    EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
+  }
+}
+
 TEST(ReconstructionCodec, RefusesBearingsOfAnotherLength) {
   Reconstruction in = SomeReconstruction();
   in.tracks[3].observations[0].bearing *= 2.0;
@@ -272,11 +292,18 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
       .cluster = 4,
       .reconstruction = {.components = {SomeReconstruction()},
                          .not_registered = {{ImageId(77), "no verified matches"}},
-                         .residual_rms_px = 0.5}};
+                         .contradicted_pairs = {{ImageId(3), ImageId(8)}},
+                         .residual_rms_px = 0.5,
+                         .started_globally = true,
+                         .start_remark = "29 of 30 images stay registered"}};
   const auto cluster_out = DecodeClusterResult(EncodeClusterResult(cluster));
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 4U);
   EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
+  EXPECT_EQ(cluster_out->reconstruction.contradicted_pairs,
+            (std::vector<ImagePair>{{ImageId(3), ImageId(8)}}));
+  EXPECT_TRUE(cluster_out->reconstruction.started_globally);
+  EXPECT_EQ(cluster_out->reconstruction.start_remark, "29 of 30 images stay registered");
   ExpectSame(cluster_out->reconstruction.components[0], cluster.reconstruction.components[0]);
 
   Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
@@ -289,19 +316,23 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_FALSE(alignment_out->seams[0].used);
   EXPECT_EQ(alignment_out->seams[0].reason, "loop");
 
-  const auto merged_out = DecodeMergedWorlds(EncodeMergedWorlds({{SomeReconstruction(), {3, 4}}}));
-  ASSERT_TRUE(merged_out.ok()) << merged_out.status();
-  EXPECT_EQ((*merged_out)[0].report.conflicting_tracks, 4U);
-
-  GloballyAdjusted adjusted{.reconstruction = SomeReconstruction()};
-  adjusted.report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
-  adjusted.report.residual_px_mean = 0.5;
-  adjusted.report.adjustments.push_back(
+  ConcludedModel model{.worlds = {{.images = SomeReconstruction().images}},
+                       .blocks = {{DigestOf("block")}}};
+  model.worlds[0].report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
+  model.worlds[0].report.uncertainty = {
+      .known = true, .held_image = "b.jpg", .bearing_sigma_factor = 0.9};
+  model.worlds[0].report.residual_px_mean = 0.5;
+  model.worlds[0].report.adjustments.push_back(
       {.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
-  const auto adjusted_out = DecodeAdjustedWorlds(EncodeAdjustedWorlds({adjusted}));
-  ASSERT_TRUE(adjusted_out.ok()) << adjusted_out.status();
-  EXPECT_EQ((*adjusted_out)[0].report.gnss.outliers, adjusted.report.gnss.outliers);
-  EXPECT_EQ((*adjusted_out)[0].report.adjustments[0].biases_m[0], Eigen::Vector3d(1, 2, 3));
+  const auto model_out = DecodeConcludedModel(EncodeConcludedModel(model));
+  ASSERT_TRUE(model_out.ok()) << model_out.status();
+  const GlobalAdjustReport& report = model_out->worlds[0].report;
+  EXPECT_EQ(report.gnss.outliers, model.worlds[0].report.gnss.outliers);
+  EXPECT_EQ(report.adjustments[0].biases_m[0], Eigen::Vector3d(1, 2, 3));
+  ExpectSame({.images = model_out->worlds[0].images}, {.images = model.worlds[0].images});
+  EXPECT_EQ(report.uncertainty.held_image, "b.jpg");
+  EXPECT_EQ(report.uncertainty.bearing_sigma_factor, 0.9);
+  EXPECT_EQ(model_out->blocks, model.blocks);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <limits>
@@ -62,6 +63,21 @@ TEST(BlockCholesky, SolvesWhatDenseCholeskySolves) {
     const Eigen::VectorXd expected = Dense(matrix).llt().solve(b);
     for (uint32_t i = 0; i < num_blocks; ++i) {
       EXPECT_LT((x[i] - expected.segment<6>(6 * i)).norm(), 1e-12 * expected.norm());
+    }
+  }
+}
+
+TEST(BlockCholesky, HasTheDiagonalOfTheDenseInverse) {
+  for (const uint32_t num_blocks : {1U, 2U, 5U, 40U}) {
+    const SymmetricBlockMatrix matrix = RandomMatrix(num_blocks, num_blocks);
+    BlockCholesky cholesky(matrix);
+    ASSERT_TRUE(cholesky.Factorize(matrix));
+    const std::vector<Block6> diagonal = cholesky.InverseDiagonal();
+    const Eigen::MatrixXd expected = Dense(matrix).inverse();
+    for (uint32_t i = 0; i < num_blocks; ++i) {
+      EXPECT_LT((diagonal[i] - expected.block<6, 6>(6 * i, 6 * i)).norm(),
+                1e-12 * expected.norm());
+      EXPECT_EQ(diagonal[i], diagonal[i].transpose());
     }
   }
 }

@@ -15,16 +15,6 @@ namespace {
 
 constexpr double kLambda = 1e-4;
 
-BundleState StateOf(const BundleProblem& problem) {
-  BundleState state;
-  for (const Rigid3& pose : problem.cams_from_world) {
-    state.poses.push_back(
-        {pose.rotation, pose.rotation.conjugate().toRotationMatrix(), pose.Centre()});
-  }
-  state.points = problem.points_in_world;
-  return state;
-}
-
 // The whole Jacobian and residual, dense, poses first.
 struct DenseSystem {
   Eigen::MatrixXd J;
@@ -73,7 +63,7 @@ TEST(ReducedSystem, IsTheSchurComplementOfTheDenseSystem) {
   ReducedSystem system = MakeReducedSystem(layout);
   BearingReducer reducer(layout, 1);
   reducer.AddBearings(
-      StateOf(problem), RobustLoss(BundleLoss::kLeastSquares, 1.0), kLambda, system);
+      InitialState(problem), RobustLoss(BundleLoss::kLeastSquares, 1.0), kLambda, system);
   DampPoses(kLambda, system);
 
   const DenseSystem dense = MakeDense(problem);

@@ -259,5 +259,60 @@ TEST(EstimateTwoView, StopsOnRequest) {
   EXPECT_EQ(geometry.status().code(), absl::StatusCode::kCancelled);
 }
 
+/// Adds matches at the same place of both panoramas, within 40 degrees of the nadir.
+void AddRoof(size_t count, TwoViewWorld& world) {
+  Random random(77);
+  for (size_t i = 0; i < count; ++i) {
+    Vector3d spot = RandomDirection(random);
+    while (spot.y() < 0.77) spot = RandomDirection(random);
+    world.bearings_a.push_back(WithNoise(random, spot, kSigmaRad));
+    world.bearings_b.push_back(WithNoise(random, spot, kSigmaRad));
+  }
+}
+
+TEST(EstimateTwoView, IsNotMisledByACarrierThatMatchesMoreThanTheScene) {
+  TwoViewWorld world = MakeTwoViewWorld(5, 100, 0.1, kSigmaRad);
+  world.b_from_a.rotation = RotationFromVector({0.01, 0.005, -0.01});  // drives straight on
+  Random random(6);
+  for (size_t i = world.num_outliers; i < 100; ++i) {
+    world.bearings_b[i] =
+        WithNoise(random, BearingOf(world.b_from_a, world.points_in_a[i]), kSigmaRad);
+  }
+  AddRoof(300, world);
+  const TwoViewGeometry geometry = Estimate(world);
+  EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral);
+  EXPECT_EQ(geometry.num_putative, 400U);
+  EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 1e-3);
+  EXPECT_LT(DirectionError(geometry, world), 0.01);
+  for (const FeatureMatch& match : geometry.inliers) EXPECT_LT(match.a, 100U);
+}
+
+TEST(EstimateTwoView, KnowsNothingOfAPairInWhichOnlyTheCarrierMatches) {
+  TwoViewWorld world;
+  AddRoof(200, world);
+  const TwoViewGeometry geometry = Estimate(world);
+  EXPECT_EQ(geometry.kind, TwoViewKind::kNone);
+  EXPECT_EQ(geometry.num_putative, 200U);
+}
+
+TEST(EstimateTwoView, KeepsTheRotationOfACameraThatStandsWhenABusDrivesBy) {
+  TwoViewWorld world;
+  Random random(8);
+  for (int i = 0; i < 150; ++i) {
+    const Vector3d ray = RandomDirection(random);
+    world.bearings_a.push_back(WithNoise(random, ray, kSigmaRad));
+    world.bearings_b.push_back(WithNoise(random, ray, kSigmaRad));
+  }
+  for (int i = 0; i < 60; ++i) {  // beside the camera, and two metres on
+    const Vector3d X(random.Uniform(2.0, 4.0), random.Uniform(-2.0, 1.0), random.Uniform(-3, 3));
+    world.bearings_a.push_back(WithNoise(random, X.normalized(), kSigmaRad));
+    world.bearings_b.push_back(
+        WithNoise(random, (X + Vector3d(0.0, 0.0, 2.0)).normalized(), kSigmaRad));
+  }
+  const TwoViewGeometry geometry = Estimate(world);
+  EXPECT_LT(RotationError(geometry.b_from_a.rotation, Eigen::Quaterniond::Identity()), 1e-3);
+  EXPECT_GE(geometry.inliers.size(), 145U);
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -50,14 +50,19 @@ TEST(CamerasCsv, GivesPosesBack) {
   SmallScene scene = GeoreferencedScene();
   scene.manifest.images[2].name = "a,\"b\".jpg";
   scene.reconstruction.images[ImageId(3)].loose = true;
+  scene.reconstruction.images[ImageId(4)].uncertainty = {
+      Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
   const std::string csv = CamerasCsv(scene.reconstruction, scene.manifest, true);
   const std::vector<std::string_view> lines = SplitLines(csv);
   ASSERT_EQ(lines.size(), 13U);
   for (uint32_t i = 0; i < 12; ++i) {
     const std::vector<std::string> cells = SplitFields(lines[i + 1], ',');
-    ASSERT_EQ(cells.size(), 12U) << lines[i + 1];
+    ASSERT_EQ(cells.size(), 16U) << lines[i + 1];
     EXPECT_EQ(cells[0], scene.manifest.images[i].name);
     EXPECT_EQ(cells[11], i == 3 ? "loose" : i % 10 == 1 ? "not_registered" : "registered");
+    EXPECT_EQ(cells[12], i == 4 ? "2.000000" : "");
+    EXPECT_EQ(cells[14], i == 4 ? "4.000000" : "");
+    EXPECT_EQ(cells[15], i == 4 ? "0.5729578" : "");
     if (i % 10 == 1) continue;
     const Rigid3& pose = scene.reconstruction.images.at(ImageId(i)).cam_from_world;
     double v[10];
@@ -69,11 +74,13 @@ TEST(CamerasCsv, GivesPosesBack) {
               1e-3);
   }
   EXPECT_THAT(std::string(SplitLines(CamerasCsv(scene.reconstruction, scene.manifest, false))[1]),
-              HasSubstr(",,,,registered"));
+              HasSubstr(",,,,registered,,,,"));
 }
 
 TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
-  const SmallScene scene = GeoreferencedScene();
+  SmallScene scene = GeoreferencedScene();
+  scene.reconstruction.images[ImageId(0)].uncertainty = {
+      Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
   const auto json =
       nlohmann::json::parse(TrajectoryGeoJson(scene.reconstruction, scene.manifest).value());
   EXPECT_EQ(json["type"], "FeatureCollection");
@@ -82,6 +89,8 @@ TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
   EXPECT_EQ(json["features"][1]["properties"]["drive"], 1);
   const auto& point = json["features"][2];
   EXPECT_EQ(point["properties"]["name"], "street/img0.jpg");
+  EXPECT_EQ(point["properties"]["sigma_north_m"], 3.0);
+  EXPECT_FALSE(json["features"][3]["properties"].contains("sigma_north_m"));
   const auto& position = point["geometry"]["coordinates"];
   const Eigen::Vector3d enu =
       EnuFromGeodetic({position[1], position[0], position[2]}, *scene.manifest.origin);

@@ -13,7 +13,7 @@
 namespace orbweave {
 
 /// A report of `num_images` panoramas on a loop round a block in `num_clusters` clusters, with
-/// overlap, a loose image, GNSS outliers, images left out and warnings.
+/// overlap, a loose image, one that is uncertain, GNSS outliers, images left out and warnings.
 inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
   Random random(7);
   JobReport report;
@@ -108,8 +108,19 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
     image.observations =
         static_cast<uint32_t>(1500.0 + 500.0 * std::sin(9.0 * angle) + 120.0 * random.Normal());
     image.residual_px_mean = 0.7 + 0.05 * random.Normal();
+    image.uncertainty = PoseUncertainty{.rotation_sigma_rad = 1e-4};
+    image.uncertainty->position_covariance.diagonal() = Eigen::Vector3d(4e-4, 1e-4, 9e-4);
+    if (i == 3) image.uncertainty->position_covariance *= 1e4;
+    if (i == 5) image.uncertainty.reset();
     report.images.push_back(image);
   }
+  report.uncertainty = {.known = num_images > 3,
+                        .reason = num_images > 3 ? "" : "too few <images>",
+                        .position_median = 0.037,
+                        .position_p95 = 0.04,
+                        .rotation_median_deg = 0.0057,
+                        .rotation_p95_deg = 0.006};
+  if (num_images > 3) report.uncertainty.worst = {3, 0};
   return report;
 }
 

@@ -58,6 +58,7 @@ TEST(ReportJson, HasEveryKeyAndIsDeterministic) {
                           "clusters",
                           "seams",
                           "gnss",
+                          "uncertainty",
                           "stages",
                           "workers",
                           "version"}) {
@@ -67,6 +68,9 @@ TEST(ReportJson, HasEveryKeyAndIsDeterministic) {
   EXPECT_EQ(json["stages"][2]["cpu_s"], 92.4);
   EXPECT_EQ(json["seams"][1]["clusters"], nlohmann::json::array({1, 2}));
   EXPECT_EQ(json["gnss"]["outliers"].size(), 2U);
+  EXPECT_EQ(json["uncertainty"]["worst"][0]["name"], "IMG_0003.jpg");
+  EXPECT_NEAR(json["uncertainty"]["worst"][0]["position_sigma"], 3.742, 1e-3);
+  EXPECT_THAT(std::string(json["uncertainty"]["frame"]), HasSubstr("absolute"));
   EXPECT_EQ(ReportJson(report), ReportJson(MadeUpReport(40, 3)));
 }
 
@@ -97,6 +101,33 @@ TEST(ReportHtml, ShowsEveryImageSeamAndOutlierOnTheMap) {
   EXPECT_THAT(map, HasSubstr(">N</text>"));
   EXPECT_THAT(map, HasSubstr(">50 m</text>"));
   EXPECT_EQ(TrajectoryMapSvg(report, 1), "");
+}
+
+TEST(ReportHtml, DrawsEllipsesOfAllThatIsKnownAndCutsTheLargest) {
+  JobReport report = MadeUpReport(96, 5);
+  const std::string map = TrajectoryMapSvg(report, 0);
+  EXPECT_EQ(CountOf(map, "<ellipse"), 95U);
+  EXPECT_EQ(CountOf(map, "sigma cut"), 1U);
+  EXPECT_THAT(map, HasSubstr("ellipses: one sigma, x "));
+  // Twice as far along x as along y, flat on the page.
+  EXPECT_EQ(CountOf(map, "rotate(0)"), 95U);
+  for (ReportImage& image : report.images) image.uncertainty.reset();
+  EXPECT_THAT(TrajectoryMapSvg(report, 0), Not(HasSubstr("ellipse")));
+}
+
+TEST(ReportHtml, KeepsTheLeastCertainImageOfALongStreet) {
+  EXPECT_EQ(CountOf(TrajectoryMapSvg(MadeUpReport(2000, 20), 0), "sigma cut"), 1U);
+}
+
+TEST(ReportHtml, SaysWhatSigmasAreRelativeTo) {
+  JobReport report = MadeUpReport(40, 3);
+  EXPECT_THAT(ReportHtml(report), HasSubstr("absolute: the frame is held by GNSS"));
+  report.uncertainty.held_image = "<a>.jpg";
+  report.uncertainty.held_distance_to = "b.jpg";
+  EXPECT_THAT(
+      ReportHtml(report),
+      HasSubstr("relative to &lt;a&gt;.jpg, whose pose is held, as is its distance to b.jpg"));
+  EXPECT_THAT(ReportHtml(MadeUpReport(2, 1)), HasSubstr("unknown: too few &lt;images&gt;"));
 }
 
 TEST(ReportHtml, StaysSmallForLongStreets) {
@@ -133,6 +164,9 @@ TEST(NumberTexts, ReadWell) {
   EXPECT_EQ(ShortText(0.0314), "0.031");
   EXPECT_EQ(ShortText(1234.6), "1,235");
   EXPECT_EQ(ShortText(-7.25), "-7.25");
+  EXPECT_EQ(SigmaText(0.000314), "0.00031");
+  EXPECT_EQ(SigmaText(4.23), "4.2");
+  EXPECT_EQ(SigmaText(0.0), "0");
   EXPECT_EQ(DecimalText(-0.0001, 2), "0.00");
   EXPECT_EQ(DurationText(4.26), "4.3 s");
   EXPECT_EQ(DurationText(185.0), "3 min 05 s");

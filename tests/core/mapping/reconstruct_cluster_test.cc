@@ -188,6 +188,110 @@ TEST(ReconstructCluster, StartsInAScenePartlyTooFarForDepth) {
   EXPECT_EQ(result.components[0].images.size(), 12U);
 }
 
+/// Both starts of the same world end in the same model, but for what noise leaves open.
+void ExpectStartsAgree(const StreetWorld& world) {
+  const ClusterReconstruction from_seed = Reconstruct(world, {.start = MappingStart::kIncremental});
+  const ClusterReconstruction at_once = Reconstruct(world, {.start = MappingStart::kAuto});
+  EXPECT_FALSE(from_seed.started_globally);
+  EXPECT_TRUE(at_once.started_globally) << at_once.start_remark;
+  EXPECT_EQ(at_once.start_remark, "");
+  EXPECT_EQ(at_once.num_local_adjustments, 0);
+  ASSERT_EQ(at_once.components.size(), 1U);
+  ASSERT_EQ(from_seed.components.size(), 1U);
+  EXPECT_EQ(at_once.components[0].images.size(), from_seed.components[0].images.size());
+  EXPECT_NEAR(at_once.residual_rms_px, from_seed.residual_rms_px, 0.01);
+  const double seed_error = ErrorOf(from_seed.components[0], world.cams_from_world).position_rmse;
+  const double error = ErrorOf(at_once.components[0], world.cams_from_world).position_rmse;
+  EXPECT_LT(error, 1.1 * seed_error + 1e-3);
+  ExpectWellFormed(at_once.components[0]);
+}
+
+TEST(ReconstructCluster, StartsAgreeOnAStraightStreet) {
+  ExpectStartsAgree(MakeStreet({.centres = StraightWalk(40, 3.0), .outlier_share = 0.02}));
+}
+
+TEST(ReconstructCluster, StartsAgreeOnALoopOfTurnedPanoramas) {
+  StreetOptions options{.centres = RoundWalk(24, 12.0), .random_rotations = true};
+  options.window = 23;
+  ExpectStartsAgree(MakeStreet(options));
+}
+
+TEST(ReconstructCluster, StartsAgreeWithManyWrongMatches) {
+  ExpectStartsAgree(MakeStreet({.centres = StraightWalk(20, 3.0), .outlier_share = 0.3}));
+}
+
+TEST(ReconstructCluster, StartsAgreeInABend) {
+  std::vector<Eigen::Vector3d> centres = RoundWalk(60, 30.0);
+  centres.resize(25);
+  ExpectStartsAgree(MakeStreet({.centres = centres}));
+}
+
+/// Every pair claims a wrong rotation but the first, from which images can be registered.
+StreetWorld MakeStreetWithBadPairs() {
+  StreetWorld world = MakeStreet({.centres = StraightWalk(12, 3.0)});
+  Random random(6);
+  for (size_t i = 1; i < world.problem.pairs.size(); ++i) {
+    world.problem.pairs[i].b_from_a.rotation = street_internal::RandomRotation(random);
+    world.problem.pairs[i].median_angle_rad = 0.05;  // ranks behind the first as a seed
+  }
+  return world;
+}
+
+TEST(ReconstructCluster, AutoBeginsWithASeedWherePairsContradictEachOther) {
+  const StreetWorld world = MakeStreetWithBadPairs();
+  const ClusterReconstruction result =
+      Reconstruct(world, {.start = MappingStart::kAuto, .max_seeds = 100});
+  EXPECT_FALSE(result.started_globally);
+  EXPECT_NE(result.start_remark, "");
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 12U);
+  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
+}
+
+TEST(ReconstructCluster, AGlobalStartThatFailsIsNamedAndReplaced) {
+  const ClusterReconstruction result =
+      Reconstruct(MakeStreetWithBadPairs(), {.start = MappingStart::kGlobal, .max_seeds = 100});
+  EXPECT_FALSE(result.started_globally);
+  EXPECT_NE(result.start_remark.find("images only"), std::string::npos) << result.start_remark;
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 12U);
+}
+
+TEST(ReconstructCluster, AGlobalStartRegistersWhatPairsCannotPlace) {
+  StreetWorld world = MakeStreet({.centres = StraightWalk(15, 3.0)});
+  // All pairs of image 8 claim to be pure rotations: no displacement leads to it.
+  for (TwoViewGeometry& pair : world.problem.pairs) {
+    if (pair.pair.a != ImageId(8) && pair.pair.b != ImageId(8)) continue;
+    pair.kind = TwoViewKind::kPureRotation;
+    pair.b_from_a.translation.setZero();
+  }
+  const ClusterReconstruction result = Reconstruct(world, {.start = MappingStart::kAuto});
+  EXPECT_TRUE(result.started_globally) << result.start_remark;
+  EXPECT_EQ(result.num_local_adjustments, 1);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.components[0].images.size(), 15U);
+}
+
+TEST(ReconstructCluster, AGlobalStartKeepsComponentsApart) {
+  std::vector<Eigen::Vector3d> centres = StraightWalk(8, 3.0);
+  for (const Eigen::Vector3d& centre : StraightWalk(6, 3.0)) {
+    centres.push_back(centre + Eigen::Vector3d(500.0, 0.0, 0.0));
+  }
+  const ClusterReconstruction result =
+      Reconstruct(MakeStreet({.centres = centres}), {.start = MappingStart::kAuto});
+  EXPECT_TRUE(result.started_globally) << result.start_remark;
+  ASSERT_EQ(result.components.size(), 2U);
+  EXPECT_EQ(result.components[0].images.size(), 8U);
+  EXPECT_EQ(result.components[1].images.size(), 6U);
+}
+
+TEST(ReconstructCluster, ThePaperBeginsWithASeed) {
+  const ClusterReconstruction result =
+      Reconstruct(MakeStreet({.centres = StraightWalk(12, 3.0), .points_per_metre = 20}),
+                  {.preset = MappingPreset::kPaper, .start = MappingStart::kGlobal});
+  EXPECT_FALSE(result.started_globally);
+}
+
 TEST(ReconstructCluster, TinyInputsAreNoError) {
   for (const int count : {0, 1, 2, 3}) {
     const StreetWorld world =

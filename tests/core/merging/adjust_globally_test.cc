@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cstring>
 
 #include "core/geometry/rotation.h"
@@ -211,11 +212,66 @@ TEST(AdjustGlobally, NamesImagesThatLoseAllObservations) {
   const GloballyAdjusted adjusted = Adjust(start, corridor.manifest);
   EXPECT_THAT(adjusted.report.unobserved_images, ElementsAre(corridor.manifest.images[5].name));
   EXPECT_TRUE(adjusted.reconstruction.images.at(ImageId(5)).loose);
+  EXPECT_FALSE(adjusted.reconstruction.images.at(ImageId(5)).uncertainty.has_value());
+  EXPECT_TRUE(adjusted.reconstruction.images.at(ImageId(6)).uncertainty.has_value());
+}
+
+TEST(AdjustGlobally, KnowsHowFarGnssLeavesTheStreetFromTheTruth) {
+  double sum = 0.0;
+  constexpr int kStreets = 20;
+  for (int street = 0; street < kStreets; ++street) {
+    Random random(static_cast<uint64_t>(100 + street));
+    const Corridor corridor = CorridorWithGnss({.panoramas = 30,
+                                                .shape = CorridorShape::kLoop,
+                                                .features_per_panorama = 100,
+                                                .seed = 100 + street},
+                                               {0, 0, 0},
+                                               0.5,
+                                               random);
+    const GloballyAdjusted adjusted = Adjust(
+        DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random), corridor.manifest);
+    EXPECT_TRUE(adjusted.report.uncertainty.known) << adjusted.report.uncertainty.reason;
+    EXPECT_EQ(adjusted.report.uncertainty.held_image, "");
+    const RegisteredImage& image = adjusted.reconstruction.images.at(ImageId(15));
+    const Eigen::Vector3d error =
+        image.cam_from_world.Centre() - corridor.cams_from_world[15].Centre();
+    ASSERT_TRUE(image.uncertainty.has_value());
+    sum += error.dot(image.uncertainty->position_covariance.inverse() * error);
+  }
+  // 99.9 % of chi^2 with 60 degrees of freedom.
+  EXPECT_GT(sum / (3.0 * kStreets), 0.50);
+  EXPECT_LT(sum / (3.0 * kStreets), 1.72);
+}
+
+TEST(AdjustGlobally, GivesUncertaintyInTheFrameOfTheModel) {
+  Random random(9);
+  const Corridor corridor = MakeCorridor({.panoramas = 20, .features_per_panorama = 150});
+  const Reconstruction start = DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random);
+  const Sim3 elsewhere = SomeFrame(random);
+  const GlobalAdjustOptions no_gnss{.gnss = GnssUse::kOff};
+  const GloballyAdjusted here = Adjust(start, corridor.manifest, no_gnss);
+  const GloballyAdjusted there = Adjust(Transformed(elsewhere, start), corridor.manifest, no_gnss);
+  EXPECT_TRUE(here.report.uncertainty.known);
+  EXPECT_EQ(here.report.uncertainty.held_image, corridor.manifest.images[0].name);
+  EXPECT_NE(here.report.uncertainty.held_distance_to, "");
+  EXPECT_EQ(here.reconstruction.images.at(ImageId(0)).uncertainty->PositionSigma(), 0.0);
+  const double sigma = here.reconstruction.images.at(ImageId(10)).uncertainty->PositionSigma();
+  EXPECT_GT(sigma, 1e-5);
+  EXPECT_LT(sigma, 1e-2);  // the step between images is 1
+  for (const auto& [id, image] : here.reconstruction.images) {
+    const PoseUncertainty& other = *there.reconstruction.images.at(id).uncertainty;
+    // Headings of free frames differ.
+    EXPECT_NEAR(image.uncertainty->PositionSigma(), other.PositionSigma(), 1e-3 * sigma);
+    EXPECT_NEAR(image.uncertainty->rotation_sigma_rad,
+                other.rotation_sigma_rad,
+                1e-3 * other.rotation_sigma_rad);
+  }
 }
 
 TEST(AdjustGlobally, AcceptsAnEmptyModel) {
   const GloballyAdjusted adjusted = Adjust({}, {});
   EXPECT_FALSE(adjusted.report.gnss.used);
+  EXPECT_NE(adjusted.report.uncertainty.reason, "");
   EXPECT_TRUE(adjusted.reconstruction.images.empty());
 }
 

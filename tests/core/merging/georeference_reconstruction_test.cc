@@ -64,7 +64,7 @@ Sim3 SomeFrame(Random& random) {
 }
 
 Georeference Georeferenced(const GnssWorld& world) {
-  auto result = GeoreferenceReconstruction(world.model, world.manifest, {});
+  auto result = GeoreferenceReconstruction(world.model, world.manifest, GnssUse::kAuto, {});
   EXPECT_TRUE(result.ok()) << result.status();
   return result.value_or(Georeference{});
 }

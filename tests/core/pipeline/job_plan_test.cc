@@ -26,8 +26,11 @@ TEST(FindJobPlan, SparseLeadsFromImagesToAModel) {
                                      "partition_view_graph",
                                      "reconstruct_cluster",
                                      "align_submodels",
-                                     "merge_submodels",
-                                     "adjust_globally"));
+                                     "join_submodels",
+                                     "assemble_block",
+                                     "steer_adjustment",
+                                     "adjust_block",
+                                     "conclude_adjustment"));
 }
 
 TEST(FindJobPlan, SparseFromMatchesBeginsWithVerification) {
@@ -35,7 +38,7 @@ TEST(FindJobPlan, SparseFromMatchesBeginsWithVerification) {
   ASSERT_TRUE(plan.ok());
   EXPECT_EQ(plan->stages.front().stage, "verify_matches");
   EXPECT_EQ(plan->stages.front().parts_listed_in, 2U);
-  EXPECT_EQ(plan->stages.back().stage, "adjust_globally");
+  EXPECT_EQ(plan->stages.back().stage, "conclude_adjustment");
 }
 
 TEST(FindJobPlan, RefusesAnUnknownKindByName) {
@@ -44,15 +47,29 @@ TEST(FindJobPlan, RefusesAnUnknownKindByName) {
   EXPECT_THAT(std::string(plan.status().message()), ::testing::HasSubstr("dense"));
 }
 
-TEST(FindJobPlan, EveryStageReadsOnlyStagesBeforeIt) {
+/// Last stage of the loop that stage `s` is in, or `s` itself.
+size_t EndOfLoop(const JobPlan& plan, size_t s) {
+  for (size_t end = s; end < plan.stages.size(); ++end) {
+    if (!plan.stages[end].back_to.empty() && StageAfter(plan, static_cast<uint32_t>(end), 1) <= s)
+      return end;
+  }
+  return s;
+}
+
+TEST(FindJobPlan, EveryStageReadsOnlyStagesBeforeItOrOfItsLoop) {
   for (const char* kind : {"sparse", "sparse_from_matches"}) {
     const auto plan = FindJobPlan(kind);
     ASSERT_TRUE(plan.ok());
     std::vector<std::string> before = {""};
-    for (const StageRule& rule : plan->stages) {
+    for (size_t s = 0; s < plan->stages.size(); ++s) {
+      const StageRule& rule = plan->stages[s];
       EXPECT_THAT(before, ::testing::Contains(rule.parts_from)) << rule.stage;
+      std::vector<std::string> readable = before;
+      const size_t end = EndOfLoop(*plan, s);
+      for (size_t l = s; l <= end && end > s; ++l) readable.push_back(plan->stages[l].stage);
+      if (end == s && !rule.back_to.empty()) readable.push_back(rule.stage);
       for (const InputRule& input : rule.inputs)
-        EXPECT_THAT(before, ::testing::Contains(input.stage)) << rule.stage;
+        EXPECT_THAT(readable, ::testing::Contains(input.stage)) << rule.stage;
       before.push_back(rule.stage);
     }
   }

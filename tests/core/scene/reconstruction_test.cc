@@ -61,6 +61,22 @@ TEST(Transformed, ChangesNoBearing) {
   }
 }
 
+TEST(Transformed, TurnsAndScalesTheUncertaintyOfPositions) {
+  Random random(uint64_t{5});
+  const Eigen::Vector3d axis(1.0, 2.0, -3.0);
+  Reconstruction before = RandomReconstruction(random);
+  before.images[ImageId(1)].uncertainty = {axis * axis.transpose(), 0.1};
+  const Sim3 b_from_world{2.5, testing::RandomRotation(random), {7.0, 8.0, 9.0}};
+  const Reconstruction after = Transformed(b_from_world, before);
+  const PoseUncertainty& uncertainty = *after.images.at(ImageId(1)).uncertainty;
+  const Eigen::Vector3d axis_in_b = 2.5 * (b_from_world.rotation * axis);
+  EXPECT_LT((uncertainty.position_covariance - axis_in_b * axis_in_b.transpose()).norm(), 1e-12);
+  EXPECT_LT((uncertainty.PositionSigmas() - axis_in_b.cwiseAbs()).norm(), 1e-12);
+  EXPECT_NEAR(uncertainty.PositionSigma(), axis_in_b.norm(), 1e-12);
+  EXPECT_EQ(uncertainty.rotation_sigma_rad, 0.1);
+  EXPECT_FALSE(after.images.at(ImageId(0)).uncertainty.has_value());
+}
+
 TEST(Transformed, GoesBackByTheInverse) {
   Random random(uint64_t{4});
   const Reconstruction before = RandomReconstruction(random);

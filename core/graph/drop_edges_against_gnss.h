@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/scene/image_manifest.h"
+#include "core/scene/view_graph.h"
+
+namespace orbweave {
+
+struct EdgesByGnss {
+  std::vector<ViewEdge> kept{};  ///< in the order given
+  std::vector<DroppedEdge> dropped{};
+};
+
+/// Edges without those that join places that look alike though GNSS knows them apart.
+///
+/// Rays that meet under an angle alpha (median of the edge) start from a baseline of 2 d tan(alpha
+/// / 2), where d is the depth of the scene: the median over edges whose positions are
+/// further apart than GNSS errs. An edge disagrees when its positions are more than 8 standard
+/// deviations plus 2.5 such baselines apart; it agrees within 3 and 1.5. Positions may be wrong, so
+/// that an edge is dropped only when at both of its images GNSS disagrees with half of the edges or
+/// less, and edges that agree join its images. A single position that is off is thus not trusted,
+/// and a stretch of positions that jumped together, which agrees with nothing that joins it to the
+/// rest, loses no edge. Edges without geometry and of images without a position stay.
+[[nodiscard]] EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
+                                               const ImageManifest& manifest);
+
+}  // namespace orbweave

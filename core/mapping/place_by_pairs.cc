@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/place_by_pairs.h"
+
+#include <numbers>
+
+#include "core/averaging/average_differences.h"
+#include "core/averaging/average_rotations.h"
+#include "core/graph/disjoint_sets.h"
+#include "core/mapping/average_baselines.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+/// Pairs whose rotation is off by more are wrong.
+constexpr double kMaxRotationErrorRad = 2.0 * kRadiansPerDegree;
+
+/// Pairs that say how images lie to each other, as indices into graph.pairs.
+std::vector<uint32_t> SelectPairs(const ClusterProblem& problem,
+                                  const CorrespondenceGraph& graph,
+                                  std::span<const uint8_t> available,
+                                  const MappingOptions& options) {
+  std::vector<uint32_t> pairs;
+  for (uint32_t p = 0; p < graph.pairs.size(); ++p) {
+    const LinkedPair& pair = graph.pairs[p];
+    if (available[pair.a] != 0 && available[pair.b] != 0 &&
+        problem.pairs[pair.index].inliers.size() >= static_cast<size_t>(options.min_inliers)) {
+      pairs.push_back(p);
+    }
+  }
+  return pairs;
+}
+
+/// The pairs as a view graph whose images are the cluster's slots.
+ViewGraph ViewGraphOf(const ClusterProblem& problem,
+                      const CorrespondenceGraph& graph,
+                      std::span<const uint32_t> pairs) {
+  ViewGraph view_graph{.num_images = graph.NumImages()};
+  for (const uint32_t p : pairs) {
+    const LinkedPair& pair = graph.pairs[p];
+    const TwoViewGeometry& geometry = problem.pairs[pair.index];
+    view_graph.edges.push_back({.pair = {ImageId(pair.a), ImageId(pair.b)},
+                                .kind = geometry.kind,
+                                .b_from_a = geometry.b_from_a,
+                                .num_inliers = static_cast<uint32_t>(geometry.inliers.size()),
+                                .median_angle_rad = geometry.median_angle_rad,
+                                .spread = geometry.spread});
+  }
+  return view_graph;
+}
+
+bool HasDirection(const ViewEdge& edge, double min_angle_rad) {
+  return edge.kind != TwoViewKind::kPureRotation && edge.median_angle_rad >= min_angle_rad;
+}
+
+/// Displacements C_b - C_a in the world as a graph over images.
+DifferenceGraph DisplacementGraph(const ViewGraph& view_graph,
+                                  const std::vector<uint32_t>& edges,
+                                  const std::vector<double>& lengths,
+                                  const std::vector<Eigen::Quaterniond>& cam_from_world) {
+  DifferenceGraph graph{.num_nodes = view_graph.num_images};
+  const auto num_edges = static_cast<Eigen::Index>(edges.size());
+  graph.differences.resize(num_edges, 3);
+  graph.weights.resize(num_edges);
+  Eigen::Index row = 0;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    if (lengths[i] == 0.0) continue;
+    const ViewEdge& edge = view_graph.edges[edges[i]];
+    const Eigen::Vector3d displacement =
+        lengths[i] * (cam_from_world[edge.pair.a.value].conjugate() * edge.b_from_a.Centre());
+    graph.edges.push_back({edge.pair.a.value, edge.pair.b.value});
+    graph.differences.row(row) = displacement.transpose();
+    graph.weights[row] = edge.num_inliers / (lengths[i] * lengths[i]);
+    ++row;
+  }
+  graph.differences.conservativeResize(row, 3);
+  graph.weights.conservativeResize(row);
+  return graph;
+}
+
+/// The largest set of images that edges join, ascending; empty without edges.
+std::vector<ImageSlot> LargestPart(const DifferenceGraph& graph) {
+  if (graph.edges.empty()) return {};
+  DisjointSets sets(graph.num_nodes);
+  for (const GraphEdge& edge : graph.edges) sets.Unite(edge.a, edge.b);
+  uint32_t largest = 0;
+  for (uint32_t image = 0; image < graph.num_nodes; ++image) {
+    if (sets.SizeOf(image) > sets.SizeOf(largest)) largest = image;
+  }
+  std::vector<ImageSlot> images;
+  for (uint32_t image = 0; image < graph.num_nodes; ++image) {
+    if (sets.Find(image) == sets.Find(largest)) images.push_back(image);
+  }
+  return images;
+}
+
+}  // namespace
+
+absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
+                                           const CorrespondenceGraph& graph,
+                                           std::span<const uint8_t> available,
+                                           const MappingOptions& options,
+                                           const StageContext& context) {
+  const double min_angle_rad = options.min_angle_deg * kRadiansPerDegree;
+  const std::vector<uint32_t> pairs = SelectPairs(problem, graph, available, options);
+  const ViewGraph view_graph = ViewGraphOf(problem, graph, pairs);
+  ORBWEAVE_ASSIGN_OR_RETURN(const AveragedRotations rotations,
+                            AverageRotations(view_graph, context));
+
+  std::vector<uint32_t> edges;
+  std::vector<uint32_t> pairs_of_edges;
+  for (uint32_t e = 0; e < view_graph.edges.size(); ++e) {
+    if (rotations.error_rad[e] > kMaxRotationErrorRad ||
+        !HasDirection(view_graph.edges[e], min_angle_rad)) {
+      continue;
+    }
+    edges.push_back(e);
+    pairs_of_edges.push_back(pairs[e]);
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const std::vector<double> lengths,
+      AverageBaselines(problem, graph, pairs_of_edges, min_angle_rad, context));
+  const DifferenceGraph displacements =
+      DisplacementGraph(view_graph, edges, lengths, rotations.cam_from_world);
+  ORBWEAVE_ASSIGN_OR_RETURN(const AveragedDifferences centres,
+                            AverageDifferences(displacements, context));
+
+  PairPlacement placement{.images = LargestPart(displacements)};
+  for (const ImageSlot image : placement.images) {
+    placement.cams_from_world.push_back(
+        Rigid3::FromCentre(rotations.cam_from_world[image], centres.values.row(image).transpose()));
+  }
+  return placement;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/mapping/correspondence_graph.h"
+
+namespace orbweave {
+
+/// Where all pairs together say that images are, in a frame and scale of their own.
+struct PairPlacement {
+  std::vector<ImageSlot> images{};        ///< ascending
+  std::vector<Rigid3> cams_from_world{};  ///< per image
+};
+
+/// Poses of all images at once from pairs alone: rotations by AverageRotations, lengths of
+/// baselines by AverageBaselines, then centres that agree with most displacements, C_b - C_a = s
+/// R_a^T c with the unit baseline c in camera a, each to a share of its length
+/// (AverageDifferences). Pairs whose rotation most others contradict take no part; those that are
+/// nearly pure rotations give no displacement. Holds the largest set of `available` images that
+/// displacements join, which may be empty. Good to the exactness of pairs: a start for an
+/// adjustment. Cancelled when asked to stop.
+[[nodiscard]] absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
+                                                         const CorrespondenceGraph& graph,
+                                                         std::span<const uint8_t> available,
+                                                         const MappingOptions& options,
+                                                         const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/mapping/grow_component.h"
+
+namespace orbweave {
+
+struct GlobalModel {
+  std::optional<MappingState> state{};  ///< absent: nothing could be started
+  GrowthReport growth{};
+  std::string fault{};  ///< why the model is absent or not to be trusted; empty for a sound one
+};
+
+/// A model of the available images begun with all of them at once (StartGlobally), grown like any
+/// other (GrowComponent), then checked against the pairs (CheckAgainstPairs). Cancelled when asked
+/// to stop.
+[[nodiscard]] absl::StatusOr<GlobalModel> ReconstructGlobally(const ClusterProblem& problem,
+                                                              const CorrespondenceGraph& graph,
+                                                              std::span<const uint8_t> available,
+                                                              const MappingOptions& options,
+                                                              RegistrationLog& log,
+                                                              const StageContext& context);
+
+}  // namespace orbweave

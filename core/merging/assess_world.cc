@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/assess_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/bundle/bundle_eliminator.h"
+#include "core/bundle/pose_covariance.h"
+#include "core/merging/terms_of_block.h"
+
+namespace orbweave {
+namespace {
+
+// Just above rounding: keeps the depth of a point seen once free, and holds no world.
+constexpr double kPointDamping = 1e-14;
+
+/// A block's bearings alone: priors are weighted anew when the whole world is known.
+AdjustmentBlock BearingsOf(const WorldBlock& block) {
+  AdjustmentBlock terms = TermsOf(block);
+  terms.problem.position_priors.clear();
+  terms.problem.direction_priors.clear();
+  terms.problem.bias_sigma_m.clear();
+  terms.gauge.anchor.reset();
+  terms.gauge.farthest.reset();
+  std::vector<uint8_t> observes(terms.pose_ids.size(), 0);
+  for (const BundleObservation& seen : terms.problem.observations) observes[seen.pose] = 1;
+  for (size_t pose = 0; pose < observes.size(); ++pose) {
+    if (observes[pose] == 0) terms.gauge.pose_is_held[pose] = 1;  // no variable
+  }
+  return terms;
+}
+
+/// Variables that stay: poses that see something, and split points.
+struct Kept {
+  KeptVariables local{};
+  std::vector<SeparatorId> ids{};
+};
+
+Kept KeptOf(const WorldBlock& block, const AdjustmentBlock& terms) {
+  Kept kept;
+  for (uint32_t pose = 0; pose < terms.pose_ids.size(); ++pose) {
+    if (terms.gauge.pose_is_held[pose] != 0) continue;
+    kept.local.poses.push_back(pose);
+    kept.ids.push_back({SeparatorId::Kind::kPose, terms.pose_ids[pose]});
+  }
+  for (uint32_t i = 0; i < block.split.size(); ++i) {
+    kept.local.points.push_back(i);
+    kept.ids.push_back({SeparatorId::Kind::kPoint, block.split[i].id});
+  }
+  return kept;
+}
+
+/// Two equations per observation, less the unknowns of points that are eliminated.
+double RedundancyOf(const WorldBlock& block) {
+  double redundancy = 0.0;
+  for (const Track& track : block.scene.tracks)
+    redundancy += 2.0 * static_cast<double>(track.observations.size()) - 3.0;
+  for (const SplitTrack& track : block.split)
+    redundancy += 2.0 * static_cast<double>(track.part.observations.size());
+  return redundancy;
+}
+
+SeparatorSystem WithoutPoints(SeparatorSystem sum) {
+  std::vector<SeparatorId> poses;
+  for (const SeparatorId& id : sum.variables) {
+    if (id.kind == SeparatorId::Kind::kPose) poses.push_back(id);
+  }
+  if (poses.size() == sum.variables.size()) return sum;
+  return EliminateSeparators(sum, poses, kPointDamping);
+}
+
+/// A world's poses as variables of one problem.
+class PoseSystem {
+ public:
+  PoseSystem(const GlobalProblem& problem,
+             const std::vector<Eigen::Vector3d>& biases_m,
+             const SeparatorSystem& bearings)
+      : problem_(problem), state_(InitialState(problem.bundle)) {
+    state_.biases = biases_m;
+    gauge_.pose_is_held.assign(problem.image_of_pose.size(), 1);
+    for (const SeparatorId& id : bearings.variables)
+      gauge_.pose_is_held[PoseOf(ImageId(id.index))] = 0;
+  }
+
+  void Hold(std::optional<ImageId> held, std::optional<ImageId> farthest) {
+    if (held) gauge_.anchor = PoseOf(*held);
+    if (held && farthest) gauge_.farthest = PoseOf(*farthest);
+  }
+
+  [[nodiscard]] PoseCovariances Covariances(const SeparatorSystem& bearings,
+                                            const VarianceFactors& factors) const {
+    const BundleLayout layout = MakeBundleLayout(problem_.bundle, gauge_);
+    return CovariancesOfSystem(
+        {problem_.bundle, layout, state_, gauge_}, factors, SystemOf(bearings, layout));
+  }
+
+  [[nodiscard]] const BundleState& state() const { return state_; }
+  [[nodiscard]] bool IsVariable(size_t pose) const { return gauge_.pose_is_held[pose] == 0; }
+
+ private:
+  [[nodiscard]] uint32_t PoseOf(ImageId id) const {
+    return static_cast<uint32_t>(std::ranges::lower_bound(problem_.image_of_pose, id) -
+                                 problem_.image_of_pose.begin());
+  }
+
+  [[nodiscard]] ReducedSystem SystemOf(const SeparatorSystem& bearings,
+                                       const BundleLayout& layout) const {
+    std::vector<uint32_t> block_of_variable;
+    for (const SeparatorId& id : bearings.variables)
+      block_of_variable.push_back(layout.pose_block[PoseOf(ImageId(id.index))]);
+    ReducedSystem system = MakeReducedSystem(layout);
+    system.S = UnionPattern(layout.matrix, bearings.normal.S, block_of_variable);
+    const SymmetricBlockMatrix& S = bearings.normal.S;
+    for (uint32_t j = 0; j < S.num_blocks; ++j) {
+      system.trace[block_of_variable[j]] = bearings.normal.trace[j];
+      for (uint32_t p = S.column_start[j]; p < S.column_start[j + 1]; ++p) {
+        const BlockIndex at{block_of_variable[j], block_of_variable[S.rows[p]]};
+        system.S.values[system.S.Find(at)] += S.values[p];
+      }
+    }
+    return system;
+  }
+
+  // Poses ascend in both, so that upper triangles stay upper.
+  static SymmetricBlockMatrix UnionPattern(const SymmetricBlockMatrix& x,
+                                           const SymmetricBlockMatrix& y,
+                                           const std::vector<uint32_t>& x_of_y) {
+    std::vector<BlockIndex> pattern;
+    for (uint32_t j = 0; j < x.num_blocks; ++j) {
+      for (uint32_t p = x.column_start[j]; p < x.column_start[j + 1]; ++p)
+        pattern.push_back({j, x.rows[p]});
+    }
+    for (uint32_t j = 0; j < y.num_blocks; ++j) {
+      for (uint32_t p = y.column_start[j]; p < y.column_start[j + 1]; ++p)
+        pattern.push_back({x_of_y[j], x_of_y[y.rows[p]]});
+    }
+    return MakeBlockMatrix(x.num_blocks, std::move(pattern));
+  }
+
+  const GlobalProblem& problem_;
+  BundleState state_;
+  Gauge gauge_{};
+};
+
+PoseUncertainty FromCovariance(const Block6& covariance) {
+  const double rotation_variance = covariance.topLeftCorner<3, 3>().trace();
+  return {.position_covariance = covariance.bottomRightCorner<3, 3>(),
+          .rotation_sigma_rad = std::sqrt(std::max(rotation_variance, 0.0))};
+}
+
+/// Degrees of freedom of the world that bearings alone leave open and that something else holds.
+double GaugeFreedoms(const GlobalProblem& problem, bool holds_distance) {
+  if (!problem.bundle.position_priors.empty()) return 7.0;
+  return holds_distance ? 1.0 : 0.0;  // the held pose is no variable
+}
+
+}  // namespace
+
+void WorldAssessment::Add(const WorldBlock& block, int num_threads) {
+  const AdjustmentBlock terms = BearingsOf(block);
+  const Kept kept = KeptOf(block, terms);
+  BundleEliminator eliminator(
+      terms.problem, terms.gauge, kept.local, {.loss = BundleLoss::kLeastSquares}, num_threads);
+  const EvaluatedState state = eliminator.Start();
+  sum_of_squares_ += 2.0 * eliminator.Cost(state);
+  redundancy_ += RedundancyOf(block);
+  SeparatorSystem system{.is_definite = eliminator.Linearize(state, {.lambda = kPointDamping})};
+  if (system.is_definite) {
+    system.variables = kept.ids;
+    system.normal = eliminator.Remaining();
+  }
+  bearings_.push_back(std::move(system));
+  const auto held = std::ranges::find_if(block.images, &BlockImage::is_held);
+  if (held != block.images.end()) held_ = held->id;
+  if (block.farthest) farthest_ = block.farthest;
+}
+
+AssessedWorld WorldAssessment::Finish(const GlobalProblem& problem,
+                                      const std::vector<Eigen::Vector3d>& biases_m,
+                                      const ImageManifest& manifest) && {
+  AssessedWorld assessed;
+  SeparatorSystem sum = AddSystems(bearings_);
+  const auto num_split = static_cast<double>(
+      std::ranges::count(sum.variables, SeparatorId::Kind::kPoint, &SeparatorId::kind));
+  const SeparatorSystem bearings = WithoutPoints(std::move(sum));
+  if (!bearings.is_definite || bearings.variables.empty()) {
+    assessed.report.reason = "the normal equations of the poses are not positive definite";
+    return assessed;
+  }
+  PoseSystem poses(problem, biases_m, bearings);
+  poses.Hold(held_, farthest_);
+  const double redundancy = redundancy_ + GaugeFreedoms(problem, farthest_.has_value()) -
+                            3.0 * num_split - 6.0 * static_cast<double>(bearings.variables.size());
+  const PoseCovariances covariances =
+      poses.Covariances(bearings,
+                        {.bearings = BearingVarianceFactor(sum_of_squares_, redundancy),
+                         .positions = PositionVarianceFactors(problem.bundle, poses.state())});
+  UncertaintyReport& report = assessed.report;
+  report.reason = covariances.reason;
+  report.known = covariances.reason.empty();
+  if (held_) report.held_image = manifest.At(*held_).name;
+  if (farthest_) report.held_distance_to = manifest.At(*farthest_).name;
+  report.bearing_sigma_factor = std::sqrt(covariances.factors.bearings);
+  report.horizontal_gnss_sigma_factor = std::sqrt(covariances.factors.positions.x());
+  report.vertical_gnss_sigma_factor = std::sqrt(covariances.factors.positions.z());
+  for (size_t pose = 0; pose < problem.image_of_pose.size(); ++pose) {
+    const ImageId id = problem.image_of_pose[pose];
+    const bool is_known = poses.IsVariable(pose) || id == held_;
+    if (is_known && covariances.poses[pose])
+      assessed.uncertainties[id] = FromCovariance(*covariances.poses[pose]);
+  }
+  return assessed;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/bundle/block_matrix.h"
+#include "core/merging/world_block.h"
+#include "core/scene/view_graph.h"
+
+namespace orbweave {
+
+/// How well the two sides of a seam agree after the global adjustment. An image of the overlap is
+/// placed twice, by the points that panoramas of one side see, and by those of the other, all other
+/// things as adjusted: where the sides pull it apart, the seam does not fit. World units.
+struct SeamCertificate {
+  uint32_t cluster_a = 0;
+  uint32_t cluster_b = 0;
+  uint32_t num_images = 0;         ///< that both sides can place
+  double position_jump_m = 0.0;    ///< rms distance of the two places
+  double rotation_jump_deg = 0.0;  ///< rms angle between the two rotations
+  /// What bearings alone would leave on average (one standard deviation, all axes together).
+  double position_noise_m = 0.0;
+  double rotation_noise_deg = 0.0;
+};
+
+/// Certifies the seams of one adjusted world, block by block; memory grows with the overlaps.
+class SeamCertifier {
+ public:
+  /// `owners`: the cluster that answers for each image of the world. Seams whose clusters own no
+  /// image of it are left out.
+  SeamCertifier(const std::vector<Seam>& seams, std::map<ImageId, uint32_t> owners);
+
+  void Add(const WorldBlock& block);
+
+  /// In order of the seams. `bearing_factor`: a-posteriori over claimed variance of bearings.
+  [[nodiscard]] std::vector<SeamCertificate> Finish(double bearing_factor) const;
+
+ private:
+  /// One Gauss-Newton step of a pose against fixed points; (w, C) in world axes.
+  struct Placement {
+    Block6 hessian = Block6::Zero();
+    Vector6 gradient = Vector6::Zero();
+    uint32_t num_points = 0;
+  };
+
+  void AddTrack(const Track& track, const Reconstruction& scene);
+  void AddSeam(const Seam& seam, double bearing_factor, std::vector<SeamCertificate>& out) const;
+
+  std::vector<Seam> seams_;
+  std::map<ImageId, uint32_t> owners_;
+  /// Of shared images, by the cluster whose panoramas see the points.
+  std::map<std::pair<ImageId, uint32_t>, Placement> placements_;
+};
+
+}  // namespace orbweave

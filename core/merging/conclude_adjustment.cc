@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/conclude_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "core/merging/choose_local_frame.h"
+#include "core/merging/global_problem.h"
+#include "core/merging/judge_gnss.h"
+
+namespace orbweave {
+namespace {
+
+Reconstruction PosesOf(std::span<const BlockSummary> summaries) {
+  Reconstruction poses;
+  for (const BlockSummary& summary : summaries) {
+    poses.images.insert(summary.owned_images.begin(), summary.owned_images.end());
+  }
+  return poses;
+}
+
+/// An image that lost all its observations is where its neighbours and GNSS put it.
+void LoosenUnobserved(std::span<const BlockSummary> summaries,
+                      const ImageManifest& manifest,
+                      Reconstruction& poses,
+                      GlobalAdjustReport& report) {
+  std::map<ImageId, uint32_t> observations;
+  for (const BlockSummary& summary : summaries) {
+    for (const auto& [id, count] : summary.observations_of_image) observations[id] += count;
+  }
+  for (auto& [id, image] : poses.images) {
+    if (image.loose || observations[id] > 0) continue;
+    image.loose = true;
+    report.unobserved_images.push_back(manifest.At(id).name);
+  }
+}
+
+void MeasureResiduals(std::span<const BlockSummary> summaries, GlobalAdjustReport& report) {
+  double sum_px = 0.0;
+  double sum_px2 = 0.0;
+  uint64_t count = 0;
+  for (const BlockSummary& summary : summaries) {
+    sum_px += summary.residual_px_sum;
+    sum_px2 += summary.residual_px2_sum;
+    for (const auto& [id, observations] : summary.observations_of_image) count += observations;
+  }
+  report.num_observations = count;
+  if (count == 0) return;
+  report.residual_px_mean = sum_px / static_cast<double>(count);
+  report.residual_px_rms = std::sqrt(sum_px2 / static_cast<double>(count));
+}
+
+/// The drives' biases, by group.
+std::vector<Eigen::Vector3d> BiasesOf(std::span<const BlockSummary> summaries, size_t num_groups) {
+  std::vector<Eigen::Vector3d> biases_m(num_groups, Eigen::Vector3d::Zero());
+  for (const BlockSummary& summary : summaries) {
+    for (const BlockBias& bias : summary.biases) biases_m[bias.group] = bias.value_m;
+  }
+  return biases_m;
+}
+
+void AddTracks(WorldBlock block, std::map<uint32_t, Track>& split, Reconstruction& model) {
+  std::ranges::move(block.scene.tracks, std::back_inserter(model.tracks));
+  for (SplitTrack& track : block.split) {
+    Track& whole = split[track.id];
+    whole.point_in_world = track.part.point_in_world;
+    whole.color = track.part.color;
+    std::ranges::move(track.part.observations, std::back_inserter(whole.observations));
+  }
+}
+
+}  // namespace
+
+WorldInspection BeginInspection(std::span<const BlockSummary> summaries,
+                                const std::vector<Seam>& seams) {
+  std::map<ImageId, uint32_t> owners;
+  for (const BlockSummary& summary : summaries) {
+    for (const auto& [id, image] : summary.owned_images) owners[id] = summary.cluster;
+  }
+  return {.seams = SeamCertifier(seams, std::move(owners))};
+}
+
+ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
+                                  WorldInspection inspection,
+                                  GlobalAdjustReport report,
+                                  const Georeference& georeference,
+                                  const ImageManifest& manifest,
+                                  const GlobalAdjustOptions& options) {
+  ConcludedWorld world{.report = std::move(report)};
+  Reconstruction poses = PosesOf(summaries);
+  GlobalProblem problem = MakeGlobalProblem(poses);
+  if (georeference.enu_from_world)
+    AddGnss(poses, manifest, georeference, options.gnss_bias_sigma_m, problem);
+  const std::vector<Eigen::Vector3d> biases_m =
+      BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
+  AssessedWorld assessed = std::move(inspection.assessment).Finish(problem, biases_m, manifest);
+  for (const auto& [id, uncertainty] : assessed.uncertainties)
+    poses.images.at(id).uncertainty = uncertainty;
+  world.report.uncertainty = std::move(assessed.report);
+  if (georeference.enu_from_world) {
+    world.report.gnss = JudgeGnss(problem, biases_m, manifest);
+    world.report.adjustments.back().biases_m = biases_m;
+  } else {
+    world.report.gnss.reason = georeference.reason;
+  }
+  LoosenUnobserved(summaries, manifest, poses, world.report);
+  MeasureResiduals(summaries, world.report);
+  if (!georeference.enu_from_world) world.model_from_world = ChooseLocalFrame(poses, manifest);
+  const double sigma_factor = world.report.uncertainty.bearing_sigma_factor;
+  world.seams = inspection.seams.Finish(sigma_factor * sigma_factor);
+  for (SeamCertificate& seam : world.seams) {
+    seam.position_jump_m *= world.model_from_world.scale;
+    seam.position_noise_m *= world.model_from_world.scale;
+  }
+  world.images = std::move(poses.images);
+  return world;
+}
+
+Reconstruction GatherWorld(const ConcludedWorld& world, std::vector<WorldBlock> blocks) {
+  Reconstruction model{.images = world.images};
+  std::map<uint32_t, Track> split;
+  for (WorldBlock& block : blocks) AddTracks(std::move(block), split, model);
+  for (auto& [id, track] : split) {
+    if (track.observations.size() < 2) continue;
+    std::ranges::sort(track.observations, {}, &Observation::ref);
+    model.tracks.push_back(std::move(track));
+  }
+  model.SortTracks();
+  return Transformed(world.model_from_world, std::move(model));
+}
+
+}  // namespace orbweave

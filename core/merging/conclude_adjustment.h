@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "core/geometry/sim3.h"
+#include "core/merging/adjust_block.h"
+#include "core/merging/assess_world.h"
+#include "core/merging/certify_seams.h"
+#include "core/merging/georeference_reconstruction.h"
+#include "core/merging/global_options.h"
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+/// An adjusted world without its tracks.
+struct ConcludedWorld {
+  std::map<ImageId, RegisteredImage> images{};  ///< loose where nobody observes them any more
+  Sim3 model_from_world{};  ///< identity where georeferenced; else into ChooseLocalFrame
+  std::vector<SeamCertificate> seams{};  ///< in units of the model
+  GlobalAdjustReport report{};
+};
+
+/// What is taken up block by block, in their order.
+struct WorldInspection {
+  WorldAssessment assessment{};
+  SeamCertifier seams;
+
+  void Add(const WorldBlock& block, int num_threads) {
+    assessment.Add(block, num_threads);
+    seams.Add(block);
+  }
+};
+
+/// For the blocks that `summaries` are of; `seams` of the partition they come from.
+[[nodiscard]] WorldInspection BeginInspection(std::span<const BlockSummary> summaries,
+                                              const std::vector<Seam>& seams);
+
+/// What only the whole world tells, from the summaries of its blocks and an inspection of all of
+/// them: which images nobody observes any more, how GNSS fits (JudgeGnss), residuals, the
+/// uncertainty of poses, how seams fit, and the frame of the model.
+[[nodiscard]] ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
+                                                WorldInspection inspection,
+                                                GlobalAdjustReport report,
+                                                const Georeference& georeference,
+                                                const ImageManifest& manifest,
+                                                const GlobalAdjustOptions& options);
+
+/// The model: the images with the tracks of all blocks, split ones made whole, in its frame.
+[[nodiscard]] Reconstruction GatherWorld(const ConcludedWorld& world,
+                                         std::vector<WorldBlock> blocks);
+
+}  // namespace orbweave

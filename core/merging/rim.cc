@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/rim.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace orbweave {
+namespace {
+
+bool IsOnRim(const Track& track, const std::vector<ImageId>& shared) {
+  return std::ranges::any_of(track.observations, [&](const Observation& seen) {
+    return std::ranges::binary_search(shared, seen.ref.image);
+  });
+}
+
+}  // namespace
+
+Reconstruction RimOf(const Reconstruction& submodel, const std::vector<ImageId>& shared) {
+  Reconstruction rim{.images = submodel.images};
+  std::ranges::copy_if(submodel.tracks, std::back_inserter(rim.tracks), [&](const Track& track) {
+    return IsOnRim(track, shared);
+  });
+  return rim;
+}
+
+std::vector<Track> InnerTracksOf(const Reconstruction& submodel,
+                                 const std::vector<ImageId>& shared) {
+  std::vector<Track> inner;
+  std::ranges::copy_if(submodel.tracks, std::back_inserter(inner), [&](const Track& track) {
+    return !IsOnRim(track, shared);
+  });
+  return inner;
+}
+
+}  // namespace orbweave

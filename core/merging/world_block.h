@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/equirectangular_camera.h"
+#include "core/scene/reconstruction.h"
+
+namespace orbweave {
+
+/// An image of a block of the global adjustment. Its pose is in the block's scene.
+struct BlockImage {
+  ImageId id{};
+  EquirectangularCamera camera{};
+  bool is_owned = false;      ///< this block answers for the image
+  bool is_separator = false;  ///< terms of two blocks or more depend on its pose
+  bool is_held = false;       ///< the gauge's anchor
+};
+
+/// This block's part of a track that no block can eliminate alone.
+struct SplitTrack {
+  uint32_t id = 0;  ///< in the world
+  Track part{};
+};
+
+/// What GNSS says of an image's centre, east-north-up metres.
+struct BlockPrior {
+  ImageId image{};
+  Eigen::Vector3d position_in_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
+  std::optional<uint32_t> bias_group{};
+};
+
+/// The bias of a drive, and the sigma of its own prior; infinity where another block counts it.
+struct BlockBias {
+  uint32_t group = 0;
+  bool is_separator = false;
+  double sigma_m = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d value_m = Eigen::Vector3d::Zero();
+};
+
+/// One cluster's share of a world, complete in itself: its terms of the global adjustment and all
+/// variables that they need. Every observation, prior and image is owned by exactly one block of
+/// the world; images that this block's tracks see and others own are there too.
+struct WorldBlock {
+  uint32_t world = 0;
+  uint32_t cluster = 0;
+  Reconstruction scene{};            ///< poses, and the tracks that this block eliminates
+  std::vector<BlockImage> images{};  ///< those of the scene, in the same order
+  std::vector<SplitTrack> split{};   ///< ascending by id
+  std::vector<BlockPrior> priors{};  ///< of owned images, ascending
+  std::vector<BlockBias> biases{};   ///< of those priors, ascending
+  double gravity_sigma_rad = 0.0;    ///< of each owned image; 0: gravity takes no part
+  /// The image whose distance from the held one the gauge keeps; where neither priors do.
+  std::optional<ImageId> farthest{};
+};
+
+}  // namespace orbweave

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/synthetic/corridor_cameras.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/base/random.h"
+#include "core/geometry/rotation.h"
+#include "core/synthetic/geodetic_from_enu.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kCameraHeightM = 2.5;
+constexpr double kSwayRad = 0.015;
+constexpr double kTrembleRad = 2e-4;  // of a carrier that stands
+constexpr double kDayS = 86400.0;
+constexpr GeodeticPosition kOrigin = {22.3, 114.17, 10.0};
+
+/// cam_from_world of a panorama that looks along the street, up to a degree of sway.
+Eigen::Quaterniond LookAlong(const Eigen::Vector2d& direction, bool any_rotation, Random& random) {
+  if (any_rotation) {
+    Eigen::Quaterniond q(random.Normal(), random.Normal(), random.Normal(), random.Normal());
+    return q.normalized();
+  }
+  Eigen::Matrix3d cam_from_world;
+  cam_from_world.row(0) = Eigen::Vector3d(direction.y(), -direction.x(), 0.0);  // right
+  cam_from_world.row(1) = -Eigen::Vector3d::UnitZ();                            // down
+  cam_from_world.row(2) = Eigen::Vector3d(direction.x(), direction.y(), 0.0);   // forward
+  const Eigen::Vector3d sway =
+      Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()) * kSwayRad;
+  return (RotationFromVector(sway) * Eigen::Quaterniond(cam_from_world)).normalized();
+}
+
+std::string ImageName(size_t i) {
+  const std::string number = std::to_string(i);
+  return "pano_" + std::string(6 - std::min<size_t>(6, number.size()), '0') + number + ".jpg";
+}
+
+Eigen::Vector3d HorizontalVector(double length_m, Random& random) {
+  const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
+  return length_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+}
+
+/// What all positions of a drive, or of the stretch that jumped, have in common.
+struct GnssOffsets {
+  std::array<Eigen::Vector3d, 2> of_drive{};
+  Eigen::Vector3d of_jump = Eigen::Vector3d::Zero();
+  size_t jump_begin = 0;
+  size_t jump_end = 0;
+
+  GnssOffsets(const CorridorOptions& options, size_t num_panoramas) {
+    Random random(static_cast<uint64_t>(options.seed) * 3 + 0x6e55);
+    for (Eigen::Vector3d& bias : of_drive) bias = HorizontalVector(options.gnss_bias_m, random);
+    of_jump = HorizontalVector(options.gnss_jump_m, random);
+    const size_t length = std::min(static_cast<size_t>(options.gnss_jump_panoramas), num_panoramas);
+    jump_begin = (num_panoramas - length) / 2;
+    jump_end = jump_begin + length;
+  }
+
+  [[nodiscard]] Eigen::Vector3d At(size_t i, uint32_t drive) const {
+    const bool jumped = i >= jump_begin && i < jump_end;
+    return jumped ? Eigen::Vector3d(of_drive[drive] + of_jump) : of_drive[drive];
+  }
+};
+
+PosePrior MakePrior(const Eigen::Vector3d& biased_centre,
+                    const CorridorOptions& options,
+                    Random& random) {
+  PosePrior prior{.horizontal_sigma_m = options.gnss_sigma_m,
+                  .vertical_sigma_m = 2.0 * options.gnss_sigma_m};
+  Eigen::Vector3d position = biased_centre;
+  position += options.gnss_sigma_m *
+              Eigen::Vector3d(random.Normal(), random.Normal(), 2.0 * random.Normal());
+  if (random.Uniform() < options.gnss_outlier_share) {
+    const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
+    position +=
+        random.Uniform(20.0, 100.0) * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  }
+  prior.geodetic = GeodeticFromEnu(kOrigin, position);
+  prior.position_in_enu = position;
+  return prior;
+}
+
+}  // namespace
+
+void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corridor& corridor) {
+  Random random(static_cast<uint64_t>(options.seed) * 3 + 1);
+  const GnssOffsets offsets(options, path.stations.size());
+  const EquirectangularCamera camera{options.width_px, options.width_px / 2};
+  if (options.gnss_sigma_m > 0.0) corridor.manifest.origin = kOrigin;
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the carrier that moved last
+  for (size_t i = 0; i < path.stations.size(); ++i) {
+    const CorridorStation& station = path.stations[i];
+    const Eigen::Vector3d centre(
+        station.place.position.x(), station.place.position.y(), kCameraHeightM);
+    if (!station.standing)
+      attitude = LookAlong(station.place.direction, options.random_rotations, random);
+    Eigen::Quaterniond cam_from_world = attitude;
+    if (station.standing) {
+      const Eigen::Vector3d tremble(random.Normal(), random.Normal(), random.Normal());
+      cam_from_world = (RotationFromVector(kTrembleRad * tremble) * attitude).normalized();
+    }
+    corridor.cams_from_world.push_back(Rigid3::FromCentre(cam_from_world, centre));
+    ImageRecord image{.id = ImageId(static_cast<uint32_t>(i)),
+                      .name = ImageName(i),
+                      .camera = camera,
+                      .drive = station.drive};
+    if (options.gnss_sigma_m > 0.0)
+      image.prior = MakePrior(centre + offsets.At(i, station.drive), options, random);
+    if (options.drives == 2) image.capture_time_s = kDayS * station.drive + static_cast<double>(i);
+    corridor.manifest.images.push_back(std::move(image));
+    corridor.features.push_back({.camera = camera});
+  }
+  corridor.point_of_feature.resize(path.stations.size());
+}
+
+}  // namespace orbweave

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "proto/codec/adjustment_messages.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "proto/codec/pack.h"
+#include "proto/codec/reconstruction_messages.h"
+
+namespace orbweave::codec {
+namespace {
+
+template <typename Matrix>
+using MatrixBytes = std::array<double, Matrix::SizeAtCompileTime>;
+
+template <typename Matrix>
+std::string PackMatrices(const std::vector<Matrix>& matrices) {
+  std::vector<MatrixBytes<Matrix>> arrays(matrices.size());
+  for (size_t i = 0; i < matrices.size(); ++i)
+    std::copy_n(matrices[i].data(), arrays[i].size(), arrays[i].begin());
+  return Pack(arrays);
+}
+
+template <typename Matrix>
+absl::StatusOr<std::vector<Matrix>> UnpackMatrices(const std::string& bytes,
+                                                   size_t count,
+                                                   const char* what) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto arrays,
+                            UnpackExactly<MatrixBytes<Matrix>>(bytes, count, what));
+  std::vector<Matrix> matrices(count);
+  for (size_t i = 0; i < count; ++i)
+    std::copy(arrays[i].begin(), arrays[i].end(), matrices[i].data());
+  return matrices;
+}
+
+/// Every column ascends to its diagonal block.
+bool IsUpperTriangle(const SymmetricBlockMatrix& S) {
+  if (S.column_start.size() != size_t{S.num_blocks} + 1 || S.column_start.front() != 0 ||
+      S.column_start.back() != S.rows.size())
+    return false;
+  for (uint32_t j = 0; j < S.num_blocks; ++j) {
+    const uint32_t begin = S.column_start[j];
+    const uint32_t end = S.column_start[j + 1];
+    if (begin >= end || end > S.rows.size() || S.rows[end - 1] != j) return false;
+    for (uint32_t p = begin + 1; p < end; ++p) {
+      if (S.rows[p - 1] >= S.rows[p]) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void ToProto(const std::vector<BlockBias>& biases, v1::Biases* proto) {
+  std::vector<uint32_t> groups;
+  std::vector<uint8_t> is_separator;
+  std::vector<double> sigmas_m;
+  std::vector<Eigen::Vector3d> values_m;
+  for (const BlockBias& bias : biases) {
+    groups.push_back(bias.group);
+    is_separator.push_back(bias.is_separator ? 1 : 0);
+    sigmas_m.push_back(bias.sigma_m);
+    values_m.push_back(bias.value_m);
+  }
+  proto->set_groups(Pack(groups));
+  proto->set_is_separator(Pack(is_separator));
+  proto->set_sigmas_m(Pack(sigmas_m));
+  proto->set_values_m(PackVectors(values_m));
+}
+
+absl::StatusOr<std::vector<BlockBias>> FromProto(const v1::Biases& proto) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto groups, Unpack<uint32_t>(proto.groups(), "biases"));
+  const size_t count = groups.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto is_separator,
+                            UnpackExactly<uint8_t>(proto.is_separator(), count, "bias flags"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto sigmas_m,
+                            UnpackExactly<double>(proto.sigmas_m(), count, "bias sigmas"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto values_m,
+                            UnpackExactly<Vector3Bytes>(proto.values_m(), count, "bias values"));
+  std::vector<BlockBias> biases;
+  for (size_t i = 0; i < count; ++i) {
+    biases.push_back({.group = groups[i],
+                      .is_separator = is_separator[i] != 0,
+                      .sigma_m = sigmas_m[i],
+                      .value_m = ToVector(values_m[i])});
+  }
+  return biases;
+}
+
+void ToProto(const std::vector<SeparatorId>& ids, v1::SeparatorIds* proto) {
+  std::vector<uint8_t> kinds;
+  std::vector<uint32_t> indices;
+  for (const SeparatorId& id : ids) {
+    kinds.push_back(static_cast<uint8_t>(id.kind));
+    indices.push_back(id.index);
+  }
+  proto->set_kinds(Pack(kinds));
+  proto->set_indices(Pack(indices));
+}
+
+absl::StatusOr<std::vector<SeparatorId>> FromProto(const v1::SeparatorIds& proto) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto indices, Unpack<uint32_t>(proto.indices(), "separators"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto kinds, UnpackExactly<uint8_t>(proto.kinds(), indices.size(), "separator kinds"));
+  std::vector<SeparatorId> ids;
+  for (size_t i = 0; i < indices.size(); ++i) {
+    if (kinds[i] > static_cast<uint8_t>(SeparatorId::Kind::kPoint))
+      return absl::InvalidArgumentError("separators: an unknown kind");
+    ids.push_back({static_cast<SeparatorId::Kind>(kinds[i]), indices[i]});
+  }
+  if (!std::ranges::is_sorted(ids)) return absl::InvalidArgumentError("separators: not in order");
+  return ids;
+}
+
+void ToProto(const SeparatorSystem& system, v1::SeparatorSystem* proto) {
+  ToProto(system.variables, proto->mutable_variables());
+  proto->set_is_definite(system.is_definite);
+  const NormalSystem& normal = system.normal;
+  proto->set_column_start(Pack(normal.S.column_start));
+  proto->set_rows(Pack(normal.S.rows));
+  proto->set_values(PackMatrices(normal.S.values));
+  proto->set_rhs(PackMatrices(normal.rhs));
+  proto->set_gradient(PackMatrices(normal.gradient));
+  proto->set_trace(PackMatrices(normal.trace));
+}
+
+absl::StatusOr<SeparatorSystem> FromProto(const v1::SeparatorSystem& proto) {
+  SeparatorSystem system{.is_definite = proto.is_definite()};
+  ORBWEAVE_ASSIGN_OR_RETURN(system.variables, FromProto(proto.variables()));
+  if (!system.is_definite) return system;
+  const size_t count = system.variables.size();
+  SymmetricBlockMatrix S{.num_blocks = static_cast<uint32_t>(count)};
+  ORBWEAVE_ASSIGN_OR_RETURN(S.column_start, Unpack<uint32_t>(proto.column_start(), "columns"));
+  if (count == 0) S.column_start.assign(1, 0);
+  ORBWEAVE_ASSIGN_OR_RETURN(S.rows, Unpack<uint32_t>(proto.rows(), "rows"));
+  if (!IsUpperTriangle(S))
+    return absl::InvalidArgumentError("separator system: not an upper triangle");
+  ORBWEAVE_ASSIGN_OR_RETURN(S.values,
+                            UnpackMatrices<Block6>(proto.values(), S.rows.size(), "values"));
+  system.normal = MakeNormalSystem(std::move(S));
+  ORBWEAVE_ASSIGN_OR_RETURN(system.normal.rhs, UnpackMatrices<Vector6>(proto.rhs(), count, "rhs"));
+  ORBWEAVE_ASSIGN_OR_RETURN(system.normal.gradient,
+                            UnpackMatrices<Vector6>(proto.gradient(), count, "gradient"));
+  ORBWEAVE_ASSIGN_OR_RETURN(system.normal.trace,
+                            UnpackMatrices<Eigen::Vector2d>(proto.trace(), count, "trace"));
+  return system;
+}
+
+void ToProto(const std::vector<ShortenedPoint>& points, v1::ShortenedPoints* proto) {
+  std::vector<uint32_t> ids;
+  std::vector<double> shares;
+  for (const ShortenedPoint& point : points) {
+    ids.push_back(point.point);
+    shares.push_back(point.share);
+  }
+  proto->set_points(Pack(ids));
+  proto->set_shares(Pack(shares));
+}
+
+absl::StatusOr<std::vector<ShortenedPoint>> FromProto(const v1::ShortenedPoints& proto) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto ids, Unpack<uint32_t>(proto.points(), "shortened points"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto shares,
+                            UnpackExactly<double>(proto.shares(), ids.size(), "shares"));
+  std::vector<ShortenedPoint> points;
+  for (size_t i = 0; i < ids.size(); ++i) points.push_back({ids[i], shares[i]});
+  return points;
+}
+
+void ToProto(const BlockSummary& summary, v1::BlockSummary* proto) {
+  ToProto(Reconstruction{.images = summary.owned_images}, proto->mutable_owned());
+  std::vector<ImageId> images;
+  std::vector<uint32_t> counts;
+  for (const auto& [id, count] : summary.observations_of_image) {
+    images.push_back(id);
+    counts.push_back(count);
+  }
+  proto->set_observed_images(Pack(images));
+  proto->set_observation_counts(Pack(counts));
+  ToProto(summary.biases, proto->mutable_biases());
+  proto->set_residual_px_sum(summary.residual_px_sum);
+  proto->set_residual_px2_sum(summary.residual_px2_sum);
+  proto->set_cluster(summary.cluster);
+}
+
+absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
+  BlockSummary summary{.cluster = proto.cluster(),
+                       .residual_px_sum = proto.residual_px_sum(),
+                       .residual_px2_sum = proto.residual_px2_sum()};
+  ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction owned, FromProto(proto.owned()));
+  summary.owned_images = std::move(owned.images);
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images, Unpack<ImageId>(proto.observed_images(), "images"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto counts,
+      UnpackExactly<uint32_t>(proto.observation_counts(), images.size(), "counts"));
+  for (size_t i = 0; i < images.size(); ++i) summary.observations_of_image[images[i]] = counts[i];
+  ORBWEAVE_ASSIGN_OR_RETURN(summary.biases, FromProto(proto.biases()));
+  return summary;
+}
+
+void ToProto(const TrialCost& trial, v1::TrialCost* proto) {
+  proto->set_cost(trial.cost);
+  proto->set_predicted_decrease(trial.predicted_decrease);
+  std::vector<double> before;
+  std::vector<double> after;
+  std::vector<uint8_t> behind;
+  for (const KeptPointTrial& point : trial.kept_points) {
+    before.push_back(point.cost_before);
+    for (const PointCost& cost : point.after) {
+      after.push_back(cost.cost);
+      behind.push_back(cost.any_behind ? 1 : 0);
+    }
+  }
+  proto->set_kept_before(Pack(before));
+  proto->set_kept_after(Pack(after));
+  proto->set_kept_behind(Pack(behind));
+}
+
+absl::StatusOr<TrialCost> FromProto(const v1::TrialCost& proto) {
+  TrialCost trial{.cost = proto.cost(), .predicted_decrease = proto.predicted_decrease()};
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto before, Unpack<double>(proto.kept_before(), "kept points"));
+  const size_t shares = kStepShares.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto after,
+      UnpackExactly<double>(proto.kept_after(), shares * before.size(), "kept points' costs"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto behind,
+      UnpackExactly<uint8_t>(proto.kept_behind(), shares * before.size(), "kept points' flags"));
+  for (size_t i = 0; i < before.size(); ++i) {
+    KeptPointTrial& point = trial.kept_points.emplace_back();
+    point.cost_before = before[i];
+    for (size_t k = 0; k < shares; ++k)
+      point.after[k] = {after[shares * i + k], behind[shares * i + k] != 0};
+  }
+  return trial;
+}
+
+}  // namespace orbweave::codec

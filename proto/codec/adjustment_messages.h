@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/base/status.h"
+#include "core/merging/adjust_block.h"
+#include "orbweave/v1/adjustment.pb.h"
+
+/// Messages of the global adjustment that several artifacts hold.
+
+namespace orbweave::codec {
+
+void ToProto(const std::vector<BlockBias>& biases, v1::Biases* proto);
+[[nodiscard]] absl::StatusOr<std::vector<BlockBias>> FromProto(const v1::Biases& proto);
+
+void ToProto(const std::vector<SeparatorId>& ids, v1::SeparatorIds* proto);
+[[nodiscard]] absl::StatusOr<std::vector<SeparatorId>> FromProto(const v1::SeparatorIds& proto);
+
+void ToProto(const SeparatorSystem& system, v1::SeparatorSystem* proto);
+/// InvalidArgument also for a matrix whose blocks are not an upper triangle in order.
+[[nodiscard]] absl::StatusOr<SeparatorSystem> FromProto(const v1::SeparatorSystem& proto);
+
+void ToProto(const std::vector<ShortenedPoint>& points, v1::ShortenedPoints* proto);
+[[nodiscard]] absl::StatusOr<std::vector<ShortenedPoint>> FromProto(
+    const v1::ShortenedPoints& proto);
+
+void ToProto(const BlockSummary& summary, v1::BlockSummary* proto);
+[[nodiscard]] absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto);
+
+void ToProto(const TrialCost& trial, v1::TrialCost* proto);
+[[nodiscard]] absl::StatusOr<TrialCost> FromProto(const v1::TrialCost& proto);
+
+}  // namespace orbweave::codec

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "proto/codec/block_codec.h"
+
+#include <utility>
+
+#include "orbweave/v1/adjustment.pb.h"
+#include "proto/codec/adjustment_messages.h"
+#include "proto/codec/pack.h"
+#include "proto/codec/reconstruction_messages.h"
+
+namespace orbweave {
+namespace {
+
+using codec::PoseBytes;
+using codec::ToArray;
+using codec::ToVector;
+using codec::Vector3Bytes;
+
+enum BlockImageFlag : uint8_t { kOwned = 1, kSeparator = 2, kHeld = 4 };
+
+void ImagesToProto(const WorldBlock& block, v1::WorldBlock* proto) {
+  std::vector<std::array<int32_t, 2>> cameras;
+  std::vector<uint8_t> flags;
+  for (const BlockImage& image : block.images) {
+    cameras.push_back({image.camera.width_px, image.camera.height_px});
+    flags.push_back(static_cast<uint8_t>((image.is_owned ? kOwned : 0) |
+                                         (image.is_separator ? kSeparator : 0) |
+                                         (image.is_held ? kHeld : 0)));
+  }
+  proto->set_cameras(codec::Pack(cameras));
+  proto->set_flags(codec::Pack(flags));
+}
+
+absl::Status ImagesFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
+  const size_t count = block.scene.images.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto cameras,
+      (codec::UnpackExactly<std::array<int32_t, 2>>(proto.cameras(), count, "cameras")));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto flags,
+                            codec::UnpackExactly<uint8_t>(proto.flags(), count, "image flags"));
+  size_t i = 0;
+  for (const auto& [id, image] : block.scene.images) {
+    block.images.push_back({.id = id,
+                            .camera = {cameras[i][0], cameras[i][1]},
+                            .is_owned = (flags[i] & kOwned) != 0,
+                            .is_separator = (flags[i] & kSeparator) != 0,
+                            .is_held = (flags[i] & kHeld) != 0});
+    ++i;
+  }
+  return absl::OkStatus();
+}
+
+void SplitToProto(const WorldBlock& block, v1::WorldBlock* proto) {
+  if (block.split.empty()) return;
+  std::vector<uint32_t> ids;
+  Reconstruction parts{.images = block.scene.images};
+  for (const SplitTrack& track : block.split) {
+    ids.push_back(track.id);
+    parts.tracks.push_back(track.part);
+  }
+  proto->set_split_ids(codec::Pack(ids));
+  codec::ToProto(parts, proto->mutable_split());
+}
+
+absl::Status SplitFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
+  ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction parts, codec::FromProto(proto.split()));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto ids,
+      codec::UnpackExactly<uint32_t>(proto.split_ids(), parts.tracks.size(), "split tracks"));
+  for (size_t i = 0; i < ids.size(); ++i)
+    block.split.push_back({ids[i], std::move(parts.tracks[i])});
+  return absl::OkStatus();
+}
+
+void PriorsToProto(const WorldBlock& block, v1::WorldBlock* proto) {
+  std::vector<ImageId> images;
+  std::vector<Vector3Bytes> positions;
+  std::vector<Vector3Bytes> sigmas;
+  std::vector<int32_t> groups;
+  for (const BlockPrior& prior : block.priors) {
+    images.push_back(prior.image);
+    positions.push_back(ToArray(prior.position_in_world));
+    sigmas.push_back(ToArray(prior.sigma_m));
+    groups.push_back(prior.bias_group ? static_cast<int32_t>(*prior.bias_group) : -1);
+  }
+  proto->set_prior_images(codec::Pack(images));
+  proto->set_prior_positions(codec::Pack(positions));
+  proto->set_prior_sigmas_m(codec::Pack(sigmas));
+  proto->set_prior_groups(codec::Pack(groups));
+}
+
+absl::Status PriorsFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
+                            codec::Unpack<ImageId>(proto.prior_images(), "priors"));
+  const size_t count = images.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto positions,
+      codec::UnpackExactly<Vector3Bytes>(proto.prior_positions(), count, "prior positions"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto sigmas,
+      codec::UnpackExactly<Vector3Bytes>(proto.prior_sigmas_m(), count, "prior sigmas"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto groups,
+      codec::UnpackExactly<int32_t>(proto.prior_groups(), count, "prior groups"));
+  for (size_t i = 0; i < count; ++i) {
+    BlockPrior prior{.image = images[i],
+                     .position_in_world = ToVector(positions[i]),
+                     .sigma_m = ToVector(sigmas[i])};
+    if (groups[i] >= 0) prior.bias_group = static_cast<uint32_t>(groups[i]);
+    if (!block.scene.images.contains(prior.image))
+      return absl::InvalidArgumentError("world block: a prior of an image it does not hold");
+    block.priors.push_back(prior);
+  }
+  return absl::OkStatus();
+}
+
+void ToProto(const WorldBlock& block, v1::WorldBlock* proto) {
+  proto->set_world(block.world);
+  proto->set_cluster(block.cluster);
+  codec::ToProto(block.scene, proto->mutable_scene());
+  ImagesToProto(block, proto);
+  SplitToProto(block, proto);
+  PriorsToProto(block, proto);
+  codec::ToProto(block.biases, proto->mutable_biases());
+  proto->set_gravity_sigma_rad(block.gravity_sigma_rad);
+  if (block.farthest) proto->set_farthest(block.farthest->value);
+}
+
+absl::StatusOr<WorldBlock> FromProto(const v1::WorldBlock& proto) {
+  WorldBlock block{.world = proto.world(),
+                   .cluster = proto.cluster(),
+                   .gravity_sigma_rad = proto.gravity_sigma_rad()};
+  ORBWEAVE_ASSIGN_OR_RETURN(block.scene, codec::FromProto(proto.scene()));
+  ORBWEAVE_RETURN_IF_ERROR(ImagesFromProto(proto, block));
+  ORBWEAVE_RETURN_IF_ERROR(SplitFromProto(proto, block));
+  ORBWEAVE_RETURN_IF_ERROR(PriorsFromProto(proto, block));
+  ORBWEAVE_ASSIGN_OR_RETURN(block.biases, codec::FromProto(proto.biases()));
+  if (proto.has_farthest()) block.farthest = ImageId(proto.farthest());
+  return block;
+}
+
+}  // namespace
+
+std::string EncodeWorldBlock(const WorldBlock& block) {
+  v1::WorldBlock proto;
+  ToProto(block, &proto);
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<WorldBlock> DecodeWorldBlock(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::WorldBlock proto,
+                            codec::Parse<v1::WorldBlock>(bytes, "world block"));
+  return FromProto(proto);
+}
+
+std::string EncodeAssembleRecipe(const AssembleRecipe& recipe) {
+  v1::AssembleRecipe proto;
+  ToProto(recipe.joined.block, proto.mutable_block());
+  for (const PlacedComponent& placed : recipe.joined.components) {
+    v1::PlacedComponent* out = proto.add_components();
+    out->set_component(placed.component);
+    codec::ToProto(placed.world_from_component, out->mutable_world_from_component());
+  }
+  proto.set_cluster_result(codec::PackDigest(recipe.cluster_result));
+  proto.set_shared(codec::Pack(recipe.shared));
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<AssembleRecipe> DecodeAssembleRecipe(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::AssembleRecipe proto,
+                            codec::Parse<v1::AssembleRecipe>(bytes, "assemble recipe"));
+  AssembleRecipe recipe;
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.joined.block, FromProto(proto.block()));
+  for (const v1::PlacedComponent& placed : proto.components()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 pose, codec::FromProto(placed.world_from_component()));
+    recipe.joined.components.push_back({placed.component(), pose});
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.cluster_result, codec::UnpackDigest(proto.cluster_result()));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.shared, codec::Unpack<ImageId>(proto.shared(), "shared images"));
+  return recipe;
+}
+
+std::string EncodeJoinedWorlds(const std::vector<JoinedWorld>& worlds) {
+  v1::JoinedWorlds proto;
+  for (const JoinedWorld& world : worlds) {
+    v1::JoinedWorld* out = proto.add_worlds();
+    v1::Georeference* georeference = out->mutable_georeference();
+    if (world.georeference.enu_from_world)
+      codec::ToProto(*world.georeference.enu_from_world, georeference->mutable_enu_from_world());
+    georeference->set_reason(world.georeference.reason);
+    georeference->set_horizontal_scatter_m(world.georeference.horizontal_scatter_m);
+    georeference->set_vertical_scatter_m(world.georeference.vertical_scatter_m);
+    georeference->set_scale_uncertainty(world.georeference.scale_uncertainty);
+    out->set_united_tracks(world.merge.united_tracks);
+    out->set_conflicting_tracks(world.merge.conflicting_tracks);
+    out->set_num_images(world.num_images);
+    out->set_num_blocks(world.num_blocks);
+  }
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::JoinedWorlds proto,
+                            codec::Parse<v1::JoinedWorlds>(bytes, "joined worlds"));
+  std::vector<JoinedWorld> worlds;
+  for (const v1::JoinedWorld& world : proto.worlds()) {
+    const v1::Georeference& georeference = world.georeference();
+    JoinedWorld& out = worlds.emplace_back();
+    if (georeference.has_enu_from_world()) {
+      ORBWEAVE_ASSIGN_OR_RETURN(out.georeference.enu_from_world,
+                                codec::FromProto(georeference.enu_from_world()));
+    }
+    out.georeference.reason = georeference.reason();
+    out.georeference.horizontal_scatter_m = georeference.horizontal_scatter_m();
+    out.georeference.vertical_scatter_m = georeference.vertical_scatter_m();
+    out.georeference.scale_uncertainty = georeference.scale_uncertainty();
+    out.merge = {world.united_tracks(), world.conflicting_tracks()};
+    out.num_images = world.num_images();
+    out.num_blocks = world.num_blocks();
+  }
+  return worlds;
+}
+
+std::string EncodeBlockState(const EvaluatedState& state) {
+  v1::BlockState proto;
+  std::vector<PoseBytes> poses;
+  for (const PoseState& pose : state.variables.poses) {
+    const Eigen::Quaterniond& q = pose.rotation;
+    const Eigen::Vector3d& c = pose.centre;
+    poses.push_back({q.w(), q.x(), q.y(), q.z(), c.x(), c.y(), c.z()});
+  }
+  proto.set_poses(codec::Pack(poses));
+  proto.set_points(codec::PackVectors(state.variables.points));
+  proto.set_biases(codec::PackVectors(state.variables.biases));
+  proto.set_costs(codec::Pack(state.costs.per_point));
+  proto.set_total_cost(state.costs.total);
+  proto.set_kept_before(codec::PackVectors(state.kept_points_before));
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<EvaluatedState> DecodeBlockState(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::BlockState proto,
+                            codec::Parse<v1::BlockState>(bytes, "block state"));
+  EvaluatedState state;
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto poses, codec::Unpack<PoseBytes>(proto.poses(), "poses"));
+  for (const PoseBytes& a : poses) {
+    const Eigen::Quaterniond q(a[0], a[1], a[2], a[3]);
+    if (!(std::abs(q.norm() - 1.0) < 1e-6))
+      return absl::InvalidArgumentError("block state: a pose is not a rigid motion");
+    state.variables.poses.push_back(MakePoseState(q, {a[4], a[5], a[6]}));
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(state.variables.points, codec::UnpackVectors(proto.points(), "points"));
+  ORBWEAVE_ASSIGN_OR_RETURN(state.variables.biases, codec::UnpackVectors(proto.biases(), "biases"));
+  ORBWEAVE_ASSIGN_OR_RETURN(state.costs.per_point, codec::Unpack<double>(proto.costs(), "costs"));
+  state.costs.total = proto.total_cost();
+  ORBWEAVE_ASSIGN_OR_RETURN(state.kept_points_before,
+                            codec::UnpackVectors(proto.kept_before(), "kept points"));
+  return state;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The hardships of real streets, one at a time: what is registered, how exactly, and above all that
+// no model is wrong without saying so.
+
+#include <gtest/gtest.h>
+
+#include "core/estimators/compare_poses.h"
+#include "tests/scenes/orientate.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kFeatures = 300;
+
+PoseErrors ErrorsOf(const Corridor& corridor, const Reconstruction& model) {
+  std::vector<Rigid3> estimated;
+  std::vector<Rigid3> truth;
+  for (const auto& [id, image] : model.images) {
+    estimated.push_back(image.cam_from_world);
+    truth.push_back(corridor.cams_from_world[id.value]);
+  }
+  return ComparePoses(estimated, truth).value_or(PoseErrors{.position_rmse_m = 1e9});
+}
+
+/// All panoramas in one model, at the noise: what every case that can be right has to reach.
+void ExpectWholeAndExact(const Corridor& corridor, const Orientated& result) {
+  ASSERT_EQ(result.worlds.size(), 1U);
+  const Reconstruction& model = result.worlds[0].reconstruction;
+  EXPECT_EQ(model.images.size(), corridor.features.size());
+  const PoseErrors errors = ErrorsOf(corridor, model);
+  EXPECT_LT(errors.window_rmse_m, 0.005);
+  EXPECT_LT(errors.position_rmse_m, 0.03);
+  EXPECT_LT(errors.rotation_max_deg, 0.1);
+  EXPECT_LT(result.worlds[0].report.residual_px_rms, 0.72);
+  EXPECT_FALSE(result.NamesAContradiction());
+}
+
+TEST(HardCases, StraightStreet) {
+  const Corridor corridor = MakeCorridor(
+      {.panoramas = 60, .shape = CorridorShape::kStraight, .features_per_panorama = kFeatures});
+  ExpectWholeAndExact(corridor, Orientate(corridor));
+}
+
+TEST(HardCases, Uturn) {
+  const Corridor corridor = MakeCorridor(
+      {.panoramas = 60, .shape = CorridorShape::kUturn, .features_per_panorama = kFeatures});
+  ExpectWholeAndExact(corridor, Orientate(corridor));
+}
+
+TEST(HardCases, StopAtATrafficLight) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 80, .features_per_panorama = kFeatures, .stop_panoramas = 50});
+  ExpectWholeAndExact(corridor, Orientate(corridor));
+}
+
+TEST(HardCases, TunnelMaySplitTheStreetButNotBendIt) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 60, .features_per_panorama = kFeatures, .tunnel_panoramas = 20});
+  const Orientated result = Orientate(corridor);
+  EXPECT_GE(result.NumRegistered(), 57U);
+  EXPECT_LE(result.worlds.size(), 3U);
+  for (const GloballyAdjusted& world : result.worlds) {
+    EXPECT_LT(ErrorsOf(corridor, world.reconstruction).position_rmse_m, 0.2);
+  }
+}
+
+TEST(HardCases, ThirdOfTheMatchesIsWrong) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 60, .features_per_panorama = kFeatures, .outlier_share = 0.3});
+  ExpectWholeAndExact(corridor, Orientate(corridor));
+}
+
+TEST(HardCases, GnssJumpsAreNamedAndDoNotBendTheModel) {
+  const Corridor corridor = MakeCorridor(
+      {.panoramas = 60, .features_per_panorama = kFeatures, .gnss_jump_panoramas = 12});
+  const Orientated result = Orientate(corridor);
+  ExpectWholeAndExact(corridor, result);
+  EXPECT_TRUE(result.dropped_edges.empty());
+  const GnssReport& gnss = result.worlds[0].report.gnss;
+  EXPECT_TRUE(gnss.used);
+  for (size_t i = 24; i < 36; ++i) {
+    const std::string& name = corridor.manifest.images[i].name;
+    EXPECT_EQ(std::ranges::count(gnss.outliers, name), 1) << name;
+  }
+  EXPECT_LT(ErrorsOf(corridor, result.worlds[0].reconstruction).unaligned_rmse_m, 2.0);
+}
+
+TEST(HardCases, TwoDrivesOnDifferentDays) {
+  const Corridor corridor = MakeCorridor(
+      {.panoramas = 80, .features_per_panorama = kFeatures, .gnss_bias_m = 3.0, .drives = 2});
+  ExpectWholeAndExact(corridor, Orientate(corridor));
+}
+
+TEST(HardCases, RoofThatMatchesMoreThanTheStreet) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 60, .features_per_panorama = kFeatures, .roof_features = 400});
+  ExpectWholeAndExact(corridor, Orientate(corridor));
+}
+
+TEST(HardCases, StitchingParallaxShowsInTheResiduals) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 60, .features_per_panorama = kFeatures, .lens_offset_m = 0.04});
+  const Orientated result = Orientate(corridor);
+  ASSERT_EQ(result.worlds.size(), 1U);
+  EXPECT_EQ(result.NumRegistered(), 60U);
+  // The rays do not start where they say: 0.4 % of the depth, and of the street.
+  EXPECT_LT(ErrorsOf(corridor, result.worlds[0].reconstruction).position_rmse_m, 1.0);
+  EXPECT_GT(result.worlds[0].report.residual_px_rms, 0.8);
+}
+
+TEST(HardCases, NoGnssAtAll) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 60, .features_per_panorama = kFeatures, .gnss_sigma_m = 0.0});
+  const Orientated result = Orientate(corridor);
+  ExpectWholeAndExact(corridor, result);
+  EXPECT_FALSE(result.worlds[0].report.gnss.used);
+  EXPECT_EQ(result.worlds[0].report.gnss.reason, "no image has a GNSS position");
+}
+
+TEST(HardCases, RepeatedFacadesAreToldApartByGnss) {
+  for (const double share : {0.5, 1.0}) {
+    const Corridor corridor = MakeCorridor({.panoramas = 60,
+                                            .shape = CorridorShape::kStraight,
+                                            .features_per_panorama = kFeatures,
+                                            .repeat_after = 20,
+                                            .repeat_share = share});
+    const Orientated result = Orientate(corridor);
+    ExpectWholeAndExact(corridor, result);
+    EXPECT_GT(result.dropped_edges.size(), 80U);
+  }
+}
+
+TEST(HardCases, RepeatedFacadesWithoutGnssAreNeverWrongInSilence) {
+  for (const double share : {0.3, 0.5, 1.0}) {
+    const Corridor corridor = MakeCorridor({.panoramas = 60,
+                                            .shape = CorridorShape::kStraight,
+                                            .features_per_panorama = kFeatures,
+                                            .gnss_sigma_m = 0.0,
+                                            .repeat_after = 20,
+                                            .repeat_share = share});
+    const Orientated result = Orientate(corridor);
+    for (const GloballyAdjusted& world : result.worlds) {
+      if (ErrorsOf(corridor, world.reconstruction).position_rmse_m < 0.05) continue;
+      EXPECT_TRUE(result.NamesAContradiction()) << share;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worker/adjustment_stages.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/merging/adjust_globally.h"
+#include "core/merging/rim.h"
+#include "core/stages/advance_adjustment.h"
+#include "core/stages/plan_recipes.h"
+#include "proto/codec/adjustment_codec.h"
+#include "proto/codec/block_codec.h"
+#include "proto/codec/manifest_codec.h"
+#include "proto/codec/reconstruction_codec.h"
+#include "proto/codec/two_view_codec.h"
+#include "worker/stage_io.h"
+
+namespace orbweave {
+namespace {
+
+absl::StatusOr<BlockPlace> AdjustedPlace(uint32_t world,
+                                         const WorldBlock& block,
+                                         BlockSummary summary,
+                                         BlobAccess& blobs,
+                                         TaskResult& result) {
+  BlockPlace place{.world = world, .summary = std::move(summary)};
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeWorldBlock(block), blobs, result));
+  place.block = result.outputs.back();
+  return place;
+}
+
+/// Where the blocks of a job are before the first round, world by world.
+struct FirstRound {
+  const PipelineOptions& options;
+  const std::vector<JoinedWorld>& worlds;
+  const std::vector<Digest>& blocks;
+  BlobAccess& blobs;
+  const StageContext& context;
+
+  [[nodiscard]] bool IsDistributed(const JoinedWorld& world) const {
+    return world.num_images >= static_cast<uint32_t>(options.blocks.distribute_from);
+  }
+
+  /// Adjusts a whole world; its blocks are added to `result` and `places`.
+  absl::StatusOr<GlobalAdjustReport> AdjustHere(uint32_t world,
+                                                size_t first,
+                                                std::vector<BlockPlace>& places,
+                                                TaskResult& result) const {
+    std::vector<WorldBlock> own;
+    for (size_t b = first; b < first + worlds[world].num_blocks; ++b) {
+      ORBWEAVE_ASSIGN_OR_RETURN(own.emplace_back(), FetchBlob(blocks[b], blobs, DecodeWorldBlock));
+    }
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        AdjustedBlocks adjusted,
+        AdjustBlocks(std::move(own), options.global, options.bundle, context));
+    for (size_t b = 0; b < adjusted.blocks.size(); ++b) {
+      ORBWEAVE_ASSIGN_OR_RETURN(
+          places.emplace_back(),
+          AdjustedPlace(
+              world, adjusted.blocks[b], std::move(adjusted.summaries[b]), blobs, result));
+    }
+    return std::move(adjusted.report);
+  }
+
+  absl::StatusOr<AdvancedAdjustment> Run(TaskResult& result) const {
+    std::vector<BlockPlace> places;
+    std::vector<GlobalAdjustReport> reports(worlds.size());
+    std::vector<uint8_t> is_distributed;
+    size_t first = 0;
+    for (uint32_t world = 0; world < worlds.size(); ++world) {
+      is_distributed.push_back(IsDistributed(worlds[world]) ? 1 : 0);
+      const size_t end = first + worlds[world].num_blocks;
+      if (end > blocks.size())
+        return absl::InvalidArgumentError("steer_adjustment: the blocks are of other worlds");
+      if (is_distributed.back() != 0) {
+        for (size_t b = first; b < end; ++b) places.push_back({.world = world, .block = blocks[b]});
+      } else {
+        ORBWEAVE_ASSIGN_OR_RETURN(reports[world], AdjustHere(world, first, places, result));
+      }
+      first = end;
+    }
+    AdvancedAdjustment advanced =
+        StartAdjustment(std::move(places), is_distributed, options.global, options.bundle);
+    for (uint32_t world = 0; world < worlds.size(); ++world) {
+      if (is_distributed[world] == 0)
+        advanced.progress.worlds[world].report = std::move(reports[world]);
+    }
+    return advanced;
+  }
+};
+
+absl::StatusOr<AdvancedAdjustment> NextRound(AdjustmentProgress progress,
+                                             const std::vector<Digest>& answers,
+                                             const PipelineOptions& options,
+                                             BlobAccess& blobs) {
+  std::vector<BlockResult> results;
+  for (const Digest& answer : answers) {
+    ORBWEAVE_ASSIGN_OR_RETURN(results.emplace_back(), FetchBlob(answer, blobs, DecodeBlockResult));
+  }
+  return AdvanceAdjustment(std::move(progress), std::move(results), options.global, options.bundle);
+}
+
+}  // namespace
+
+absl::StatusOr<TaskResult> RunJoinSubmodels(const TaskSpec& spec,
+                                            BlobAccess& blobs,
+                                            const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph divided,
+                            FetchInput(spec, 1, blobs, DecodeDividedViewGraph));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> clusters,
+                            FetchInput(spec, 2, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> rims, LoadRims(spec, 3, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 4, blobs, DecodeAlignment));
+  if (alignment.world.size() != rims.size())
+    return absl::InvalidArgumentError("join_submodels: the alignment is of other submodels");
+  // Options of later steps do not change what is drawn, so that blocks keep their names.
+  StageContext seeded = context;
+  seeded.seed = spec.inputs[3].ToSeed();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      JoinedSubmodels joined,
+      JoinSubmodels(rims, alignment, divided.partition, manifest, options.global, seeded));
+
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeJoinedWorlds(joined.worlds), blobs, result));
+  for (JoinedBlock& block : joined.blocks) {
+    const uint32_t cluster = block.block.cluster;
+    const AssembleRecipe recipe{
+        std::move(block), clusters.at(cluster), SharedImages(divided.partition, cluster)};
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, blobs.Put(EncodeAssembleRecipe(recipe)));
+    result.recipes.push_back(digest);
+  }
+  result.report_json =
+      nlohmann::json{{"worlds", joined.worlds.size()}, {"blocks", joined.blocks.size()}}.dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunAssembleBlock(const TaskSpec& spec,
+                                            BlobAccess& blobs,
+                                            const StageContext&) {
+  ORBWEAVE_ASSIGN_OR_RETURN(AssembleRecipe recipe,
+                            FetchInput(spec, 0, blobs, DecodeAssembleRecipe));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterResult cluster,
+                            FetchBlob(recipe.cluster_result, blobs, DecodeClusterResult));
+  std::vector<std::vector<Track>> inner;
+  for (const PlacedComponent& placed : recipe.joined.components) {
+    inner.push_back(
+        InnerTracksOf(cluster.reconstruction.components.at(placed.component), recipe.shared));
+  }
+  const WorldBlock block = AssembleBlock(std::move(recipe.joined), std::move(inner));
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeWorldBlock(block), blobs, result));
+  result.report_json =
+      nlohmann::json{{"images", block.images.size()}, {"tracks", block.scene.tracks.size()}}.dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunSteerAdjustment(const TaskSpec& spec,
+                                              BlobAccess& blobs,
+                                              const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JoinedWorld> worlds,
+                            FetchInput(spec, 0, blobs, DecodeJoinedWorlds));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> blocks,
+                            FetchInput(spec, 1, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(AdjustmentProgress progress,
+                            FetchInput(spec, 2, blobs, DecodeAdjustmentProgress));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> answers,
+                            FetchInput(spec, 3, blobs, DecodeCollection));
+  TaskResult result;
+  AdvancedAdjustment advanced;
+  if (progress.worlds.empty()) {
+    const FirstRound first{options, worlds, blocks, blobs, context};
+    ORBWEAVE_ASSIGN_OR_RETURN(advanced, first.Run(result));
+  } else {
+    ORBWEAVE_ASSIGN_OR_RETURN(advanced, NextRound(std::move(progress), answers, options, blobs));
+  }
+  TaskResult leaves;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAdjustmentProgress(advanced.progress), blobs, leaves));
+  leaves.outputs.insert(leaves.outputs.end(), result.outputs.begin(), result.outputs.end());
+  ORBWEAVE_RETURN_IF_ERROR(PutRecipes(advanced.tasks, EncodeBlockTask, blobs, leaves));
+  leaves.report_json = nlohmann::json{{"blocks_asked", advanced.tasks.size()}}.dump();
+  return leaves;
+}
+
+absl::StatusOr<TaskResult> RunAdjustBlock(const TaskSpec& spec,
+                                          BlobAccess& blobs,
+                                          const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const BlockTask task, FetchInput(spec, 0, blobs, DecodeBlockTask));
+  ORBWEAVE_ASSIGN_OR_RETURN(WorldBlock block, FetchBlob(task.block, blobs, DecodeWorldBlock));
+  std::optional<EvaluatedState> state;
+  if (!task.state.IsZero()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(state, FetchBlob(task.state, blobs, DecodeBlockState));
+  }
+  BlockWorker worker(std::move(block),
+                     std::move(state),
+                     BlockOptionsOf(options.global, options.bundle),
+                     context.num_threads);
+  BlockResult done{.answer = worker.Execute(task.order)};
+  using Work = BlockOrder::Work;
+  TaskResult bulk;
+  if (task.order.work == Work::kFilter) {
+    ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeWorldBlock(worker.block()), blobs, bulk));
+    done.block = bulk.outputs.back();
+  }
+  const bool begins = task.order.work == Work::kBegin || task.order.begins_again;
+  if (begins || task.order.work == Work::kTry) {
+    ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockState(worker.state()), blobs, bulk));
+    done.state = bulk.outputs.back();
+  }
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockResult(done), blobs, result));
+  result.outputs.insert(result.outputs.end(), bulk.outputs.begin(), bulk.outputs.end());
+  result.report_json = "{}";
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunConcludeAdjustment(const TaskSpec& spec,
+                                                 BlobAccess& blobs,
+                                                 const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            FetchInput(spec, 0, blobs, DecodeImageManifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JoinedWorld> worlds,
+                            FetchInput(spec, 1, blobs, DecodeJoinedWorlds));
+  ORBWEAVE_ASSIGN_OR_RETURN(AdjustmentProgress progress,
+                            FetchInput(spec, 2, blobs, DecodeAdjustmentProgress));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph divided,
+                            FetchInput(spec, 3, blobs, DecodeDividedViewGraph));
+  ConcludedModel model;
+  for (uint32_t world = 0; world < worlds.size(); ++world) {
+    std::vector<BlockSummary> summaries;
+    std::vector<Digest>& blocks = model.blocks.emplace_back();
+    for (BlockPlace& place : progress.blocks) {
+      if (place.world != world) continue;
+      blocks.push_back(place.block);
+      summaries.push_back(std::move(place.summary));
+    }
+    WorldInspection inspection = BeginInspection(summaries, divided.partition.seams);
+    for (const Digest& digest : blocks) {
+      ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+      ORBWEAVE_ASSIGN_OR_RETURN(const WorldBlock block, FetchBlob(digest, blobs, DecodeWorldBlock));
+      inspection.Add(block, context.num_threads);
+    }
+    model.worlds.push_back(ConcludeAdjustment(summaries,
+                                              std::move(inspection),
+                                              std::move(progress.worlds[world].report),
+                                              worlds[world].georeference,
+                                              manifest,
+                                              options.global));
+  }
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeConcludedModel(model), blobs, result));
+  result.report_json = nlohmann::json{{"worlds", model.worlds.size()}}.dump();
+  return result;
+}
+
+}  // namespace orbweave
