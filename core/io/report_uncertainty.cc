@@ -57,9 +57,9 @@ std::string UncertaintyHtml(const JobReport& report) {
                       report.gnss.used ? "m" : "units",
                       "</th><th>rotation, °</th></tr></thead><tbody>",
                       rows,
-                      "</tbody></table><p class=\"sub\">",
+                      "</tbody></table><div class=\"key\"><span>",
                       factors,
-                      "; the sigmas account for it.</p>");
+                      "; the sigmas account for it.</span></div>");
 }
 
 }  // namespace orbweave

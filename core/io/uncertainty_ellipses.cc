@@ -15,7 +15,7 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kMaxEllipses = 150;
+constexpr size_t kMaxEllipses = 60;
 constexpr double kWanted_px = 26.0;  // semi-axis that nine ellipses of ten stay below
 constexpr double kLargest_px = 70.0;
 constexpr double kSmallest_px = 0.5;

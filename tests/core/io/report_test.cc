@@ -104,13 +104,13 @@ TEST(ReportHtml, ShowsEveryImageSeamAndOutlierOnTheMap) {
 }
 
 TEST(ReportHtml, DrawsEllipsesOfAllThatIsKnownAndCutsTheLargest) {
-  JobReport report = MadeUpReport(96, 5);
+  JobReport report = MadeUpReport(48, 5);
   const std::string map = TrajectoryMapSvg(report, 0);
-  EXPECT_EQ(CountOf(map, "<ellipse"), 95U);
+  EXPECT_EQ(CountOf(map, "<ellipse"), 47U);
   EXPECT_EQ(CountOf(map, "sigma cut"), 1U);
   EXPECT_THAT(map, HasSubstr("ellipses: one sigma, x "));
   // Twice as far along x as along y, flat on the page.
-  EXPECT_EQ(CountOf(map, "rotate(0)"), 95U);
+  EXPECT_EQ(CountOf(map, "rotate(0)"), 47U);
   for (ReportImage& image : report.images) image.uncertainty.reset();
   EXPECT_THAT(TrajectoryMapSvg(report, 0), Not(HasSubstr("ellipse")));
 }
