@@ -38,7 +38,7 @@ class BlockCholesky {
   [[nodiscard]] SymmetricBlockMatrix Remaining() const;
   /// The diagonal blocks of A^-1, by the sparse inverse subset: of A^-1 only the blocks in the
   /// pattern of L are formed (Takahashi 1973, Erisman 1975), at about the cost of Factorize, which
-  /// must have succeeded.
+  /// must have succeeded; no block may be kept.
   [[nodiscard]] std::vector<Block6> InverseDiagonal() const;
 
   /// Blocks in L, diagonal ones included.

@@ -178,6 +178,7 @@ void BuildMatrix(const BundleProblem& problem, BundleLayout& layout) {
     }
   }
   layout.matrix = MakeBlockMatrix(layout.num_blocks, std::move(pattern));
+  layout.matrix.values = {};
   for (size_t c = 0; c < layout.chunks.size(); ++c) {
     std::vector<PointChunk::Target>& targets = layout.chunks[c].targets;
     for (size_t t = 0; t < targets.size(); ++t) {

@@ -63,7 +63,7 @@ struct BundleLayout {
   std::vector<PackedPoint> points{};  ///< those with observations, by smallest free pose
   std::vector<PackedPoint> kept_points{};
   std::vector<PointChunk> chunks{};
-  SymmetricBlockMatrix matrix{};  ///< zero
+  SymmetricBlockMatrix matrix{};  ///< its pattern, no values
 };
 
 /// `kept_points`: ascending, none of them fixed.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/status.h"
 #include "core/bundle/block_cholesky.h"
 
 namespace orbweave {
@@ -19,6 +20,7 @@ Block6 InverseOfLower(const Block6& L) {
 // All Z_ik that occur lie in the pattern of L, because the rows of column j below k are rows of
 // column k.
 std::vector<Block6> BlockCholesky::InverseDiagonal() const {
+  ORBWEAVE_CHECK(num_eliminated_ == num_blocks_);
   std::vector<Block6> Z(rows_.size(), Block6::Zero());
   std::vector<Block6> M;
   for (uint32_t j = num_blocks_; j-- > 0;) {

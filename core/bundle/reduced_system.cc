@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/parallel_for.h"
 #include "core/bundle/bearing_term.h"
@@ -57,8 +58,8 @@ void SubtractProduct(const Matrix63& A, const Matrix63& B, Block6& target) {
   }
 }
 
-// G with G G^T = A^-1; zero when A is not positive definite.
-Eigen::Matrix3d InverseFactor(const Eigen::Matrix3d& A) {
+// Upper triangle of G with G G^T = A^-1; zero when A is not positive definite.
+std::array<double, 6> InverseFactor(const Eigen::Matrix3d& A) {
   const double l00 = std::sqrt(A(0, 0));
   const double l10 = A(1, 0) / l00;
   const double l20 = A(2, 0) / l00;
@@ -67,16 +68,12 @@ Eigen::Matrix3d InverseFactor(const Eigen::Matrix3d& A) {
   const double l21 = (A(2, 1) - l20 * l10) / l11;
   const double p2 = A(2, 2) - l20 * l20 - l21 * l21;
   const double l22 = std::sqrt(p2);
-  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
   const bool is_definite = A(0, 0) > 0.0 && p1 > 0.0 && p2 > 0.0;
-  if (!is_definite || !std::isfinite(l22)) return G;
-  G(0, 0) = 1.0 / l00;
-  G(1, 1) = 1.0 / l11;
-  G(2, 2) = 1.0 / l22;
-  G(0, 1) = -l10 * G(0, 0) * G(1, 1);
-  G(1, 2) = -l21 * G(1, 1) * G(2, 2);
-  G(0, 2) = (l10 * l21 * G(1, 1) - l20) * G(0, 0) * G(2, 2);
-  return G;
+  if (!is_definite || !std::isfinite(l22)) return {};
+  const double g00 = 1.0 / l00;
+  const double g11 = 1.0 / l11;
+  const double g22 = 1.0 / l22;
+  return {g00, -l10 * g00 * g11, g11, (l10 * l21 * g11 - l20) * g00 * g22, -l21 * g11 * g22, g22};
 }
 
 // Linearises and eliminates the points of one chunk.
@@ -100,7 +97,7 @@ class ChunkReducer {
     // A seen point has trace(V) > 0; without damping its depth would be undefined when seen once.
     factor.mu = lambda_ * V.trace() / 3.0;
     V.diagonal().array() += factor.mu;
-    factor.G = InverseFactor(V);
+    factor.upper = InverseFactor(V);
     Eliminate(factor);
     return factor;
   }
@@ -129,10 +126,11 @@ class ChunkReducer {
   }
 
   void Eliminate(const PointFactor& factor) {
-    const Eigen::Vector3d h = factor.G.transpose() * factor.gradient;
+    const Eigen::Matrix3d G = factor.G();
+    const Eigen::Vector3d h = G.transpose() * factor.gradient;
     size_t count = 0;  // parts of the same pose become one
     for (const PosePart& part : parts_) {
-      const Eigen::Matrix3d MG = part.M * factor.G;
+      const Eigen::Matrix3d MG = part.M * G;
       Matrix63 Y;
       Y << CrossColumns(part.d, MG), -MG;
       if (count > 0 && parts_[count - 1].local == part.local) {
@@ -169,7 +167,9 @@ void ResetSums(size_t num_blocks, size_t num_pairs, ChunkSums& sums) {
 }  // namespace
 
 ReducedSystem MakeReducedSystem(const BundleLayout& layout) {
-  ReducedSystem system{MakeNormalSystem(layout.matrix)};
+  SymmetricBlockMatrix S = layout.matrix;
+  S.values.assign(S.rows.size(), Block6::Zero());
+  ReducedSystem system{MakeNormalSystem(std::move(S))};
   system.points.resize(layout.points.size());
   return system;
 }

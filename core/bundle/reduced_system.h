@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/bundle/block_matrix.h"
@@ -14,9 +15,15 @@ namespace orbweave {
 
 /// Of a point's 3x3 Hessian V with damping: V + mu I = (G G^T)^-1, G upper triangular.
 struct PointFactor {
-  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();  ///< zero: the point is held in this step
+  std::array<double, 6> upper{};  ///< of G, by columns; zero: the point is held in this step
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double mu = 0.0;
+
+  [[nodiscard]] Eigen::Matrix3d G() const {
+    Eigen::Matrix3d G;
+    G << upper[0], upper[1], upper[3], 0.0, upper[2], upper[4], 0.0, 0.0, upper[5];
+    return G;
+  }
 };
 
 /// Normal equations of all poses and biases after the points are eliminated:

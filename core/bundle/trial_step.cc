@@ -113,7 +113,8 @@ double PointStepper::StepPoints(const BundleState& state,
     Eigen::Vector3d delta = Eigen::Vector3d::Zero();
     if (!point.is_fixed) {
       const Eigen::Vector3d pull = PullOfPoses(layout_, point, state, step, loss);
-      delta = -(factor.G * (factor.G.transpose() * (factor.gradient + pull)));
+      const Eigen::Matrix3d G = factor.G();
+      delta = -(G * (G.transpose() * (factor.gradient + pull)));
     }
     const auto after = [&](size_t share) -> Eigen::Vector3d {
       return before + kStepShares[share] * delta;
