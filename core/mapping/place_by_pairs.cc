@@ -51,8 +51,8 @@ ViewGraph ViewGraphOf(const ClusterProblem& problem,
   return view_graph;
 }
 
-bool HasDirection(const ViewEdge& edge, double min_angle_rad) {
-  return edge.kind != TwoViewKind::kPureRotation && edge.median_angle_rad >= min_angle_rad;
+bool HasDirection(const ViewEdge& edge) {
+  return edge.kind != TwoViewKind::kPureRotation && edge.median_angle_rad > 0.0;
 }
 
 /// Displacements C_b - C_a in the world as a graph over images.
@@ -72,7 +72,8 @@ DifferenceGraph DisplacementGraph(const ViewGraph& view_graph,
         lengths[i] * (cam_from_world[edge.pair.a.value].conjugate() * edge.b_from_a.Centre());
     graph.edges.push_back({edge.pair.a.value, edge.pair.b.value});
     graph.differences.row(row) = displacement.transpose();
-    graph.weights[row] = edge.num_inliers / (lengths[i] * lengths[i]);
+    const double angle_per_length = edge.median_angle_rad / lengths[i];
+    graph.weights[row] = edge.num_inliers * angle_per_length * angle_per_length;
     ++row;
   }
   graph.differences.conservativeResize(row, 3);
@@ -112,8 +113,7 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
   std::vector<uint32_t> edges;
   std::vector<uint32_t> pairs_of_edges;
   for (uint32_t e = 0; e < view_graph.edges.size(); ++e) {
-    if (rotations.error_rad[e] > kMaxRotationErrorRad ||
-        !HasDirection(view_graph.edges[e], min_angle_rad)) {
+    if (rotations.error_rad[e] > kMaxRotationErrorRad || !HasDirection(view_graph.edges[e])) {
       continue;
     }
     edges.push_back(e);

@@ -17,11 +17,12 @@ struct PairPlacement {
 
 /// Poses of all images at once from pairs alone: rotations by AverageRotations, lengths of
 /// baselines by AverageBaselines, then centres that agree with most displacements, C_b - C_a = s
-/// R_a^T c with the unit baseline c in camera a, each to a share of its length
-/// (AverageDifferences). Pairs whose rotation most others contradict take no part; those that are
-/// nearly pure rotations give no displacement. Holds the largest set of `available` images that
-/// displacements join, which may be empty. Good to the exactness of pairs: a start for an
-/// adjustment. Cancelled when asked to stop.
+/// R_a^T c with the unit baseline c in camera a (AverageDifferences). Noise of the rays turns a
+/// baseline the more the smaller the angles under which points see it: a displacement is as exact
+/// as s / angle. Pairs whose rotation most others contradict take no part; those without depth give
+/// no displacement. Holds the largest set of `available` images that displacements join, which may
+/// be empty. Good to the exactness of pairs: a start for an adjustment. Cancelled when asked to
+/// stop.
 [[nodiscard]] absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
                                                          const CorrespondenceGraph& graph,
                                                          std::span<const uint8_t> available,

@@ -51,7 +51,7 @@ absl::StatusOr<bool> StartGlobally(MappingState& state,
       .loss = BundleLoss::kCauchy, .max_iterations = 20, .function_tolerance = 1e-3};
   ORBWEAVE_RETURN_IF_ERROR(
       AdjustPart(state, state.Registered(), AllPoints(state), how, context).status());
-  FilterPoints(state, AllPoints(state), limits);
+  for (const PointIndex point : AllPoints(state)) state.RemovePoint(point);
   TriangulateAll(state, limits);
   for (const ImageSlot image : FindUnsupported(state, options)) state.Deregister(image);
   return state.Registered().size() >= static_cast<size_t>(options.min_component_images);

@@ -9,11 +9,11 @@
 namespace orbweave {
 
 /// A model of all images at once instead of a seed: poses by PlaceByPairs, points from all their
-/// matches under loose limits, one robust adjustment, points under the usual limits. Images that
-/// then do not agree with as many of the points they should see as registration asks for are left
-/// to it. `state` must be empty. False, with the state as it may be: fewer than
-/// options.min_component_images images stay. GrowComponent goes on from here. Cancelled when asked
-/// to stop.
+/// matches under loose limits, one robust adjustment, then points anew under the usual limits, as
+/// loose ones hold wrong rays that the adjustment bent them to. Images that then do not agree with
+/// as many of the points they should see as registration asks for are left to it. `state` must be
+/// empty. False, with the state as it may be: fewer than options.min_component_images images stay.
+/// GrowComponent goes on from here. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<bool> StartGlobally(MappingState& state,
                                                  std::span<const uint8_t> available,
                                                  const MappingOptions& options,
