@@ -17,7 +17,7 @@ field() { sed -n "s/^ \"$1\": \([^,]*\),*$/\1/p" "$folder/out/report.json" | hea
 
 # What the report says beyond numbers: models, GNSS not used, GNSS outliers, warnings.
 remarks() {
-  local file=$folder/out/report.json gnss used reason outliers warnings
+  local file=$folder/out/report.json gnss used reason outliers warnings seams
   gnss=$(sed -n '/^ "gnss": {/,/^ }/p' "$file")
   used=$(sed -n 's/^  "used": \([a-z]*\),*$/\1/p' <<<"$gnss")
   reason=$(sed -n 's/^  "reason": "\(.*\)",*$/\1/p' <<<"$gnss")
@@ -25,6 +25,8 @@ remarks() {
   warnings=$(sed -n '/^ "warnings": \[/,/^ \]/s/^  "\(.*\)",*$/\1/p' "$file" | head -1)
   [ "$used" = true ] || echo -n "GNSS not used: $reason; "
   [ "$outliers" = 0 ] || echo -n "$outliers GNSS outliers named; "
+  seams=$(sed -n '/^ "seams": \[/,/^ \]/p' "$file" | grep -c '"used": false' || true)
+  [ "$seams" = 0 ] || echo -n "seams switched off: $seams; "
   [ -z "$warnings" ] || echo -n "$warnings; "
 }
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {
@@ -18,8 +20,31 @@ TEST(RankNextImages, TakesTheNeighbourBeforeTheDistantImage) {
   ASSERT_GE(ranked.size(), 2U);
   EXPECT_EQ(ranked.front(), 3U);
   for (size_t i = 1; i < ranked.size(); ++i) {
-    EXPECT_GE(state.Visible(ranked[i - 1]).Score(), state.Visible(ranked[i]).Score());
+    EXPECT_GE(state.Visible(ranked[i - 1]).Count(), state.Visible(ranked[i]).Count());
   }
+}
+
+TEST(RankNextImages, TakesTheNeighbourBeforeALookAlike) {
+  // Image 29, far away, has matches with image 2 for two fifths of its features, feature by feature
+  // and hence all over the sphere.
+  StreetFixture street({.centres = StraightWalk(30, 3.0), .points_per_metre = 20});
+  TwoViewGeometry alike{.pair = {ImageId(2), ImageId(29)}, .kind = TwoViewKind::kGeneral};
+  const auto features = static_cast<FeatureIndex>(street.world.problem.images[2].bearings.size());
+  for (FeatureIndex f = 0; f < features; f += 5) {
+    alike.inliers.push_back({f, f});
+    alike.inliers.push_back({f + 1, f + 1});
+  }
+  street.world.problem.images[29].bearings = street.world.problem.images[2].bearings;
+  street.world.problem.images[29].sigma_rad = street.world.problem.images[2].sigma_rad;
+  std::erase_if(street.world.problem.pairs,
+                [](const TwoViewGeometry& pair) { return pair.pair.b == ImageId(29); });
+  street.world.problem.pairs.push_back(alike);
+  street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+  const MappingState state = street.TriangulatedStateWith({0, 1, 2, 3, 4});
+  const std::vector<ImageSlot> ranked = RankNextImages(state, std::vector<uint32_t>(30, 20));
+  ASSERT_GE(ranked.size(), 2U);
+  EXPECT_EQ(ranked.front(), 5U);
+  EXPECT_EQ(std::ranges::count(ranked, 29U), 1);
 }
 
 TEST(RankNextImages, LeavesOutRegisteredAndBlindImages) {
