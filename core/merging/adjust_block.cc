@@ -24,6 +24,9 @@ void AddTrack(const Track& track,
             .PixelsFromAngle(BearingError(pose, track.point_in_world, seen.bearing));
     summary.residual_px_sum += error_px;
     summary.residual_px2_sum += error_px * error_px;
+    summary.pattern.Add(seen.bearing,
+                        (pose * track.point_in_world).normalized(),
+                        cameras.at(seen.ref.image).PixelsFromAngle(1.0));
     ++summary.observations_of_image[seen.ref.image];
   }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/distributed_bundle/block_solver.h"
+#include "core/merging/residual_pattern.h"
 #include "core/merging/world_block.h"
 
 namespace orbweave {
@@ -48,6 +49,7 @@ struct BlockSummary {
   std::vector<BlockBias> biases{};
   double residual_px_sum = 0.0;  ///< angle x W / 2pi, over observations
   double residual_px2_sum = 0.0;
+  ResidualPattern pattern{};
 };
 
 struct BlockAnswer {

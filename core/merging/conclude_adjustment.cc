@@ -53,6 +53,9 @@ void MeasureResiduals(std::span<const BlockSummary> summaries, GlobalAdjustRepor
   if (count == 0) return;
   report.residual_px_mean = sum_px / static_cast<double>(count);
   report.residual_px_rms = std::sqrt(sum_px2 / static_cast<double>(count));
+  ResidualPattern pattern;
+  for (const BlockSummary& summary : summaries) pattern.Add(summary.pattern);
+  report.pattern_px = pattern.LargestPx(report.residual_px_rms);
 }
 
 /// The drives' biases, by group.

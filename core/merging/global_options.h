@@ -101,6 +101,7 @@ struct GlobalAdjustReport {
       unobserved_images{};        ///< names of images left without observations; now loose
   double residual_px_mean = 0.0;  ///< angle x W / 2pi
   double residual_px_rms = 0.0;
+  double pattern_px = 0.0;  ///< what repeats in every panorama (ResidualPattern)
 };
 
 }  // namespace orbweave

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include "core/io/measure_reconstruction.h"
@@ -119,6 +120,25 @@ void WarnOfContradictedPairs(const JobResults& results, JobReport& report) {
                             ": places that look alike, or a model folded onto itself");
 }
 
+/// Residuals that repeat in every panorama bend a model without showing in its uncertainty.
+void WarnOfPatterns(const JobResults& results, JobReport& report) {
+  constexpr double kNoticeable_px = 0.1;
+  for (size_t world = 0; world < results.worlds.size(); ++world) {
+    const double pattern_px = results.worlds[world].report.pattern_px;
+    if (pattern_px < kNoticeable_px) continue;
+    char text[256];
+    std::snprintf(
+        text,
+        sizeof text,
+        "model %zu: residuals of up to %.2f px repeat at the same place of every panorama: "
+        "stitched lenses that do not share a centre, or another projection; the model may "
+        "be bent or stretched by more than its sigmas say",
+        world,
+        pattern_px);
+    report.warnings.emplace_back(text);
+  }
+}
+
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
   for (size_t c = 0; c < rows.size(); ++c) {
@@ -209,6 +229,7 @@ JobReport BuildJobReport(const JobResults& results) {
   report.seams = SeamRows(results);
   report.warnings = results.manifest.warnings;
   WarnOfLooseImages(report);
+  WarnOfPatterns(results, report);
   WarnOfContradictedPairs(results, report);
   if (!results.worlds.empty()) {
     report.gnss = GnssRow(results.worlds.front().report.gnss);

@@ -32,6 +32,7 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   for (const std::string& name : report.unobserved_images) proto->add_unobserved_images(name);
   proto->set_residual_px_mean(report.residual_px_mean);
   proto->set_residual_px_rms(report.residual_px_rms);
+  proto->set_pattern_px(report.pattern_px);
   codec::ToProto(report.uncertainty, proto->mutable_uncertainty());
 }
 
@@ -45,6 +46,7 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
                                   proto.unobserved_images().end());
   report.residual_px_mean = proto.residual_px_mean();
   report.residual_px_rms = proto.residual_px_rms();
+  report.pattern_px = proto.pattern_px();
   for (const v1::BundleReport& adjustment : proto.adjustments()) {
     ORBWEAVE_ASSIGN_OR_RETURN(BundleReport decoded, codec::FromProto(adjustment));
     report.adjustments.push_back(std::move(decoded));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "proto/codec/pack.h"
@@ -182,6 +183,8 @@ void ToProto(const BlockSummary& summary, v1::BlockSummary* proto) {
   proto->set_residual_px_sum(summary.residual_px_sum);
   proto->set_residual_px2_sum(summary.residual_px2_sum);
   proto->set_cluster(summary.cluster);
+  proto->set_pattern_sums_px(Pack(std::span<const double>(summary.pattern.sum_px)));
+  proto->set_pattern_counts(Pack(std::span<const uint32_t>(summary.pattern.count)));
 }
 
 absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
@@ -196,6 +199,14 @@ absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
       UnpackExactly<uint32_t>(proto.observation_counts(), images.size(), "counts"));
   for (size_t i = 0; i < images.size(); ++i) summary.observations_of_image[images[i]] = counts[i];
   ORBWEAVE_ASSIGN_OR_RETURN(summary.biases, FromProto(proto.biases()));
+  if (proto.pattern_counts().empty()) return summary;
+  constexpr size_t kSectors = ResidualPattern::kSectors;
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto sums,
+                            UnpackExactly<double>(proto.pattern_sums_px(), kSectors, "pattern"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto sector_counts,
+                            UnpackExactly<uint32_t>(proto.pattern_counts(), kSectors, "pattern"));
+  std::ranges::copy(sums, summary.pattern.sum_px.begin());
+  std::ranges::copy(sector_counts, summary.pattern.count.begin());
   return summary;
 }
 

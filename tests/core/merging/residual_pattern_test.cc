@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/residual_pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/random_world.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kPxPerRad = 860.0;
+
+/// Rays all round with a pixel of noise, and `shift_px(azimuth)` sideways.
+template <typename Shift>
+ResidualPattern PatternOf(const Shift& shift_px) {
+  Random random(1);
+  ResidualPattern pattern;
+  for (int i = 0; i < 50000; ++i) {
+    const Eigen::Vector3d ray = testing::RandomDirection(random);
+    const double azimuth = std::atan2(ray.x(), ray.z());
+    const Eigen::Vector3d sideways(std::cos(azimuth), 0.0, -std::sin(azimuth));
+    const Eigen::Vector3d noise(random.Normal(), random.Normal(), random.Normal());
+    const Eigen::Vector3d error = noise + shift_px(azimuth) * sideways;
+    pattern.Add((ray + error / kPxPerRad).normalized(), ray, kPxPerRad);
+  }
+  return pattern;
+}
+
+TEST(ResidualPattern, FindsNothingInNoise) {
+  EXPECT_EQ(PatternOf([](double) { return 0.0; }).LargestPx(1.4), 0.0);
+}
+
+TEST(ResidualPattern, FindsWhatRepeatsInEveryPanorama) {
+  // Six lenses: rays lean away from the middle of each.
+  const auto lenses = [](double azimuth) { return std::sin(6.0 * azimuth); };
+  EXPECT_NEAR(PatternOf(lenses).LargestPx(1.4), 0.95, 0.15);
+}
+
+TEST(ResidualPattern, TheSeamIsNowhereSpecial) {
+  const auto near_seam = [](double azimuth) { return std::cos(azimuth) < -0.95 ? 1.0 : 0.0; };
+  EXPECT_NEAR(PatternOf(near_seam).LargestPx(1.4), 1.0, 0.2);
+}
+
+TEST(ResidualPattern, SumsOfPartsAreThatOfTheWhole) {
+  const ResidualPattern half = PatternOf([](double) { return 0.5; });
+  ResidualPattern whole = half;
+  whole.Add(half);
+  EXPECT_EQ(whole.count[7], 2 * half.count[7]);
+  EXPECT_NEAR(whole.LargestPx(1.4), half.LargestPx(1.4), 1e-9);
+}
+
+}  // namespace
+}  // namespace orbweave
