@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -39,6 +40,17 @@ inline std::vector<std::string> ReconstructCorridor(const std::string& output, i
           std::to_string(workers),
           "--set",
           "partition.cluster_size=16"};
+}
+
+/// Results in the journal of a job that may be running.
+inline size_t FinishedTasks(const std::string& output) {
+  std::error_code missing;
+  size_t files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(output + "/.orbweave/results", missing)) {
+    files += entry.is_regular_file() ? 1 : 0;
+  }
+  return files;
 }
 
 inline nlohmann::json ReportOf(const std::string& output) {

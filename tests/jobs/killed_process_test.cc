@@ -3,8 +3,6 @@
 
 // A worker or the whole run killed for real: the job ends with the bytes of an undisturbed one.
 
-#include <filesystem>
-
 #include "tests/jobs/corridor_job.h"
 
 namespace orbweave::testing {
@@ -15,16 +13,6 @@ std::string Undisturbed(const TemporaryFolder& folder) {
   const CommandOutcome run = RunCommand(ReconstructCorridor(output, 2));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return output;
-}
-
-size_t FinishedTasks(const std::string& output) {
-  std::error_code missing;
-  size_t files = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(output + "/.orbweave/results", missing)) {
-    files += entry.is_regular_file() ? 1 : 0;
-  }
-  return files;
 }
 
 /// Sum over stages of `key`: "tasks_reused" or "tasks_computed".
