@@ -24,7 +24,7 @@ remarks() {
   outliers=$(sed -n '/"outliers": \[/,/\]/p' <<<"$gnss" | grep -c '^   "' || true)
   warnings=$(sed -n '/^ "warnings": \[/,/^ \]/s/^  "\(.*\)",*$/\1/p' "$file" | head -1)
   [ "$used" = true ] || echo -n "GNSS not used: $reason; "
-  [ "$outliers" = 0 ] || echo -n "$outliers GNSS outliers named; "
+  [ "$outliers" = 0 ] || echo -n "GNSS outliers named: $outliers; "
   seams=$(sed -n '/^ "seams": \[/,/^ \]/p' "$file" | grep -c '"used": false' || true)
   [ "$seams" = 0 ] || echo -n "seams switched off: $seams; "
   [ -z "$warnings" ] || echo -n "$warnings; "
