@@ -358,6 +358,13 @@ absl::StatusOr<std::vector<TaskTiming>> Coordinator::GetTimings(const Digest& id
   return job->machine->Timings();
 }
 
+absl::StatusOr<std::vector<MeasuredTask>> Coordinator::GetCosts(const Digest& id) {
+  const std::lock_guard lock(mutex_);
+  const Job* job = FindJob(id);
+  if (job == nullptr) return NoSuchJob(id);
+  return job->machine->Costs();
+}
+
 void Coordinator::BeginShutdown() {
   const std::lock_guard lock(mutex_);
   stopping_ = true;

@@ -67,6 +67,7 @@ class Coordinator final : public CoordinatorApi {
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) override;
+  [[nodiscard]] absl::StatusOr<std::vector<MeasuredTask>> GetCosts(const Digest& job) override;
 
   [[nodiscard]] absl::StatusOr<std::vector<bool>> StatBlobs(
       const std::vector<Digest>& digests) override;

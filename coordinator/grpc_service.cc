@@ -136,6 +136,17 @@ grpc::Status GrpcService::GetTimings(Context*,
   return grpc::Status::OK;
 }
 
+grpc::Status GrpcService::GetCosts(Context*,
+                                   const v1::JobRequest* request,
+                                   grpc::ServerWriter<v1::MeasuredTask>* writer) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<MeasuredTask> tasks, api_.GetCosts(id));
+  for (const MeasuredTask& task : tasks) {
+    if (!writer->Write(ToProto(task))) return ReaderLeft();
+  }
+  return grpc::Status::OK;
+}
+
 grpc::Status GrpcService::StatBlobs(Context*,
                                     const v1::StatBlobsRequest* request,
                                     v1::StatBlobsReply* reply) {

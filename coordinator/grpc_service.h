@@ -31,6 +31,9 @@ class GrpcService final : public v1::Coordinator::Service {
   grpc::Status GetTimings(Context*,
                           const v1::JobRequest*,
                           grpc::ServerWriter<v1::TaskTiming>*) override;
+  grpc::Status GetCosts(Context*,
+                        const v1::JobRequest*,
+                        grpc::ServerWriter<v1::MeasuredTask>*) override;
 
   grpc::Status StatBlobs(Context*, const v1::StatBlobsRequest*, v1::StatBlobsReply*) override;
   grpc::Status LinkFile(Context*, const v1::LinkFileRequest*, v1::Empty*) override;

@@ -89,6 +89,7 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
       continue;
     }
     task.done = true;
+    task.cost = found[part]->cost;
     results[part] = *std::move(found[part]);
     ++run.done;
     ++run.reused;
@@ -114,7 +115,8 @@ void JobMachine::TaskProgressed(TaskRef ref, const Progress& progress) {
 void JobMachine::AttemptEnds(TaskRef ref, bool ok, double now_s) {
   const TaskRecord& task = Task(ref);
   ORBWEAVE_CHECK(runs_[ref.run].running.erase(ref.part) == 1);
-  timings_.push_back({.stage = task.spec.stage,
+  timings_.push_back({.run = ref.run,
+                      .stage = task.spec.stage,
                       .part = ref.part,
                       .worker = task.holder.worker,
                       .slot = task.holder.slot,
@@ -128,9 +130,10 @@ void JobMachine::TaskDone(TaskRef ref, TaskResult result, double now_s) {
   AttemptEnds(ref, true, now_s);
   StageRun& run = runs_[ref.run];
   Task(ref).done = true;
+  Task(ref).cost = result.cost;
   ++run.done;
   run.last_result_s = now_s;
-  run.cpu_s += result.cpu_s;
+  run.cpu_s += result.cost.cpu_s;
   results_[run.stage][ref.part] = std::move(result);
   EndIfAllDone(now_s);
 }
@@ -213,6 +216,17 @@ std::vector<TaskOutcome> JobMachine::Outcomes() const {
     }
   }
   return outcomes;
+}
+
+std::vector<MeasuredTask> JobMachine::Costs() const {
+  std::vector<MeasuredTask> costs;
+  for (uint32_t number = 0; number < runs_.size(); ++number) {
+    for (uint32_t part = 0; part < runs_[number].tasks.size(); ++part) {
+      const TaskRecord& task = runs_[number].tasks[part];
+      if (task.done) costs.push_back({number, task.spec.stage, part, task.cost});
+    }
+  }
+  return costs;
 }
 
 }  // namespace orbweave

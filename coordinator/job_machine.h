@@ -81,6 +81,8 @@ class JobMachine {
   /// Of the last run of each stage.
   [[nodiscard]] std::vector<TaskOutcome> Outcomes() const;
   [[nodiscard]] const std::vector<TaskTiming>& Timings() const { return timings_; }
+  /// Of all runs.
+  [[nodiscard]] std::vector<MeasuredTask> Costs() const;
 
  private:
   struct TaskRecord {
@@ -93,6 +95,7 @@ class JobMachine {
     uint32_t failures = 0;
     std::vector<std::string> failed_on{};
     Progress progress{};
+    TaskCost cost{};
   };
   struct StageRun {
     uint32_t stage = 0;  ///< of the plan

@@ -228,6 +228,17 @@ absl::StatusOr<std::vector<TaskTiming>> GrpcCoordinatorClient::GetTimings(const 
   return timings;
 }
 
+absl::StatusOr<std::vector<MeasuredTask>> GrpcCoordinatorClient::GetCosts(const Digest& job) {
+  grpc::ClientContext context;
+  SetDeadline(context, kFile_s);
+  const auto reader = stub_->GetCosts(&context, RequestFor(job));
+  std::vector<MeasuredTask> tasks;
+  v1::MeasuredTask proto;
+  while (reader->Read(&proto)) tasks.push_back(FromProto(proto));
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
+  return tasks;
+}
+
 absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(
     const std::vector<Digest>& digests) {
   std::vector<bool> stored;

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "worker/metered_blobs.h"
+#include "worker/peak_memory.h"
 
 namespace orbweave {
 namespace {
@@ -44,11 +46,16 @@ absl::StatusOr<TaskResult> RunTask(const StageLookup& stages,
   const StageFunction* stage = stages(spec.stage);
   if (stage == nullptr)
     return absl::UnimplementedError(absl::StrCat("this build has no stage ", spec.stage));
+  MeteredBlobs counted(blobs);
+  if (cpu_clock == CpuClock::kProcess) RestartPeakMemory();
   const double start_s = clock.NowSeconds();
   const double cpu_start_s = CpuSeconds(cpu_clock);
-  ORBWEAVE_ASSIGN_OR_RETURN(TaskResult result, CallStage(*stage, spec, blobs, context));
-  result.wall_s = clock.NowSeconds() - start_s;
-  result.cpu_s = CpuSeconds(cpu_clock) - cpu_start_s;
+  ORBWEAVE_ASSIGN_OR_RETURN(TaskResult result, CallStage(*stage, spec, counted, context));
+  result.cost = {.wall_s = clock.NowSeconds() - start_s,
+                 .cpu_s = CpuSeconds(cpu_clock) - cpu_start_s,
+                 .bytes_in = counted.bytes_in(),
+                 .bytes_out = counted.bytes_out(),
+                 .peak_memory_bytes = PeakMemoryBytes()};
   return result;
 }
 

@@ -125,7 +125,7 @@ class Worker {
     const absl::Status status = RetryWhileUnavailable(
         ending_.get_token(), [&] { return api_.CompleteTask(session, lease, result); });
     if (status.ok())
-      Log(absl::StrCat("task done ", DescribeLease(lease), " wall_s=", result.wall_s));
+      Log(absl::StrCat("task done ", DescribeLease(lease), " wall_s=", result.cost.wall_s));
     return status;
   }
 

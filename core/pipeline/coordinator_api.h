@@ -40,6 +40,7 @@ struct StageStatus {
 
 /// One finished attempt, for the trace.
 struct TaskTiming {
+  uint32_t run = 0;  ///< as in MeasuredTask
   std::string stage{};
   uint32_t part = 0;
   std::string worker{};
@@ -141,6 +142,8 @@ class CoordinatorApi : public BlobAccess {
   /// and timings in order of their end.
   [[nodiscard]] virtual absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) = 0;
   [[nodiscard]] virtual absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) = 0;
+  /// All finished tasks of a job in (run, part) order, every round of its loops among them.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<MeasuredTask>> GetCosts(const Digest& job) = 0;
 
   /// Which of these blobs are stored (same order).
   [[nodiscard]] virtual absl::StatusOr<std::vector<bool>> StatBlobs(

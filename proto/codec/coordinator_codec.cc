@@ -43,6 +43,24 @@ StageStatus FromProto(const v1::StageStatus& proto) {
           .fraction_running = proto.fraction_running()};
 }
 
+v1::TaskCost ToProto(const TaskCost& cost) {
+  v1::TaskCost proto;
+  proto.set_wall_s(cost.wall_s);
+  proto.set_cpu_s(cost.cpu_s);
+  proto.set_bytes_in(cost.bytes_in);
+  proto.set_bytes_out(cost.bytes_out);
+  proto.set_peak_memory_bytes(cost.peak_memory_bytes);
+  return proto;
+}
+
+TaskCost FromProto(const v1::TaskCost& proto) {
+  return {.wall_s = proto.wall_s(),
+          .cpu_s = proto.cpu_s(),
+          .bytes_in = proto.bytes_in(),
+          .bytes_out = proto.bytes_out(),
+          .peak_memory_bytes = proto.peak_memory_bytes()};
+}
+
 v1::WorkerStatus ToProto(const WorkerStatus& worker) {
   v1::WorkerStatus proto;
   proto.set_name(worker.name);
@@ -101,14 +119,12 @@ v1::TaskResult ToProto(const TaskResult& result) {
   AddDigests(result.outputs, proto.mutable_outputs());
   AddDigests(result.recipes, proto.mutable_recipes());
   proto.set_report_json(result.report_json);
-  proto.set_wall_s(result.wall_s);
-  proto.set_cpu_s(result.cpu_s);
+  *proto.mutable_cost() = ToProto(result.cost);
   return proto;
 }
 
 absl::StatusOr<TaskResult> FromProto(const v1::TaskResult& proto) {
-  TaskResult result{
-      .report_json = proto.report_json(), .wall_s = proto.wall_s(), .cpu_s = proto.cpu_s()};
+  TaskResult result{.report_json = proto.report_json(), .cost = FromProto(proto.cost())};
   ORBWEAVE_ASSIGN_OR_RETURN(result.outputs, DigestsFromProto(proto.outputs()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.recipes, DigestsFromProto(proto.recipes()));
   return result;
@@ -132,6 +148,7 @@ absl::StatusOr<TaskOutcome> FromProto(const v1::TaskOutcome& proto) {
 
 v1::TaskTiming ToProto(const TaskTiming& timing) {
   v1::TaskTiming proto;
+  proto.set_run(timing.run);
   proto.set_stage(timing.stage);
   proto.set_part(timing.part);
   proto.set_worker(timing.worker);
@@ -143,13 +160,30 @@ v1::TaskTiming ToProto(const TaskTiming& timing) {
 }
 
 TaskTiming FromProto(const v1::TaskTiming& proto) {
-  return {.stage = proto.stage(),
+  return {.run = proto.run(),
+          .stage = proto.stage(),
           .part = proto.part(),
           .worker = proto.worker(),
           .slot = proto.slot(),
           .start_s = proto.start_s(),
           .end_s = proto.end_s(),
           .ok = proto.ok()};
+}
+
+v1::MeasuredTask ToProto(const MeasuredTask& task) {
+  v1::MeasuredTask proto;
+  proto.set_run(task.run);
+  proto.set_stage(task.stage);
+  proto.set_part(task.part);
+  *proto.mutable_cost() = ToProto(task.cost);
+  return proto;
+}
+
+MeasuredTask FromProto(const v1::MeasuredTask& proto) {
+  return {.run = proto.run(),
+          .stage = proto.stage(),
+          .part = proto.part(),
+          .cost = FromProto(proto.cost())};
 }
 
 v1::JobSpec ToProto(const JobSpec& job) {

@@ -27,6 +27,8 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<TaskOutcome> FromProto(const v1::TaskOutcome& proto);
 [[nodiscard]] v1::TaskTiming ToProto(const TaskTiming& timing);
 [[nodiscard]] TaskTiming FromProto(const v1::TaskTiming& proto);
+[[nodiscard]] v1::MeasuredTask ToProto(const MeasuredTask& task);
+[[nodiscard]] MeasuredTask FromProto(const v1::MeasuredTask& proto);
 
 [[nodiscard]] v1::JobSpec ToProto(const JobSpec& job);
 [[nodiscard]] absl::StatusOr<JobSpec> FromProto(const v1::JobSpec& proto);

@@ -43,6 +43,29 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   EXPECT_FALSE(back->workers.at(0).alive);
 }
 
+TEST(CoordinatorCodec, CostsAndTimingsSurviveTheRoundTrip) {
+  const TaskCost cost{1.5, 2.5, 1ULL << 40, 7, 1ULL << 33};
+  const auto result = FromProto(ToProto(TaskResult{.report_json = "{}", .cost = cost}));
+  ASSERT_TRUE(result.ok());
+  const MeasuredTask task = FromProto(ToProto(MeasuredTask{3, "align", 4, cost}));
+  EXPECT_EQ(task.run, 3U);
+  EXPECT_EQ(task.stage, "align");
+  EXPECT_EQ(task.part, 4U);
+  for (const TaskCost& back : {result->cost, task.cost}) {
+    EXPECT_EQ(back.wall_s, 1.5);
+    EXPECT_EQ(back.cpu_s, 2.5);
+    EXPECT_EQ(back.bytes_in, 1ULL << 40);
+    EXPECT_EQ(back.bytes_out, 7U);
+    EXPECT_EQ(back.peak_memory_bytes, 1ULL << 33);
+  }
+  const TaskTiming timing = FromProto(ToProto(TaskTiming{2, "align", 4, "w", 1, 0.5, 0.75, false}));
+  EXPECT_EQ(timing.run, 2U);
+  EXPECT_EQ(timing.part, 4U);
+  EXPECT_EQ(timing.slot, 1U);
+  EXPECT_EQ(timing.end_s, 0.75);
+  EXPECT_FALSE(timing.ok);
+}
+
 TEST(CoordinatorCodec, LeaseSurvivesTheRoundTrip) {
   const Lease lease{
       DigestOf("t"), 1ULL << 33, {"stage", {DigestOf("a"), DigestOf("b")}, "o.p=1\n", 4}, 3};

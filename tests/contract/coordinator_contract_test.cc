@@ -24,6 +24,7 @@ namespace {
 using ::testing::ElementsAre;
 using testing::FindToyPlan;
 using ::testing::HasSubstr;
+using testing::LookupIn;
 using testing::PrepareToyJob;
 using testing::TemporaryFolder;
 using testing::ToyAnswer;
@@ -73,7 +74,8 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
   }
 
   absl::Status Do(uint64_t session, const Lease& lease) {
-    const auto result = stages_.at(lease.spec.stage)(lease.spec, Api(), {});
+    const auto result =
+        RunTask(LookupIn(stages_), lease.spec, Api(), {}, clock_, CpuClock::kProcess);
     ORBWEAVE_CHECK(result.ok());
     return Api().CompleteTask(session, lease, *result);
   }
@@ -123,6 +125,21 @@ TEST_P(CoordinatorContract, ListsOutcomesByStageAndPartAndTimings) {
   EXPECT_EQ(timings->at(0).slot, 1U);
   EXPECT_TRUE(timings->at(0).ok);
   EXPECT_LE(timings->at(0).start_s, timings->at(0).end_s);
+}
+
+TEST_P(CoordinatorContract, ListsWhatTasksTook) {
+  const Digest job = Submit("4");
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const auto costs = Api().GetCosts(job);
+  ASSERT_TRUE(costs.ok());
+  ASSERT_EQ(costs->size(), 3U);
+  EXPECT_EQ(costs->at(1).run, 1U);
+  EXPECT_EQ(costs->at(1).stage, "square");
+  EXPECT_EQ(costs->at(1).part, 0U);
+  EXPECT_EQ(costs->at(1).cost.bytes_in, 1U) << "the text 4";
+  EXPECT_EQ(costs->at(1).cost.bytes_out, 2U) << "the text 16";
+  EXPECT_GT(costs->at(1).cost.peak_memory_bytes, 0U);
 }
 
 TEST_P(CoordinatorContract, KeepsBlobsOfEverySize) {
@@ -182,6 +199,7 @@ TEST_P(CoordinatorContract, KnowsOnlyItsSessionsAndJobs) {
   EXPECT_TRUE(absl::IsNotFound(Api().CancelJob(DigestOf("job"))));
   EXPECT_TRUE(absl::IsNotFound(Api().GetOutcomes(DigestOf("job")).status()));
   EXPECT_TRUE(absl::IsNotFound(Api().GetTimings(DigestOf("job")).status()));
+  EXPECT_TRUE(absl::IsNotFound(Api().GetCosts(DigestOf("job")).status()));
   EXPECT_TRUE(Api().ListJobs()->empty());
 }
 

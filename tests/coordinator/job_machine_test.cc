@@ -84,7 +84,7 @@ TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   for (uint32_t round = 0; round < 3; ++round) {
     ASSERT_EQ(machine.StageToPlan(), 1U);
     Begin(machine, "decide", 1);
-    machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cpu_s = 1.0}, 101.0);
+    machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cost = {.cpu_s = 1.0}}, 101.0);
     ASSERT_EQ(machine.StageToPlan(), 2U);
     Begin(machine, "work", 2);
     for (int part = 0; part < 2; ++part) {
@@ -95,7 +95,7 @@ TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   EXPECT_EQ(machine.results()[2].size(), 2U);
   EXPECT_EQ(machine.results()[2][1].outputs[0], DigestOf("20")) << "of the last round";
   Begin(machine, "decide", 1);
-  machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cpu_s = 1.0}, 101.0);
+  machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cost = {.cpu_s = 1.0}}, 101.0);
   Begin(machine, "work", 0);
   EXPECT_EQ(machine.StageToPlan(), 3U);
   const JobStatus status = machine.Status(102.0);
@@ -103,18 +103,30 @@ TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   EXPECT_DOUBLE_EQ(status.stages[1].cpu_s, 4.0);
   EXPECT_EQ(status.stages[2].tasks_total, 6U);
   EXPECT_EQ(machine.Outcomes().size(), 1U) << "the last round of each stage";
+  const std::vector<MeasuredTask> costs = machine.Costs();
+  ASSERT_EQ(costs.size(), 10U) << "of every round";
+  EXPECT_EQ(costs[3].stage, "decide");
+  EXPECT_EQ(costs[3].run, 3U);
+  EXPECT_DOUBLE_EQ(costs[3].cost.cpu_s, 1.0);
+  EXPECT_EQ(costs[5].run, 4U);
+  EXPECT_EQ(costs[5].part, 1U);
+  EXPECT_EQ(machine.Timings()[3].run, 3U);
   Begin(machine, "end", 0);
   EXPECT_EQ(machine.state(), JobState::kDone);
 }
 
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {
   JobMachine machine = MachineFor({"a"});
-  machine.StageBegins(Tasks("a", 3), {TaskResult{}, std::nullopt, TaskResult{}}, 100.0);
+  const TaskResult found{.cost = {.cpu_s = 7.0}};
+  machine.StageBegins(Tasks("a", 3), {TaskResult{}, std::nullopt, found}, 100.0);
   EXPECT_EQ(machine.NextReady("w", {"w"}, 100.0), (TaskRef{0, 1}));
   const StageStatus stage = machine.Status(100.0).stages[0];
   EXPECT_EQ(stage.tasks_total, 3U);
   EXPECT_EQ(stage.tasks_done, 2U);
   EXPECT_EQ(stage.tasks_reused, 2U);
+  ASSERT_EQ(machine.Costs().size(), 2U);
+  EXPECT_EQ(machine.Costs()[1].part, 2U);
+  EXPECT_DOUBLE_EQ(machine.Costs()[1].cost.cpu_s, 7.0) << "as when it was computed";
 }
 
 TEST(JobMachine, RetriesATransientFailureAfterAWait) {
@@ -201,8 +213,8 @@ TEST(JobMachine, ReportsOutcomesInOrderAndTimingsAsTheyEnd) {
   const TaskRef second = LeaseNext(machine, "w2", 102.0);
   machine.TaskProgressed(first, {1, 4, "images"});
   EXPECT_DOUBLE_EQ(machine.Status(102.0).stages[0].fraction_running, 0.25);
-  machine.TaskDone(second, {.report_json = "second", .cpu_s = 2.0}, 103.0);
-  machine.TaskDone(first, {.report_json = "first", .cpu_s = 3.0}, 105.0);
+  machine.TaskDone(second, {.report_json = "second", .cost = {.cpu_s = 2.0}}, 103.0);
+  machine.TaskDone(first, {.report_json = "first", .cost = {.cpu_s = 3.0}}, 105.0);
   const std::vector<TaskOutcome> outcomes = machine.Outcomes();
   ASSERT_EQ(outcomes.size(), 2U);
   EXPECT_EQ(outcomes[0].result.report_json, "first");

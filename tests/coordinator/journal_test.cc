@@ -17,8 +17,10 @@ using testing::TemporaryFolder;
 TEST(Journal, RemembersResultsAcrossGenerations) {
   const TemporaryFolder folder;
   const Digest task = DigestOf("task");
-  const TaskResult result{
-      .outputs = {DigestOf("o")}, .recipes = {DigestOf("r")}, .report_json = "{}", .cpu_s = 1.5};
+  const TaskResult result{.outputs = {DigestOf("o")},
+                          .recipes = {DigestOf("r")},
+                          .report_json = "{}",
+                          .cost = {.cpu_s = 1.5}};
   {
     auto journal = Journal::Open(folder.Path());
     ASSERT_TRUE(journal.ok());
@@ -34,7 +36,7 @@ TEST(Journal, RemembersResultsAcrossGenerations) {
   EXPECT_EQ(loaded->outputs, result.outputs);
   EXPECT_EQ(loaded->recipes, result.recipes);
   EXPECT_EQ(loaded->report_json, "{}");
-  EXPECT_DOUBLE_EQ(loaded->cpu_s, 1.5);
+  EXPECT_DOUBLE_EQ(loaded->cost.cpu_s, 1.5);
 }
 
 TEST(Journal, NoticesATornResult) {

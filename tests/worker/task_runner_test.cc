@@ -10,14 +10,16 @@
 #include <stdexcept>
 
 #include "tests/support/toy_job.h"
+#include "worker/peak_memory.h"
 
 namespace orbweave {
 namespace {
 
-class NoBlobs final : public BlobAccess {
+class OneBlob final : public BlobAccess {
  public:
-  absl::StatusOr<std::string> Get(const Digest&) override {
-    return absl::NotFoundError("no blobs here");
+  absl::StatusOr<std::string> Get(const Digest& digest) override {
+    if (digest == DigestOf("pixels")) return "pixels";
+    return absl::NotFoundError("no such blob here");
   }
   absl::StatusOr<Digest> Put(std::string_view bytes) override { return DigestOf(bytes); }
 };
@@ -25,7 +27,7 @@ class NoBlobs final : public BlobAccess {
 absl::StatusOr<TaskResult> RunStage(const StageFunction& stage,
                                     const Clock& clock = ManualClock()) {
   const testing::StageMap stages = {{"stage", stage}};
-  NoBlobs blobs;
+  OneBlob blobs;
   return RunTask(
       testing::LookupIn(stages), {.stage = "stage"}, blobs, {}, clock, CpuClock::kThread);
 }
@@ -39,9 +41,34 @@ TEST(RunTask, MeasuresWallTime) {
       },
       clock);
   ASSERT_TRUE(result.ok());
-  EXPECT_DOUBLE_EQ(result->wall_s, 3.0);
-  EXPECT_GE(result->cpu_s, 0.0);
+  EXPECT_DOUBLE_EQ(result->cost.wall_s, 3.0);
+  EXPECT_GE(result->cost.cpu_s, 0.0);
   EXPECT_EQ(result->report_json, "{}");
+}
+
+TEST(RunTask, CountsTheBytesOfBlobsThatTheTaskGotAndPut) {
+  const auto result = RunStage(
+      [](const TaskSpec&, BlobAccess& blobs, const StageContext&) -> absl::StatusOr<TaskResult> {
+        EXPECT_FALSE(blobs.Get(DigestOf("lost")).ok());
+        EXPECT_EQ(blobs.Get(DigestOf("pixels"))->size(), 6U);
+        EXPECT_TRUE(blobs.Put("a model").ok());
+        EXPECT_TRUE(blobs.Put("!").ok());
+        return TaskResult{};
+      });
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->cost.bytes_in, 6U);
+  EXPECT_EQ(result->cost.bytes_out, 8U);
+}
+
+TEST(PeakMemory, GrowsWithWhatIsHeldAndStartsAnew) {
+  constexpr size_t kLarge = size_t{256} << 20;
+  RestartPeakMemory();
+  const uint64_t before = PeakMemoryBytes();
+  ASSERT_GT(before, 0U);
+  { const std::string held(kLarge, 'x'); }
+  EXPECT_GE(PeakMemoryBytes(), before + kLarge * 9 / 10);
+  RestartPeakMemory();
+  EXPECT_LT(PeakMemoryBytes(), before + kLarge / 2);
 }
 
 TEST(RunTask, TurnsExceptionsIntoStatus) {
@@ -68,7 +95,7 @@ TEST(RunTask, PassesOnTheErrorOfTheStage) {
 
 TEST(RunTask, NamesAStageItDoesNotHave) {
   const testing::StageMap stages;
-  NoBlobs blobs;
+  OneBlob blobs;
   const auto result = RunTask(
       testing::LookupIn(stages), {.stage = "juggle"}, blobs, {}, ManualClock(), CpuClock::kProcess);
   EXPECT_TRUE(absl::IsUnimplemented(result.status()));
