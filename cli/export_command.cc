@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/export_command.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include "cli/exit_code.h"
 #include "cli/fetch_results.h"
-#include "coordinator/coordinator.h"
+#include "cli/finished_job.h"
+#include "core/base/clock.h"
 #include "core/io/colmap_database.h"
 
 namespace orbweave {
@@ -24,32 +21,6 @@ struct ExportArguments {
   std::string database{};
   DatabaseCameraModel camera = DatabaseCameraModel::kEquirectangular;
 };
-
-/// Whether a job that has no workers cannot go on: a stage is written down and not done.
-bool NeedsWorkers(const JobStatus& job) {
-  return std::any_of(job.stages.begin(), job.stages.end(), [](const StageStatus& stage) {
-    return stage.tasks_total > stage.tasks_done;
-  });
-}
-
-/// The job once a coordinator that has just been opened has found its finished tasks again.
-absl::StatusOr<JobStatus> Settled(CoordinatorApi& coordinator, const Digest& id) {
-  constexpr auto kPause = std::chrono::milliseconds(20);
-  for (;;) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, coordinator.GetJob(id));
-    if (job.state != JobState::kRunning || NeedsWorkers(job)) return job;
-    std::this_thread::sleep_for(kPause);
-  }
-}
-
-absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std::string& output) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
-  for (auto listed = jobs.rbegin(); listed != jobs.rend(); ++listed) {
-    ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, Settled(coordinator, listed->id));
-    if (job.state == JobState::kDone) return job;
-  }
-  return absl::FailedPreconditionError(output + " holds no finished job; run it to its end first");
-}
 
 absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, LastFinishedJob(coordinator, arguments.output));
@@ -70,13 +41,8 @@ absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& 
 }
 
 absl::Status Export(const ExportArguments& arguments) {
-  const std::string state = arguments.output + "/.orbweave";
-  if (!std::filesystem::is_directory(state)) {
-    return absl::NotFoundError(arguments.output +
-                               " is not the output folder of a job (no .orbweave in it)");
-  }
   const SteadyClock clock;
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open({.state_dir = state}, clock));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, OpenFinished(arguments.output, clock));
   return ExportDatabase(*coordinator, arguments);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "cli/bench_command.h"
 #include "cli/cancel_command.h"
 #include "cli/command.h"
 #include "cli/evaluate_command.h"
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   orbweave::AddReconstructCommand(app, selected);
   orbweave::AddEvaluateCommand(app, selected);
   orbweave::AddExportCommand(app, selected);
+  orbweave::AddBenchCommand(app, selected);
   orbweave::AddOptionsCommand(app, selected);
   orbweave::AddSynthCommand(app, selected);
   orbweave::AddServeCommand(app, selected);

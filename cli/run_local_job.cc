@@ -36,6 +36,18 @@ absl::Status Interrupted(const std::string& output) {
                               ", the same command goes on from there");
 }
 
+absl::Status WriteAndSummarize(CoordinatorApi& coordinator,
+                               const JobStatus& status,
+                               const std::string& output) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(coordinator, status, output));
+  std::fputs(FormatSummary(report, output).c_str(), stdout);
+  if (report.registered == 0) {
+    return absl::InternalError("no image could be registered; the reasons are in " + output +
+                               "/report.html");
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::Status RunLocalJob(const LocalJob& job) {
@@ -52,14 +64,8 @@ absl::Status RunLocalJob(const LocalJob& job) {
   if (signals.token().stop_requested()) return Interrupted(job.output);
   ORBWEAVE_RETURN_IF_ERROR(status.status());
   ORBWEAVE_RETURN_IF_ERROR(CheckEnd(*status));
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report,
-                            WriteOutputs(fleet->coordinator(), *status, job.output));
-  std::fputs(FormatSummary(report, job.output).c_str(), stdout);
-  if (report.registered == 0) {
-    return absl::InternalError("no image could be registered; the reasons are in " + job.output +
-                               "/report.html");
-  }
-  return absl::OkStatus();
+  if (job.conclude) return job.conclude(fleet->coordinator(), *status);
+  return WriteAndSummarize(fleet->coordinator(), *status, job.output);
 }
 
 }  // namespace orbweave

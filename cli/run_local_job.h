@@ -15,12 +15,13 @@ struct LocalJob {
   uint32_t workers = 2;
   /// Makes the job's inputs known to the coordinator and describes it.
   std::function<absl::StatusOr<JobSpec>(CoordinatorApi&, const StageContext&)> prepare{};
+  /// What becomes of the finished job. Empty: writes the outputs and prints a summary on stdout.
+  std::function<absl::Status(CoordinatorApi&, const JobStatus&)> conclude{};
 };
 
 /// Runs one job with a coordinator in this process and worker processes on this machine, shows its
-/// progress on stderr, writes the outputs and prints a summary on stdout. Ctrl-C stops it cleanly;
-/// run again it goes on where it was. Internal: the job failed, or nothing could be registered
-/// (outputs are written all the same).
+/// progress on stderr and concludes it. Ctrl-C stops it cleanly; run again it goes on where it was.
+/// Internal: the job failed, or nothing could be registered (outputs are written all the same).
 [[nodiscard]] absl::Status RunLocalJob(const LocalJob& job);
 
 }  // namespace orbweave

@@ -7,13 +7,10 @@
 #include <string>
 #include <thread>
 
-#include "absl/strings/str_format.h"
 #include "cli/exit_code.h"
 #include "cli/stop_signals.h"
-#include "core/io/cameras_csv.h"
-#include "core/io/colmap_database.h"
+#include "cli/write_corridor.h"
 #include "core/io/file.h"
-#include "core/synthetic/corridor.h"
 #include "core/synthetic/write_street.h"
 
 namespace orbweave {
@@ -46,52 +43,12 @@ void AddFields(CLI::App& command, Options& options) {
       });
 }
 
-std::string GnssCsv(const ImageManifest& manifest) {
-  std::string csv = "name,latitude,longitude,altitude,accuracy,drive\n";
-  for (const ImageRecord& image : manifest.images) {
-    if (!image.prior.geodetic) continue;
-    absl::StrAppendFormat(&csv,
-                          "%s,%.9f,%.9f,%.4f,%.3f,%d\n",
-                          image.name,
-                          image.prior.geodetic->latitude_deg,
-                          image.prior.geodetic->longitude_deg,
-                          image.prior.geodetic->altitude_m,
-                          image.prior.horizontal_sigma_m,
-                          image.drive);
-  }
-  return csv;
-}
-
-std::string TruthCsv(const Corridor& corridor) {
-  Reconstruction truth;
-  for (const ImageRecord& image : corridor.manifest.images) {
-    truth.images[image.id].cam_from_world = corridor.cams_from_world[image.id.value];
-  }
-  return CamerasCsv(truth, corridor.manifest, false);
-}
-
-std::vector<TwoViewGeometry> VerifiedPairs(Corridor& corridor) {
-  std::vector<TwoViewGeometry> pairs;
-  for (PairMatches& pair : corridor.pairs) {
-    const auto count = static_cast<uint32_t>(pair.matches.size());
-    pairs.push_back({.pair = pair.pair, .inliers = std::move(pair.matches), .num_putative = count});
-  }
-  return pairs;
-}
-
-absl::Status WriteCorridor(const CorridorArguments& arguments) {
-  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
-  Corridor corridor = MakeCorridor(arguments.options);
-  ORBWEAVE_RETURN_IF_ERROR(
-      WriteFileAtomically(arguments.output + "/truth.csv", TruthCsv(corridor)));
-  ORBWEAVE_RETURN_IF_ERROR(
-      WriteFileAtomically(arguments.output + "/gnss.csv", GnssCsv(corridor.manifest)));
-  const std::vector<TwoViewGeometry> pairs = VerifiedPairs(corridor);
-  ORBWEAVE_RETURN_IF_ERROR(WriteColmapDatabase(
-      arguments.output + "/corridor.db", corridor.manifest, corridor.features, pairs));
+absl::Status MakeCorridorFolder(const CorridorArguments& arguments) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const CorridorSize size,
+                            WriteCorridor(arguments.options, arguments.output));
   std::printf("%zu panoramas and %zu pairs written to %s\n",
-              corridor.features.size(),
-              pairs.size(),
+              size.panoramas,
+              size.pairs,
               arguments.output.c_str());
   return absl::OkStatus();
 }
@@ -109,7 +66,7 @@ void AddCorridor(CLI::App& synth, SelectedCommand& selected) {
       "  orbweave synth corridor --panoramas 500 --output corridor\n"
       "  orbweave synth corridor --panoramas 2000 --shape grid --outlier-share 0.3 --output grid");
   command->callback([arguments, &selected] {
-    selected.run = [arguments] { return ReportStatus(WriteCorridor(*arguments)); };
+    selected.run = [arguments] { return ReportStatus(MakeCorridorFolder(*arguments)); };
   });
 }
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/html_page.h"
 #include "core/io/html_text.h"
 #include "core/io/report_charts.h"
 #include "core/io/report_map.h"
 #include "core/io/report_seams.h"
-#include "core/io/report_style.h"
 #include "core/io/report_uncertainty.h"
 
 namespace orbweave {
@@ -18,22 +18,6 @@ namespace {
 
 constexpr size_t kMaxRows = 200;  ///< of a table of names; report.json has all
 constexpr uint32_t kMaxMaps = 4;
-
-std::string Section(const std::string& heading,
-                    const std::string& subtitle,
-                    const std::string& body) {
-  return absl::StrCat(
-      "<section><h2>", heading, "</h2><p class=\"sub\">", subtitle, "</p>", body, "</section>\n");
-}
-
-std::string Card(const std::string& number, const std::string& unit, const std::string& what) {
-  return absl::StrCat("<div class=\"card\"><b>",
-                      number,
-                      unit.empty() ? "" : " <small>" + unit + "</small>",
-                      "</b><span>",
-                      what,
-                      "</span></div>");
-}
 
 std::string Header(const JobReport& report) {
   return absl::StrCat("<header><h1>",
@@ -307,28 +291,24 @@ std::string Options(const JobReport& report) {
 }  // namespace
 
 std::string ReportHtml(const JobReport& report) {
-  return absl::StrCat(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\"><title>",
-      EscapeHtml(report.title.empty() ? "Orbweave report" : report.title + " - Orbweave"),
-      "</title><style>",
-      kReportStyle,
-      "</style></head><body><main>\n",
-      Header(report),
-      Cards(report),
-      Maps(report),
-      Charts(report),
-      Times(report),
-      Clusters(report),
-      Seams(report),
-      Gnss(report),
-      Uncertainty(report),
-      LeftOut(report),
-      Warnings(report),
-      Workers(report),
-      Options(report),
-      "<footer>Residuals are angles times width over 2π. All numbers of this page are in "
-      "report.json.</footer></main></body></html>\n");
+  return HtmlPage(
+      report.title.empty() ? "Orbweave report" : report.title + " - Orbweave",
+      absl::StrCat(
+          Header(report),
+          Cards(report),
+          Maps(report),
+          Charts(report),
+          Times(report),
+          Clusters(report),
+          Seams(report),
+          Gnss(report),
+          Uncertainty(report),
+          LeftOut(report),
+          Warnings(report),
+          Workers(report),
+          Options(report),
+          "<footer>Residuals are angles times width over 2π. All numbers of this page are in "
+          "report.json.</footer>"));
 }
 
 }  // namespace orbweave

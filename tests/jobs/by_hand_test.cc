@@ -114,6 +114,7 @@ TEST(Help, EveryCommandHasIt) {
                               "reconstruct",
                               "evaluate",
                               "export",
+                              "bench",
                               "options",
                               "synth",
                               "serve",

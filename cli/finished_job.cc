@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/finished_job.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+#include <vector>
+
+namespace orbweave {
+namespace {
+
+/// Whether a job that has no workers cannot go on: a stage is written down and not done.
+bool NeedsWorkers(const JobStatus& job) {
+  return std::any_of(job.stages.begin(), job.stages.end(), [](const StageStatus& stage) {
+    return stage.tasks_total > stage.tasks_done;
+  });
+}
+
+/// The job once a coordinator that has just been opened has found its finished tasks again.
+absl::StatusOr<JobStatus> Settled(CoordinatorApi& coordinator, const Digest& id) {
+  constexpr auto kPause = std::chrono::milliseconds(20);
+  for (;;) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, coordinator.GetJob(id));
+    if (job.state != JobState::kRunning || NeedsWorkers(job)) return job;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
+                                                          const Clock& clock) {
+  const std::string state = output + "/.orbweave";
+  if (!std::filesystem::is_directory(state)) {
+    return absl::NotFoundError(output + " is not the output folder of a job (no .orbweave in it)");
+  }
+  return Coordinator::Open({.state_dir = state}, clock);
+}
+
+absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std::string& output) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
+  for (auto listed = jobs.rbegin(); listed != jobs.rend(); ++listed) {
+    ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, Settled(coordinator, listed->id));
+    if (job.state == JobState::kDone) return job;
+  }
+  return absl::FailedPreconditionError(output + " holds no finished job; run it to its end first");
+}
+
+}  // namespace orbweave

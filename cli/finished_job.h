@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "coordinator/coordinator.h"
+
+namespace orbweave {
+
+/// Opens the state of a job that ran into the folder `output`, without workers. NotFound: no job
+/// ran there; FailedPrecondition: it runs now. `clock` outlives the coordinator.
+[[nodiscard]] absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
+                                                                        const Clock& clock);
+
+/// The last finished job of a coordinator that was just opened. FailedPrecondition: there is none.
+[[nodiscard]] absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator,
+                                                        const std::string& output);
+
+}  // namespace orbweave

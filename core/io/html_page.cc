@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/html_page.h"
+
+#include "absl/strings/str_cat.h"
+#include "core/io/html_text.h"
+#include "core/io/report_style.h"
+
+namespace orbweave {
+
+std::string HtmlPage(const std::string& title, const std::string& body) {
+  return absl::StrCat(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\"><title>",
+      EscapeHtml(title),
+      "</title><style>",
+      kReportStyle,
+      "</style></head><body><main>\n",
+      body,
+      "</main></body></html>\n");
+}
+
+std::string Section(const std::string& heading,
+                    const std::string& subtitle,
+                    const std::string& body) {
+  return absl::StrCat(
+      "<section><h2>", heading, "</h2><p class=\"sub\">", subtitle, "</p>", body, "</section>\n");
+}
+
+std::string Card(const std::string& number, const std::string& unit, const std::string& what) {
+  return absl::StrCat("<div class=\"card\"><b>",
+                      number,
+                      unit.empty() ? "" : " <small>" + unit + "</small>",
+                      "</b><span>",
+                      what,
+                      "</span></div>");
+}
+
+}  // namespace orbweave

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace orbweave {
+
+/// A whole HTML page in the style of the reports, with nothing outside it; `body` is HTML, `title`
+/// is text.
+[[nodiscard]] std::string HtmlPage(const std::string& title, const std::string& body);
+/// A framed part of a page; all three are HTML.
+[[nodiscard]] std::string Section(const std::string& heading,
+                                  const std::string& subtitle,
+                                  const std::string& body);
+/// A number to be seen first.
+[[nodiscard]] std::string Card(const std::string& number,
+                               const std::string& unit,
+                               const std::string& what);
+
+}  // namespace orbweave
