@@ -105,6 +105,8 @@ absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
   }
   ORBWEAVE_ASSIGN_OR_RETURN(results.alignment,
                             FetchOne(coordinator, outcomes, "align_submodels", DecodeAlignment));
+  ORBWEAVE_ASSIGN_OR_RETURN(results.review,
+                            FetchOne(coordinator, outcomes, "review_seams", DecodePartitionReview));
   ORBWEAVE_ASSIGN_OR_RETURN(
       const ConcludedModel model,
       FetchOne(coordinator, outcomes, "conclude_adjustment", DecodeConcludedModel));

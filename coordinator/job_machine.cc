@@ -37,7 +37,9 @@ std::optional<uint32_t> JobMachine::StageToPlan() const {
 }
 
 uint32_t JobMachine::NextStage() const {
-  return runs_.empty() ? 0 : StageAfter(plan_, runs_.back().stage, runs_.back().tasks.size());
+  if (runs_.empty()) return 0;
+  const uint32_t last = runs_.back().stage;
+  return StageAfter(plan_, last, results_[last]);
 }
 
 bool JobMachine::MayTake(const TaskRecord& task,

@@ -9,6 +9,7 @@
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/partition_view_graph.h"
 #include "core/merging/align_submodels.h"
+#include "core/merging/review_seams.h"
 #include "core/merging/rim.h"
 #include "core/scene/view_edge_of.h"
 #include "core/stages/assemble_cluster.h"
@@ -62,14 +63,21 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
                             FetchInput(spec, 1, blobs, SplitExtracted));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> match_blobs,
                             FetchInput(spec, 2, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph before,
+                            FetchInput(spec, 3, blobs, DecodeDividedViewGraph));
+  ORBWEAVE_ASSIGN_OR_RETURN(const PartitionReview review,
+                            FetchInput(spec, 4, blobs, DecodePartitionReview));
   ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(collected.edges, manifest);
   const FilteredViewGraph filtered = BuildViewGraph(
       static_cast<uint32_t>(manifest.images.size()), std::move(by_gnss.kept), options.view_graph);
   DividedViewGraph divided{.dropped = std::move(by_gnss.dropped)};
   divided.dropped.insert(divided.dropped.end(), filtered.dropped.begin(), filtered.dropped.end());
-  ORBWEAVE_ASSIGN_OR_RETURN(divided.partition,
-                            PartitionViewGraph(filtered.graph, options.partition));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      divided.partition,
+      review.requests.empty()
+          ? PartitionViewGraph(filtered.graph, options.partition)
+          : WidenOverlaps(filtered.graph, before.partition, review.requests, options.partition));
   for (const ViewEdge& edge : filtered.graph.edges) divided.edges.push_back(edge.pair);
 
   TaskResult result;
@@ -132,6 +140,25 @@ absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAlignment(alignment), blobs, result));
   result.report_json =
       nlohmann::json{{"submodels", submodels.size()}, {"seams", alignment.seams.size()}}.dump();
+  return result;
+}
+
+absl::StatusOr<TaskResult> RunReviewSeams(const TaskSpec& spec,
+                                          BlobAccess& blobs,
+                                          const StageContext&) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph divided,
+                            FetchInput(spec, 0, blobs, DecodeDividedViewGraph));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 1, blobs, DecodeAlignment));
+  ORBWEAVE_ASSIGN_OR_RETURN(const PartitionReview before,
+                            FetchInput(spec, 2, blobs, DecodePartitionReview));
+  const PartitionReview review =
+      ReviewSeams(divided.partition, alignment, before, options.partition);
+  TaskResult result;
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodePartitionReview(review), blobs, result));
+  if (review.rounds > before.rounds) result.recipes = result.outputs;
+  result.report_json =
+      nlohmann::json{{"rounds", review.rounds}, {"requests", review.requests.size()}}.dump();
   return result;
 }
 

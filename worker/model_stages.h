@@ -11,7 +11,8 @@
 
 namespace orbweave {
 
-/// manifest, extracted, verified pairs -> DividedViewGraph; recipes: one per cluster.
+/// manifest, extracted, verified pairs, DividedViewGraph and PartitionReview of the round before ->
+/// DividedViewGraph; recipes: one per cluster.
 absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
                                                  BlobAccess& blobs,
                                                  const StageContext& context);
@@ -23,5 +24,10 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
 absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
                                              BlobAccess& blobs,
                                              const StageContext& context);
+/// DividedViewGraph, Alignment, PartitionReview of the round before -> PartitionReview; a recipe
+/// when anybody asks for more overlap.
+absl::StatusOr<TaskResult> RunReviewSeams(const TaskSpec& spec,
+                                          BlobAccess& blobs,
+                                          const StageContext& context);
 
 }  // namespace orbweave

@@ -21,6 +21,7 @@ const StageFunction* FindStage(std::string_view stage) {
       {"partition_view_graph", RunPartitionViewGraph},
       {"reconstruct_cluster", RunReconstructCluster},
       {"align_submodels", RunAlignSubmodels},
+      {"review_seams", RunReviewSeams},
       {"join_submodels", RunJoinSubmodels},
       {"assemble_block", RunAssembleBlock},
       {"steer_adjustment", RunSteerAdjustment},

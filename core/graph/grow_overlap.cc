@@ -69,10 +69,11 @@ Seams FindSeams(const Adjacency& adjacency,
 std::vector<SharedImages> GrowOverlap(const Adjacency& adjacency,
                                       std::span<const double> edge_weight,
                                       std::span<const uint32_t> part_of,
-                                      size_t overlap) {
+                                      const OverlapTargets& targets) {
   std::vector<SharedImages> shared;
   for (auto& [parts, seam] : FindSeams(adjacency, edge_weight, part_of)) {
-    while (seam.a.lent().size() + seam.b.lent().size() < overlap) {
+    const size_t target = targets.Of(parts);
+    while (seam.a.lent().size() + seam.b.lent().size() < target) {
       if (seam.a.IsExhausted() && seam.b.IsExhausted()) break;
       const bool a_lends = seam.b.IsExhausted() ||
                            (!seam.a.IsExhausted() && seam.a.lent().size() <= seam.b.lent().size());

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/graph/adjacency.h"
@@ -18,14 +20,26 @@ struct SharedImages {
   std::vector<uint32_t> lent_to_b{};  ///< interior of a, sorted
 };
 
+/// How many images two adjacent parts are to share.
+struct OverlapTargets {
+  size_t usual = 0;
+  std::map<std::pair<uint32_t, uint32_t>, size_t> of_parts{};  ///< (a < b): where not as usual
+
+  [[nodiscard]] size_t Of(const std::pair<uint32_t, uint32_t>& parts) const {
+    const auto found = of_parts.find(parts);
+    return found == of_parts.end() ? usual : found->second;
+  }
+};
+
 /// For every two parts joined by an edge the images to share, sorted by (part_a, part_b). Both
 /// sides lend in turn the image with the largest total edge weight into the other part and the
-/// images lent to it before (ties: smallest image), until `overlap` images are shared or neither
-/// side has a connected image left. `part_of`: per image; images without an edge may hold anything.
-/// Seams are independent of each other.
+/// images lent to it before (ties: smallest image), until as many are shared as `targets` says or
+/// neither side has a connected image left. `part_of`: per image; images without an edge may hold
+/// anything. Seams are independent of each other; a larger target lends the images of a smaller one
+/// and more.
 [[nodiscard]] std::vector<SharedImages> GrowOverlap(const Adjacency& adjacency,
                                                     std::span<const double> edge_weight,
                                                     std::span<const uint32_t> part_of,
-                                                    size_t overlap);
+                                                    const OverlapTargets& targets);
 
 }  // namespace orbweave

@@ -15,6 +15,9 @@ struct PartitionOptions {
   int min_clusters = 3;
   int min_cluster_size = 16;
   int overlap = 12;
+  int reviews = 2;
+  int max_overlap = 48;
+  double max_condition = 1000.0;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -32,6 +35,19 @@ struct PartitionOptions {
           "panoramas per cluster before overlap that min_clusters leaves at least",
           Range{2, 100000});
     visit("overlap", self.overlap, "images shared at each seam, at least", Range{2, 1000});
+    visit("reviews",
+          self.reviews,
+          "times that clusters with a seam that does not hold are given more overlap and "
+          "reconstructed again",
+          Range{0, 10});
+    visit("max_overlap",
+          self.max_overlap,
+          "images shared at a seam after that, at most",
+          Range{2, 10000});
+    visit("max_condition",
+          self.max_condition,
+          "seams that determine their similarity worse by this condition number want more overlap",
+          Range{1, 1e12});
   }
 };
 
@@ -39,13 +55,21 @@ struct PartitionOptions {
 ///
 /// A component of n images becomes max(round(n / cluster_size), min(min_clusters, n /
 /// min_cluster_size)) clusters: the number depends on the images alone, never on who will compute
-/// them. METIS k-way with edge weight = inliers x spread cuts it; the interior of every cluster is
-/// connected. At every seam images are then shared, those with the strongest edges to the other
-/// side first and alternating between both sides, until `overlap` are shared or no more are
-/// connected. Clusters are sorted by their smallest interior image. Images without an edge are in
-/// no cluster. InvalidArgument when an edge names an image that does not exist, Internal when METIS
-/// fails.
+/// them. METIS k-way with edge weight = inliers x spread cuts it into parts of about equal
+/// cost (EdgeWeights, ImageCosts); the interior of every cluster is connected. At every seam images
+/// are then shared, those with the strongest edges to the other side first and alternating between
+/// both sides, until `overlap` are shared or no more are connected. Clusters are sorted by their
+/// smallest interior image. Images without an edge are in no cluster. InvalidArgument when an edge
+/// names an image that does not exist, Internal when METIS fails.
 [[nodiscard]] absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
                                                            const PartitionOptions& options);
+
+/// The clusters of `partition` where neighbours named in `requests` share as many images as those
+/// ask for. Interiors stay. So do the images of all other clusters, and which of them are shared,
+/// because what one cluster lends was shared by all who had it before.
+[[nodiscard]] absl::StatusOr<Partition> WidenOverlaps(const ViewGraph& graph,
+                                                      const Partition& partition,
+                                                      const std::vector<OverlapRequest>& requests,
+                                                      const PartitionOptions& options);
 
 }  // namespace orbweave

@@ -177,6 +177,7 @@ void SwitchOffContradicted(const AveragedSimilarities& averaged, std::vector<Fit
     if (!seam.report.used) continue;
     if (averaged.is_used[e] == 0) {
       seam.report.used = false;
+      seam.report.contradicted = true;
       seam.report.reason = "contradicted by loops: off by " +
                            std::to_string(std::lround(averaged.error[e])) +
                            " times the expected drift";
@@ -231,6 +232,10 @@ absl::StatusOr<Alignment> AlignSubmodels(const std::vector<Submodel>& submodels,
   SwitchOffContradicted(averaged, seams);
   Alignment alignment{.world_from_submodel = std::move(averaged.world_from_node),
                       .world = RankWorlds(submodels, averaged.part)};
+  for (const Submodel& submodel : submodels) {
+    alignment.submodels.push_back(
+        {submodel.cluster, static_cast<uint32_t>(submodel.reconstruction.images.size())});
+  }
   for (FittedSeam& seam : seams) {
     MeasureJumps(submodels, alignment, seam);
     alignment.seams.push_back(std::move(seam.report));

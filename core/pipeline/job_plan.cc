@@ -49,7 +49,11 @@ std::vector<StageRule> ModelStages(const InputRule& manifest,
                                    const std::string& matches_stage) {
   return {
       {.stage = "partition_view_graph",
-       .inputs = {manifest, features, AllOutputs(matches_stage)},
+       .inputs = {manifest,
+                  features,
+                  AllOutputs(matches_stage),
+                  Output("partition_view_graph"),
+                  Output("review_seams")},
        .option_sections = {"view_graph", "partition"}},
       {.stage = "reconstruct_cluster",
        .parts_from = "partition_view_graph",
@@ -58,6 +62,12 @@ std::vector<StageRule> ModelStages(const InputRule& manifest,
       {.stage = "align_submodels",
        .inputs = {Collection("reconstruct_cluster", 1)},
        .option_sections = {"align"}},
+      {.stage = "review_seams",
+       .inputs = {Output("partition_view_graph"),
+                  Output("align_submodels"),
+                  Output("review_seams")},
+       .option_sections = {"partition"},
+       .back_to = "partition_view_graph"},
       {.stage = "join_submodels",
        .inputs = {manifest,
                   Output("partition_view_graph"),
@@ -118,9 +128,12 @@ absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind) {
       "there is no job kind '", std::string(kind), "' (known: sparse, sparse_from_matches)"));
 }
 
-uint32_t StageAfter(const JobPlan& plan, uint32_t stage, size_t num_parts) {
-  const std::string& back_to = plan.stages[stage].back_to;
-  if (back_to.empty() || num_parts == 0) return stage + 1;
+uint32_t StageAfter(const JobPlan& plan, uint32_t stage, const std::vector<TaskResult>& results) {
+  const StageRule& last = plan.stages[stage];
+  const std::string& back_to = last.back_to;
+  const bool goes_on = std::ranges::any_of(
+      results, [&](const TaskResult& part) { return !last.HasOnePart() || !part.recipes.empty(); });
+  if (back_to.empty() || !goes_on) return stage + 1;
   const auto first = std::find_if(plan.stages.begin(),
                                   plan.stages.end(),
                                   [&](const StageRule& rule) { return rule.stage == back_to; });

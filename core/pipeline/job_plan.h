@@ -10,6 +10,7 @@
 
 #include "core/base/digest.h"
 #include "core/base/status.h"
+#include "core/pipeline/task.h"
 
 namespace orbweave {
 
@@ -39,8 +40,12 @@ struct StageRule {
   std::vector<InputRule> inputs{};
   std::vector<std::string>
       option_sections{};  ///< option sections whose change makes the stage run again
-  /// The last stage of a loop: as long as it has parts, the job goes back to this stage after it.
+  /// The last stage of a loop: the job goes back to this stage after it as long as it has parts or,
+  /// where it always has one, as long as that leaves a recipe.
   std::string back_to{};
+
+  /// One part whatever the stages before left.
+  [[nodiscard]] bool HasOnePart() const { return parts_from.empty() && !parts_listed_in; }
 };
 
 /// A kind of job: its stages in order. A stage starts when all stages before it are done. Loops do
@@ -50,9 +55,10 @@ struct JobPlan {
   std::vector<StageRule> stages{};
 };
 
-/// The stage that follows number `stage` when that had `num_parts` parts; the number of stages:
-/// none.
-[[nodiscard]] uint32_t StageAfter(const JobPlan& plan, uint32_t stage, size_t num_parts);
+/// The stage that follows number `stage` when its parts left `results`; the number of stages: none.
+[[nodiscard]] uint32_t StageAfter(const JobPlan& plan,
+                                  uint32_t stage,
+                                  const std::vector<TaskResult>& results);
 
 /// "sparse" (from images) and "sparse_from_matches" (from a database). NotFound otherwise.
 [[nodiscard]] absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind);

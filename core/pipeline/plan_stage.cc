@@ -81,7 +81,7 @@ struct Planner {
   [[nodiscard]] absl::StatusOr<std::vector<Digest>> Recipes(
       const std::vector<Digest>& listed) const {
     if (Rule().parts_listed_in) return listed;
-    if (Rule().parts_from.empty()) return std::vector<Digest>(1);
+    if (Rule().HasOnePart()) return std::vector<Digest>(1);
     ORBWEAVE_ASSIGN_OR_RETURN(const auto* parts, ResultsOf(Rule().parts_from));
     std::vector<Digest> recipes;
     for (const TaskResult& part : *parts) {

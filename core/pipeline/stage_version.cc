@@ -9,15 +9,16 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kVersions = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kVersions = {{
     {"ingest_images", "1"},
     {"extract_features", "1"},
     {"select_image_pairs", "1"},
     {"match_images", "2"},
     {"verify_matches", "2"},
-    {"partition_view_graph", "2"},
+    {"partition_view_graph", "3"},
     {"reconstruct_cluster", "3"},
-    {"align_submodels", "2"},
+    {"align_submodels", "3"},
+    {"review_seams", "1"},
     {"join_submodels", "1"},
     {"assemble_block", "1"},
     {"steer_adjustment", "1"},

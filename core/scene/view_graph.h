@@ -51,4 +51,12 @@ struct Partition {
   std::vector<Seam> seams{};  ///< sorted by (a, b), those with at least one shared image
 };
 
+/// Two clusters that are to share more images than others, and why.
+struct OverlapRequest {
+  uint32_t cluster_a = 0;  ///< < cluster_b
+  uint32_t cluster_b = 0;
+  uint32_t images = 0;
+  std::string reason{};
+};
+
 }  // namespace orbweave

@@ -139,6 +139,15 @@ void WarnOfPatterns(const JobResults& results, JobReport& report) {
   }
 }
 
+void TellReviews(const PartitionReview& review, JobReport& report) {
+  for (const OverlapRequest& request : review.requests) {
+    report.warnings.push_back("clusters " + std::to_string(request.cluster_a) + " and " +
+                              std::to_string(request.cluster_b) +
+                              " were reconstructed again with up to " +
+                              std::to_string(request.images) + " shared images: " + request.reason);
+  }
+}
+
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
   for (size_t c = 0; c < rows.size(); ++c) {
@@ -231,6 +240,7 @@ JobReport BuildJobReport(const JobResults& results) {
   WarnOfLooseImages(report);
   WarnOfPatterns(results, report);
   WarnOfContradictedPairs(results, report);
+  TellReviews(results.review, report);
   if (!results.worlds.empty()) {
     report.gnss = GnssRow(results.worlds.front().report.gnss);
     report.uncertainty = SummariseUncertainty(results.worlds.front());

@@ -8,6 +8,7 @@
 #include "core/io/job_report.h"
 #include "core/merging/adjust_globally.h"
 #include "core/merging/align_submodels.h"
+#include "core/merging/review_seams.h"
 #include "core/scene/image_manifest.h"
 #include "core/stages/stage_results.h"
 
@@ -21,6 +22,7 @@ struct JobResults {
   DividedViewGraph view_graph{};
   std::vector<ClusterResult> clusters{};
   Alignment alignment{};
+  PartitionReview review{};
   std::vector<GloballyAdjusted> worlds{};       ///< most images first
   std::vector<SeamCertificate> certificates{};  ///< of all worlds
 };

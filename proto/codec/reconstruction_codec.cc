@@ -6,6 +6,9 @@
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
+
+static_assert(sizeof(SubmodelExtent) == 8, "packed as written");
+
 std::string EncodeReconstruction(const Reconstruction& reconstruction) {
   v1::Reconstruction proto;
   codec::ToProto(reconstruction, &proto);
@@ -84,7 +87,9 @@ std::string EncodeAlignment(const Alignment& alignment) {
     out->set_reason(seam.reason);
     out->set_position_jump_m(seam.position_jump_m);
     out->set_rotation_jump_deg(seam.rotation_jump_deg);
+    out->set_contradicted(seam.contradicted);
   }
+  proto.set_submodels(codec::Pack(alignment.submodels));
   return proto.SerializeAsString();
 }
 
@@ -100,6 +105,9 @@ absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
   if (alignment.world.size() != alignment.world_from_submodel.size()) {
     return absl::InvalidArgumentError("alignment: one world per submodel");
   }
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      alignment.submodels,
+      codec::UnpackExactly<SubmodelExtent>(proto.submodels(), alignment.world.size(), "submodels"));
   for (const v1::SeamReport& seam : proto.seams()) {
     alignment.seams.push_back({.submodel_a = seam.submodel_a(),
                                .submodel_b = seam.submodel_b(),
@@ -108,11 +116,36 @@ absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
                                .inlier_tracks = seam.inlier_tracks(),
                                .condition_number = seam.condition_number(),
                                .used = seam.used(),
+                               .contradicted = seam.contradicted(),
                                .reason = seam.reason(),
                                .position_jump_m = seam.position_jump_m(),
                                .rotation_jump_deg = seam.rotation_jump_deg()});
   }
   return alignment;
+}
+
+std::string EncodePartitionReview(const PartitionReview& review) {
+  v1::PartitionReview proto;
+  proto.set_rounds(review.rounds);
+  for (const OverlapRequest& request : review.requests) {
+    v1::OverlapRequest* out = proto.add_requests();
+    out->set_cluster_a(request.cluster_a);
+    out->set_cluster_b(request.cluster_b);
+    out->set_images(request.images);
+    out->set_reason(request.reason);
+  }
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<PartitionReview> DecodePartitionReview(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::PartitionReview proto,
+                            codec::Parse<v1::PartitionReview>(bytes, "partition review"));
+  PartitionReview review{.rounds = proto.rounds()};
+  for (const v1::OverlapRequest& request : proto.requests()) {
+    review.requests.push_back(
+        {request.cluster_a(), request.cluster_b(), request.images(), request.reason()});
+  }
+  return review;
 }
 
 }  // namespace orbweave

@@ -7,6 +7,7 @@
 
 #include "core/base/status.h"
 #include "core/merging/align_submodels.h"
+#include "core/merging/review_seams.h"
 #include "core/scene/reconstruction.h"
 #include "core/stages/stage_results.h"
 
@@ -22,5 +23,8 @@ namespace orbweave {
 
 [[nodiscard]] std::string EncodeAlignment(const Alignment& alignment);
 [[nodiscard]] absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes);
+
+[[nodiscard]] std::string EncodePartitionReview(const PartitionReview& review);
+[[nodiscard]] absl::StatusOr<PartitionReview> DecodePartitionReview(std::string_view bytes);
 
 }  // namespace orbweave

@@ -78,6 +78,7 @@ TEST(JobMachine, AStageWithoutTasksIsDone) {
 
 TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   JobPlan plan = LinePlan({"start", "decide", "work", "end"});
+  plan.stages[2].parts_from = "decide";
   plan.stages[2].back_to = "decide";
   JobMachine machine({.kind = "line"}, plan, {}, 100.0);
   Begin(machine, "start", 0);
@@ -113,6 +114,24 @@ TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   EXPECT_EQ(machine.Timings()[3].run, 3U);
   Begin(machine, "end", 0);
   EXPECT_EQ(machine.state(), JobState::kDone);
+}
+
+TEST(JobMachine, RepeatsALoopWhoseEndHasOnePartAsLongAsThatLeavesARecipe) {
+  JobPlan plan = LinePlan({"work", "review", "end"});
+  plan.stages[1].back_to = "work";
+  JobMachine machine({.kind = "line"}, plan, {}, 100.0);
+  for (uint32_t round = 0; round < 2; ++round) {
+    ASSERT_EQ(machine.StageToPlan(), 0U);
+    Begin(machine, "work", 1);
+    machine.TaskDone(LeaseNext(machine, "w", 100.0), {}, 101.0);
+    ASSERT_EQ(machine.StageToPlan(), 1U);
+    Begin(machine, "review", 1);
+    machine.TaskDone(LeaseNext(machine, "w", 100.0), {.recipes = {DigestOf("more")}}, 101.0);
+  }
+  machine.StageBegins(Tasks("work", 1), {TaskResult{}}, 102.0);
+  machine.StageBegins(Tasks("review", 1), {TaskResult{}}, 102.0);
+  EXPECT_EQ(machine.StageToPlan(), 2U) << "found results count like computed ones";
+  EXPECT_EQ(machine.Status(102.0).stages[0].tasks_total, 3U);
 }
 
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {

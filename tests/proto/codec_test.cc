@@ -307,14 +307,32 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   ExpectSame(cluster_out->reconstruction.components[0], cluster.reconstruction.components[0]);
 
   Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
-                      .world = {0}};
-  alignment.seams.push_back(
-      {.submodel_a = 0, .submodel_b = 1, .used = false, .reason = "loop", .position_jump_m = 0.1});
+                      .world = {0},
+                      .submodels = {{.cluster = 4, .num_images = 7}}};
+  alignment.seams.push_back({.submodel_a = 0,
+                             .submodel_b = 1,
+                             .used = false,
+                             .contradicted = true,
+                             .reason = "loop",
+                             .position_jump_m = 0.1});
   const auto alignment_out = DecodeAlignment(EncodeAlignment(alignment));
   ASSERT_TRUE(alignment_out.ok()) << alignment_out.status();
   EXPECT_EQ(alignment_out->world_from_submodel[0].scale, 2.0);
   EXPECT_FALSE(alignment_out->seams[0].used);
+  EXPECT_TRUE(alignment_out->seams[0].contradicted);
   EXPECT_EQ(alignment_out->seams[0].reason, "loop");
+  EXPECT_EQ(alignment_out->submodels[0].cluster, 4U);
+  EXPECT_EQ(alignment_out->submodels[0].num_images, 7U);
+
+  const PartitionReview review{.rounds = 2, .requests = {{1, 3, 24, "too few"}}};
+  const auto review_out = DecodePartitionReview(EncodePartitionReview(review));
+  ASSERT_TRUE(review_out.ok()) << review_out.status();
+  EXPECT_EQ(review_out->rounds, 2U);
+  EXPECT_EQ(review_out->requests[0].cluster_a, 1U);
+  EXPECT_EQ(review_out->requests[0].cluster_b, 3U);
+  EXPECT_EQ(review_out->requests[0].images, 24U);
+  EXPECT_EQ(review_out->requests[0].reason, "too few");
+  EXPECT_EQ(DecodePartitionReview("")->rounds, 0U);
 
   ConcludedModel model{.worlds = {{.images = SomeReconstruction().images}},
                        .blocks = {{DigestOf("block")}}};

@@ -20,7 +20,7 @@ std::vector<SharedImages> Grow(const ViewGraph& graph,
   const Adjacency adjacency(graph.num_images, graph.edges);
   std::vector<double> weights;
   for (const ViewEdge& edge : graph.edges) weights.push_back(edge.num_inliers);
-  return GrowOverlap(adjacency, weights, part_of, overlap);
+  return GrowOverlap(adjacency, weights, part_of, {.usual = overlap});
 }
 
 std::vector<uint32_t> HalfAndHalf(uint32_t n) {

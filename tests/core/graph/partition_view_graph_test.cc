@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/graph/disjoint_sets.h"
+#include "core/graph/view_graph_weights.h"
 #include "tests/core/graph/graph_samples.h"
 
 namespace orbweave {
@@ -158,6 +159,67 @@ TEST(PartitionViewGraph, GivesTheSameAnswerTwice) {
   ASSERT_EQ(first.clusters.size(), second.clusters.size());
   for (size_t c = 0; c < first.clusters.size(); ++c) {
     EXPECT_EQ(first.clusters[c].images, second.clusters[c].images);
+  }
+}
+
+TEST(PartitionViewGraph, BalancesMatchesWhereOneHalfOfAStreetHasThreeTimesAsMany) {
+  ViewGraph street = Street(400, 8);
+  for (ViewEdge& edge : street.edges) {
+    if (edge.pair.a.value >= 200) edge.num_inliers *= 3;
+  }
+  const Partition partition = Divided(street);
+  ASSERT_EQ(partition.clusters.size(), 4U);
+  const std::vector<double> costs = ImageCosts(street);
+  std::vector<double> cost_of_cluster;
+  for (const Cluster& cluster : partition.clusters) {
+    double& sum = cost_of_cluster.emplace_back(0.0);
+    for (const ImageId image : cluster.interior) sum += costs[image.value];
+  }
+  const auto [least, most] = std::ranges::minmax(cost_of_cluster);
+  EXPECT_LT(most, 1.1 * least);
+  EXPECT_GT(partition.clusters.front().interior.size(),
+            2 * partition.clusters.back().interior.size());
+}
+
+/// Images that the seam of clusters a and b lends, whichever way.
+size_t NumLent(const Partition& partition, uint32_t a, uint32_t b) {
+  const auto is_interior = [&](uint32_t cluster, ImageId image) {
+    return std::ranges::binary_search(partition.clusters[cluster].interior, image);
+  };
+  for (const Seam& seam : partition.seams) {
+    if (seam.cluster_a != a || seam.cluster_b != b) continue;
+    return static_cast<size_t>(std::ranges::count_if(seam.shared, [&](ImageId image) {
+      return is_interior(a, image) || is_interior(b, image);
+    }));
+  }
+  return 0;
+}
+
+TEST(WidenOverlaps, GrowsTheSeamsThatAskAndNoOtherCluster) {
+  const ViewGraph grid = Grid(20);
+  const PartitionOptions options{.cluster_size = 50, .overlap = 6};
+  const Partition before = Divided(grid, options);
+  ASSERT_EQ(NumLent(before, 0, 1), 6U);
+  const auto after =
+      WidenOverlaps(grid, before, {{.cluster_a = 0, .cluster_b = 1, .images = 12}}, options);
+  ASSERT_TRUE(after.ok()) << after.status();
+  ExpectLawful(grid, *after, options);
+  EXPECT_EQ(NumLent(*after, 0, 1), 12U);
+  for (uint32_t c = 0; c < before.clusters.size(); ++c) {
+    const std::vector<ImageId>& old_images = before.clusters[c].images;
+    EXPECT_EQ(after->clusters[c].interior, before.clusters[c].interior);
+    EXPECT_TRUE(std::ranges::includes(after->clusters[c].images, old_images)) << c;
+    EXPECT_EQ(after->clusters[c].images.size() > old_images.size(), c < 2) << c;
+  }
+}
+
+TEST(WidenOverlaps, WithoutRequestsChangesNothing) {
+  const ViewGraph street = Street(200, 6);
+  const Partition before = Divided(street);
+  const auto after = WidenOverlaps(street, before, {}, {});
+  ASSERT_TRUE(after.ok()) << after.status();
+  for (size_t c = 0; c < before.clusters.size(); ++c) {
+    EXPECT_EQ(after->clusters[c].images, before.clusters[c].images);
   }
 }
 

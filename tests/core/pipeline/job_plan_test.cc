@@ -26,6 +26,7 @@ TEST(FindJobPlan, SparseLeadsFromImagesToAModel) {
                                      "partition_view_graph",
                                      "reconstruct_cluster",
                                      "align_submodels",
+                                     "review_seams",
                                      "join_submodels",
                                      "assemble_block",
                                      "steer_adjustment",
@@ -50,8 +51,8 @@ TEST(FindJobPlan, RefusesAnUnknownKindByName) {
 /// Last stage of the loop that stage `s` is in, or `s` itself.
 size_t EndOfLoop(const JobPlan& plan, size_t s) {
   for (size_t end = s; end < plan.stages.size(); ++end) {
-    if (!plan.stages[end].back_to.empty() && StageAfter(plan, static_cast<uint32_t>(end), 1) <= s)
-      return end;
+    const TaskResult asks_again{.recipes = {DigestOf("")}};
+    if (StageAfter(plan, static_cast<uint32_t>(end), {asks_again}) <= s) return end;
   }
   return s;
 }
@@ -101,12 +102,21 @@ TEST(Collection, RefusesATornList) {
 }
 
 TEST(StageAfter, GoesBackAsLongAsTheLoopHasParts) {
-  const JobPlan plan{
-      "loop", {{.stage = "a"}, {.stage = "b"}, {.stage = "c", .back_to = "b"}, {.stage = "d"}}};
-  EXPECT_EQ(StageAfter(plan, 0, 1), 1U);
-  EXPECT_EQ(StageAfter(plan, 2, 5), 1U);
-  EXPECT_EQ(StageAfter(plan, 2, 0), 3U);
-  EXPECT_EQ(StageAfter(plan, 3, 1), 4U);
+  const JobPlan plan{"loop",
+                     {{.stage = "a"},
+                      {.stage = "b"},
+                      {.stage = "c", .parts_from = "b", .back_to = "b"},
+                      {.stage = "d"}}};
+  EXPECT_EQ(StageAfter(plan, 0, {TaskResult{}}), 1U);
+  EXPECT_EQ(StageAfter(plan, 2, std::vector<TaskResult>(5)), 1U);
+  EXPECT_EQ(StageAfter(plan, 2, {}), 3U);
+  EXPECT_EQ(StageAfter(plan, 3, {TaskResult{}}), 4U);
+}
+
+TEST(StageAfter, GoesBackAsLongAsTheOnePartThatEndsTheLoopLeavesARecipe) {
+  const JobPlan plan{"loop", {{.stage = "a"}, {.stage = "b", .back_to = "a"}, {.stage = "c"}}};
+  EXPECT_EQ(StageAfter(plan, 1, {{.recipes = {DigestOf("more")}}}), 0U);
+  EXPECT_EQ(StageAfter(plan, 1, {{.outputs = {DigestOf("enough")}}}), 2U);
 }
 
 }  // namespace
