@@ -20,19 +20,13 @@ namespace {
 constexpr uint32_t kNoPart = std::numeric_limits<uint32_t>::max();
 // Sum of all weights handed to METIS: far from the end of a 32-bit idx_t.
 constexpr double kTotalWeight = 2.0e8;
-// Costs are handed over in this many steps per unit, less where the sum would be large.
-constexpr double kCostSteps = 100.0;
 
 // The piece in METIS's compressed rows, images numbered by position.
 struct MetisGraph {
   std::vector<idx_t> begin{0};
   std::vector<idx_t> neighbour{};
   std::vector<idx_t> weight{};
-  std::vector<idx_t> cost{};
 };
-
-// Weights as whole numbers.
-idx_t ToIndex(double value) { return std::max<idx_t>(1, static_cast<idx_t>(std::round(value))); }
 
 MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
   const auto position = [&](uint32_t image) {
@@ -40,21 +34,18 @@ MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
                               piece.images.begin());
   };
   double total = 0.0;
-  double total_cost = 0.0;
   for (const uint32_t image : piece.images) {
-    total_cost += piece.image_cost[image];
     for (const Adjacency::Link& link : piece.adjacency.Of(image))
       total += piece.edge_weight[link.edge];
   }
   const double scale = std::min(1.0, kTotalWeight / total);
-  const double cost_scale = std::min(kCostSteps, kTotalWeight / total_cost);
   MetisGraph graph;
   for (const uint32_t image : piece.images) {
     for (const Adjacency::Link& link : piece.adjacency.Of(image)) {
       graph.neighbour.push_back(position(link.image));
-      graph.weight.push_back(ToIndex(scale * piece.edge_weight[link.edge]));
+      const double weight = std::round(scale * piece.edge_weight[link.edge]);
+      graph.weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(weight)));
     }
-    graph.cost.push_back(ToIndex(cost_scale * piece.image_cost[image]));
     graph.begin.push_back(static_cast<idx_t>(graph.neighbour.size()));
   }
   return graph;
@@ -76,7 +67,7 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts
                                          &num_constraints,
                                          graph.begin.data(),
                                          graph.neighbour.data(),
-                                         graph.cost.data(),
+                                         nullptr,
                                          nullptr,
                                          graph.weight.data(),
                                          &parts,

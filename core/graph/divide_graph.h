@@ -11,15 +11,14 @@
 
 namespace orbweave {
 
-/// Images of one connected piece of a view graph, its links and weights.
+/// Images of one connected piece of a view graph, its links and its edge weights.
 struct ConnectedPiece {
   const Adjacency& adjacency;
   std::span<const double> edge_weight{};  ///< per edge of the graph, > 0
-  std::span<const double> image_cost{};   ///< per image of the graph, > 0 for those of the piece
   std::span<const uint32_t> images{};     ///< sorted
 };
 
-/// Divides a connected piece into at most `num_parts` connected parts of about equal cost with a
+/// Divides a connected piece into at most `num_parts` connected parts of about equal size with a
 /// small weight of cut edges: METIS k-way (Karypis, Kumar, SIAM J. Sci. Comput. 1998), then stray
 /// images of a part and parts smaller than `min_part_size` go to the neighbour with which they
 /// share most weight. Sorted lists of images, sorted by their first image. Deterministic as long as

@@ -12,10 +12,4 @@ namespace orbweave {
 /// cells at least.
 [[nodiscard]] std::vector<double> EdgeWeights(const ViewGraph& graph);
 
-/// Per image: what it will cost to reconstruct, in units of the mean over images with an edge. Time
-/// and memory of a cluster grow with its observations, hence with its matches; the cost is kept
-/// within a quarter and four times the mean, so that no cluster grows without bounds where images
-/// show little.
-[[nodiscard]] std::vector<double> ImageCosts(const ViewGraph& graph);
-
 }  // namespace orbweave

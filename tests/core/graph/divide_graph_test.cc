@@ -7,7 +7,6 @@
 
 #include <numeric>
 
-#include "core/graph/view_graph_weights.h"
 #include "tests/core/graph/graph_samples.h"
 
 namespace orbweave {
@@ -21,9 +20,7 @@ Parts Divide(const ViewGraph& graph, uint32_t num_parts, uint32_t min_part_size)
   for (const ViewEdge& edge : graph.edges) weights.push_back(edge.num_inliers);
   std::vector<uint32_t> images(graph.num_images);
   std::iota(images.begin(), images.end(), 0U);
-  const std::vector<double> costs = ImageCosts(graph);
-  const ConnectedPiece piece{
-      .adjacency = adjacency, .edge_weight = weights, .image_cost = costs, .images = images};
+  const ConnectedPiece piece{.adjacency = adjacency, .edge_weight = weights, .images = images};
   const auto parts = DivideGraph(piece, num_parts, min_part_size);
   EXPECT_TRUE(parts.ok()) << parts.status();
   return parts.ok() ? *parts : Parts{};

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "core/graph/disjoint_sets.h"
-#include "core/graph/view_graph_weights.h"
 #include "tests/core/graph/graph_samples.h"
 
 namespace orbweave {
@@ -160,25 +159,6 @@ TEST(PartitionViewGraph, GivesTheSameAnswerTwice) {
   for (size_t c = 0; c < first.clusters.size(); ++c) {
     EXPECT_EQ(first.clusters[c].images, second.clusters[c].images);
   }
-}
-
-TEST(PartitionViewGraph, BalancesMatchesWhereOneHalfOfAStreetHasThreeTimesAsMany) {
-  ViewGraph street = Street(400, 8);
-  for (ViewEdge& edge : street.edges) {
-    if (edge.pair.a.value >= 200) edge.num_inliers *= 3;
-  }
-  const Partition partition = Divided(street);
-  ASSERT_EQ(partition.clusters.size(), 4U);
-  const std::vector<double> costs = ImageCosts(street);
-  std::vector<double> cost_of_cluster;
-  for (const Cluster& cluster : partition.clusters) {
-    double& sum = cost_of_cluster.emplace_back(0.0);
-    for (const ImageId image : cluster.interior) sum += costs[image.value];
-  }
-  const auto [least, most] = std::ranges::minmax(cost_of_cluster);
-  EXPECT_LT(most, 1.1 * least);
-  EXPECT_GT(partition.clusters.front().interior.size(),
-            2 * partition.clusters.back().interior.size());
 }
 
 /// Images that the seam of clusters a and b lends, whichever way.
