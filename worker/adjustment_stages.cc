@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/merging/adjust_globally.h"
+#include "core/merging/attach_loose_images.h"
 #include "core/merging/rim.h"
 #include "core/stages/advance_adjustment.h"
 #include "core/stages/plan_recipes.h"
@@ -255,6 +256,7 @@ absl::StatusOr<TaskResult> RunConcludeAdjustment(const TaskSpec& spec,
                                               manifest,
                                               options.global));
   }
+  if (options.global.attach_loose) AttachLooseImages(manifest, model.worlds);
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeConcludedModel(model), blobs, result));
   result.report_json = nlohmann::json{{"worlds", model.worlds.size()}}.dump();

@@ -248,7 +248,7 @@ std::string LeftOut(const JobReport& report) {
                     " more, all in report.json</td></tr>");
   return Section(
       "Left out",
-      absl::StrCat(CountText(report.not_registered.size()), " images take no part in the model."),
+      absl::StrCat(CountText(report.not_registered.size()), " images are not registered."),
       "<table><thead><tr><th>image</th><th class=\"text\">reason</th></tr></thead><tbody>" + rows +
           "</tbody></table>");
 }

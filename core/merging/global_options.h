@@ -25,6 +25,7 @@ struct GlobalAdjustOptions {
   double max_error_px = 4.0;
   double min_angle_deg = 1.5;
   int rounds = 2;
+  bool attach_loose = true;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -45,6 +46,9 @@ struct GlobalAdjustOptions {
           self.rounds,
           "adjust and filter rounds before the final least squares",
           Range{1, 10});
+    visit("attach_loose",
+          self.attach_loose,
+          "place images that could not be registered at their GNSS position, marked as loose");
   }
 };
 

@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kVersion
     {"assemble_block", "1"},
     {"steer_adjustment", "1"},
     {"adjust_block", "1"},
-    {"conclude_adjustment", "1"},
+    {"conclude_adjustment", "2"},
 }};
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/io/measure_reconstruction.h"
+#include "core/stages/list_missing_images.h"
 #include "core/stages/summarise_uncertainty.h"
 
 namespace orbweave {
@@ -39,6 +40,7 @@ void FillWorld(const JobResults& results,
                                        world.report.gnss.outliers.end());
   for (const auto& [id, image] : world.reconstruction.images) {
     ReportImage& row = report.images[id.value];
+    if (image.loose && row.registered) continue;  // seen by a model before
     const ImageRecord& record = results.manifest.At(id);
     row.registered = true;
     row.loose = image.loose;
@@ -77,33 +79,6 @@ void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
   report.residual_histogram.bin_width = measures.residual_histogram.bin_width;
   AddCounts(measures.residual_histogram.counts, report.residual_histogram.counts);
   AddCounts(measures.track_lengths, report.track_lengths);
-}
-
-/// Why each image that no world holds is missing, by what is known latest in the line.
-void ListNotRegistered(const JobResults& results, JobReport& report) {
-  std::vector<std::string> reasons(report.images.size(),
-                                   "no verified matches with any other image");
-  for (const ClusterResult& cluster : results.clusters) {
-    for (const NotRegistered& image : cluster.reconstruction.not_registered) {
-      reasons[image.image.value] = image.reason;
-    }
-  }
-  for (size_t i = 0; i < results.image_problems.size(); ++i) {
-    if (!results.image_problems[i].empty()) reasons[i] = results.image_problems[i];
-  }
-  report.not_registered = results.manifest.excluded;
-  for (size_t i = 0; i < report.images.size(); ++i) {
-    if (!report.images[i].registered)
-      report.not_registered.push_back({report.images[i].name, reasons[i]});
-  }
-}
-
-void WarnOfLooseImages(JobReport& report) {
-  for (const ReportImage& image : report.images) {
-    if (image.loose)
-      report.warnings.push_back(image.name +
-                                " has no observations of its own left and is placed loosely");
-  }
 }
 
 void WarnOfContradictedPairs(const JobResults& results, JobReport& report) {
@@ -225,7 +200,6 @@ JobReport BuildJobReport(const JobResults& results) {
   for (uint32_t model = 0; model < report.models; ++model) {
     const Reconstruction& reconstruction = results.worlds[model].reconstruction;
     const ReconstructionMeasures measures = MeasureReconstruction(reconstruction, results.manifest);
-    report.registered += static_cast<uint32_t>(reconstruction.images.size());
     AddMeasures(measures, report);
     FillWorld(results, model, measures, report);
   }
@@ -233,11 +207,12 @@ JobReport BuildJobReport(const JobResults& results) {
     report.mean_track_length =
         static_cast<double>(report.observations) / static_cast<double>(report.points);
   }
-  ListNotRegistered(results, report);
+  report.registered = static_cast<uint32_t>(std::ranges::count_if(
+      report.images, [](const ReportImage& row) { return row.registered && !row.loose; }));
   report.clusters = ClusterRows(results);
   report.seams = SeamRows(results);
   report.warnings = results.manifest.warnings;
-  WarnOfLooseImages(report);
+  ListMissingImages(results, report);
   WarnOfPatterns(results, report);
   WarnOfContradictedPairs(results, report);
   TellReviews(results.review, report);

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/merging/conclude_adjustment.h"
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+/// Images with a GNSS position that no georeferenced world holds - no submodel registered them, or
+/// no seam joins their submodel and it is not georeferenced by itself - become loose images of the
+/// first world that is, at their GNSS position. They turn as the image of their drive does that
+/// this world observes and is next to them in id order (of two the earlier); where there is none
+/// they stand level and look where their heading prior says, or north. Nothing happens when no
+/// world is georeferenced.
+void AttachLooseImages(const ImageManifest& manifest, std::vector<ConcludedWorld>& worlds);
+
+}  // namespace orbweave
