@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <string>
 
 #include "core/io/scan_image_folder.h"
 
@@ -26,6 +27,14 @@ inline void AddImageArguments(CLI::App& command, ScanRequest& request) {
           CLI::CheckedTransformer(std::map<std::string, bool>{{"white", true}, {"black", false}}))
       ->type_name("white|black")
       ->default_str("white");
+}
+
+/// Clusters by hand.
+inline void AddClustersArgument(CLI::App& command, std::string& cluster_table) {
+  command.add_option("--clusters",
+                     cluster_table,
+                     "Clusters by hand instead of automatic ones: CSV with name,cluster, a row for "
+                     "every image");
 }
 
 }  // namespace orbweave

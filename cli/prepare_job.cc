@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "core/io/cluster_table.h"
 #include "core/io/colmap_database.h"
 #include "core/io/file.h"
 #include "core/pipeline/job_plan.h"
@@ -88,6 +89,22 @@ absl::StatusOr<std::vector<Digest>> PutMatches(CoordinatorApi& coordinator,
   return recipes;
 }
 
+/// The blob of clusters by hand for the usable images; empty where no table is given.
+absl::StatusOr<Digest> PutClusters(CoordinatorApi& coordinator,
+                                   const ImageSources& sources,
+                                   const std::string& cluster_table) {
+  ClusterNames clusters;
+  if (!cluster_table.empty()) {
+    std::vector<std::string> names;
+    for (const SourceImage& image : sources.images) {
+      if (image.problem.empty()) names.push_back(image.name);
+    }
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(cluster_table));
+    ORBWEAVE_ASSIGN_OR_RETURN(clusters, ReadClusterTable(text, cluster_table, names));
+  }
+  return coordinator.Put(EncodeClusterNames(clusters));
+}
+
 /// The folder's name, or that of the folder above where it is just called "images".
 std::string LabelOf(const std::string& image_folder) {
   std::filesystem::path path = std::filesystem::absolute(image_folder).lexically_normal();
@@ -100,13 +117,16 @@ std::string LabelOf(const std::string& image_folder) {
 
 absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
                                         const ScanRequest& request,
+                                        const std::string& cluster_table,
                                         const PipelineOptions& options,
                                         const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImageFolder(request, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters,
+                            PutClusters(coordinator, sources, cluster_table));
   ORBWEAVE_RETURN_IF_ERROR(OfferFiles(coordinator, sources, context));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest blob, coordinator.Put(EncodeImageSources(sources)));
   return JobSpec{.kind = "sparse",
-                 .inputs = {blob},
+                 .inputs = {blob, clusters},
                  .options_text = PipelineOptionsToText(options),
                  .label = LabelOf(request.image_folder)};
 }
@@ -114,6 +134,7 @@ absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
 absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
                                            const std::string& database_path,
                                            const std::string& gnss_table,
+                                           const std::string& cluster_table,
                                            const PipelineOptions& options,
                                            const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ColmapDatabase database, ReadColmapDatabase(database_path));
@@ -122,6 +143,8 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
     ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadFile(gnss_table));
     sources.gnss_name = std::filesystem::path(gnss_table).filename().string();
   }
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters,
+                            PutClusters(coordinator, sources, cluster_table));
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
                             IngestImages(sources, options.ingest, context));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features, PutFeatures(coordinator, database));
@@ -135,6 +158,7 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, coordinator.Put(bytes));
     job.inputs.push_back(digest);
   }
+  job.inputs.push_back(clusters);
   return job;
 }
 

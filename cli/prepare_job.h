@@ -13,16 +13,19 @@ namespace orbweave {
 
 /// Makes everything a job on a folder of panoramas reads known to the coordinator: files are linked
 /// where the coordinator can read them itself and uploaded where it cannot. The job is not
-/// submitted.
+/// submitted. `cluster_table`: path of clusters by hand (ReadClusterTable), or empty.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
                                                       const ScanRequest& request,
+                                                      const std::string& cluster_table,
                                                       const PipelineOptions& options,
                                                       const StageContext& context);
 
-/// The same for keypoints and matches from a COLMAP database. `gnss_table`: path, or empty.
+/// The same for keypoints and matches from a COLMAP database. `gnss_table` and
+/// `cluster_table`: paths, or empty.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
                                                          const std::string& database,
                                                          const std::string& gnss_table,
+                                                         const std::string& cluster_table,
                                                          const PipelineOptions& options,
                                                          const StageContext& context);
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/exit_code.h"
+#include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/prepare_job.h"
 #include "cli/run_local_job.h"
@@ -16,6 +17,7 @@ namespace {
 struct ReconstructArguments {
   std::string database{};
   std::string gnss{};
+  std::string clusters{};
   std::string output{};
   bool single = false;
   uint32_t workers = 2;
@@ -25,12 +27,13 @@ struct ReconstructArguments {
 absl::Status Reconstruct(const ReconstructArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(PipelineOptions options, ReadOptions(arguments.options));
   if (arguments.single) options.partition.cluster_size = 0;
-  return RunLocalJob({.output = arguments.output,
-                      .workers = arguments.workers,
-                      .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
-                        return PrepareDatabaseJob(
-                            coordinator, arguments.database, arguments.gnss, options, context);
-                      }});
+  return RunLocalJob(
+      {.output = arguments.output,
+       .workers = arguments.workers,
+       .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
+         return PrepareDatabaseJob(
+             coordinator, arguments.database, arguments.gnss, arguments.clusters, options, context);
+       }});
 }
 
 }  // namespace
@@ -48,7 +51,9 @@ void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
       ->required();
   command->add_option(
       "--gnss", arguments->gnss, "Positions, instead of the database's pose priors");
-  command->add_flag("--single", arguments->single, "One cluster: do not divide");
+  AddClustersArgument(*command, arguments->clusters);
+  command->add_flag("--single", arguments->single, "One cluster: do not divide")
+      ->excludes("--clusters");
   command->add_option("--workers", arguments->workers, "Worker processes")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

@@ -16,6 +16,7 @@ namespace {
 
 struct RunArguments {
   ScanRequest scan{};
+  std::string clusters{};
   std::string output{};
   uint32_t workers = 2;
   OptionArguments options{};
@@ -26,7 +27,8 @@ absl::Status Run(const RunArguments& arguments) {
   return RunLocalJob({.output = arguments.output,
                       .workers = arguments.workers,
                       .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
-                        return PrepareImageJob(coordinator, arguments.scan, options, context);
+                        return PrepareImageJob(
+                            coordinator, arguments.scan, arguments.clusters, options, context);
                       }});
 }
 
@@ -37,6 +39,7 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
       app.add_subcommand("run", "Reconstruct a folder of panoramas on this machine");
   const auto arguments = std::make_shared<RunArguments>();
   AddImageArguments(*command, arguments->scan);
+  AddClustersArgument(*command, arguments->clusters);
   command
       ->add_option(
           "--output", arguments->output, "Folder of the results; run again with it to go on")

@@ -24,6 +24,7 @@ namespace {
 struct SubmitArguments {
   std::string coordinator{};
   ScanRequest scan{};
+  std::string clusters{};
   std::string output{};
   OptionArguments options{};
 };
@@ -50,7 +51,8 @@ absl::Status Submit(const SubmitArguments& arguments) {
   GrpcCoordinatorClient coordinator(arguments.coordinator);
   ORBWEAVE_ASSIGN_OR_RETURN(
       const JobSpec spec,
-      PrepareImageJob(coordinator, arguments.scan, options, {.stop = signals.token()}));
+      PrepareImageJob(
+          coordinator, arguments.scan, arguments.clusters, options, {.stop = signals.token()}));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator.SubmitJob(spec));
   if (!arguments.output.empty())
     return WaitAndWrite(coordinator, job, arguments.output, signals.token());
@@ -67,6 +69,7 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--coordinator", arguments->coordinator, "Address of the coordinator")
       ->required();
   AddImageArguments(*command, arguments->scan);
+  AddClustersArgument(*command, arguments->clusters);
   command->add_option(
       "--output",
       arguments->output,

@@ -44,6 +44,40 @@ absl::StatusOr<CollectedEdges> CollectEdges(const std::vector<Digest>& match_blo
   return collected;
 }
 
+/// The cluster by hand of each image of the manifest.
+absl::StatusOr<std::vector<std::string>> ClusterOfImages(const ImageManifest& manifest,
+                                                         const ClusterNames& by_hand) {
+  std::vector<std::string> clusters;
+  for (const ImageRecord& image : manifest.images) {
+    const auto found = by_hand.find(image.name);
+    if (found == by_hand.end())
+      return absl::InvalidArgumentError("clusters by hand: none is named for " + image.name);
+    clusters.push_back(found->second);
+  }
+  return clusters;
+}
+
+/// In the first round clusters by hand or by METIS, later those of the round before with more
+/// overlap.
+absl::StatusOr<Partition> DivideOrWiden(const TaskSpec& spec,
+                                        const ViewGraph& graph,
+                                        const ImageManifest& manifest,
+                                        const PartitionOptions& options,
+                                        BlobAccess& blobs) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterNames by_hand,
+                            FetchInput(spec, 3, blobs, DecodeClusterNames));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph before,
+                            FetchInput(spec, 4, blobs, DecodeDividedViewGraph));
+  ORBWEAVE_ASSIGN_OR_RETURN(const PartitionReview review,
+                            FetchInput(spec, 5, blobs, DecodePartitionReview));
+  if (!review.requests.empty())
+    return WidenOverlaps(graph, before.partition, review.requests, options);
+  if (by_hand.empty()) return PartitionViewGraph(graph, options);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> clusters,
+                            ClusterOfImages(manifest, by_hand));
+  return PartitionByHand(graph, clusters, options);
+}
+
 ClusterResult RimOfCluster(const ClusterResult& cluster, const std::vector<ImageId>& shared) {
   ClusterResult rim{.cluster = cluster.cluster};
   for (const Reconstruction& component : cluster.reconstruction.components)
@@ -63,10 +97,6 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
                             FetchInput(spec, 1, blobs, SplitExtracted));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> match_blobs,
                             FetchInput(spec, 2, blobs, DecodeCollection));
-  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph before,
-                            FetchInput(spec, 3, blobs, DecodeDividedViewGraph));
-  ORBWEAVE_ASSIGN_OR_RETURN(const PartitionReview review,
-                            FetchInput(spec, 4, blobs, DecodePartitionReview));
   ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(collected.edges, manifest);
   const FilteredViewGraph filtered = BuildViewGraph(
@@ -74,10 +104,7 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
   DividedViewGraph divided{.dropped = std::move(by_gnss.dropped)};
   divided.dropped.insert(divided.dropped.end(), filtered.dropped.begin(), filtered.dropped.end());
   ORBWEAVE_ASSIGN_OR_RETURN(
-      divided.partition,
-      review.requests.empty()
-          ? PartitionViewGraph(filtered.graph, options.partition)
-          : WidenOverlaps(filtered.graph, before.partition, review.requests, options.partition));
+      divided.partition, DivideOrWiden(spec, filtered.graph, manifest, options.partition, blobs));
   for (const ViewEdge& edge : filtered.graph.edges) divided.edges.push_back(edge.pair);
 
   TaskResult result;

@@ -11,8 +11,8 @@
 
 namespace orbweave {
 
-/// manifest, extracted, verified pairs, DividedViewGraph and PartitionReview of the round before ->
-/// DividedViewGraph; recipes: one per cluster.
+/// manifest, extracted, verified pairs, clusters by hand, DividedViewGraph and PartitionReview of
+/// the round before -> DividedViewGraph; recipes: one per cluster.
 absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
                                                  BlobAccess& blobs,
                                                  const StageContext& context);

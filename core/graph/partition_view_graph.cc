@@ -96,6 +96,25 @@ absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
   return OverlapClusters(graph, interiors, TargetsOf({}, options));
 }
 
+absl::StatusOr<Partition> PartitionByHand(const ViewGraph& graph,
+                                          const std::vector<std::string>& cluster_of_image,
+                                          const PartitionOptions& options) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckEdges(graph));
+  std::map<std::string, Images> images_of_cluster;
+  for (const Images& component : FindComponents(graph)) {
+    for (const uint32_t image : component) {
+      images_of_cluster[cluster_of_image.at(image)].push_back(image);
+    }
+  }
+  std::vector<Images> interiors;
+  for (auto& [name, images] : images_of_cluster) {
+    std::ranges::sort(images);
+    interiors.push_back(std::move(images));
+  }
+  std::ranges::sort(interiors);
+  return OverlapClusters(graph, interiors, TargetsOf({}, options));
+}
+
 absl::StatusOr<Partition> WidenOverlaps(const ViewGraph& graph,
                                         const Partition& partition,
                                         const std::vector<OverlapRequest>& requests,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/base/options.h"
@@ -63,6 +64,13 @@ struct PartitionOptions {
 /// names an image that does not exist, Internal when METIS fails.
 [[nodiscard]] absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
                                                            const PartitionOptions& options);
+
+/// The same with clusters by hand: images with an edge and of one name are the interior of one
+/// cluster, connected or not. `cluster_of_image`: per image of the graph.
+[[nodiscard]] absl::StatusOr<Partition> PartitionByHand(
+    const ViewGraph& graph,
+    const std::vector<std::string>& cluster_of_image,
+    const PartitionOptions& options);
 
 /// The clusters of `partition` where neighbours named in `requests` share as many images as those
 /// ask for. Interiors stay. So do the images of all other clusters, and which of them are shared,

@@ -42,16 +42,18 @@ std::vector<StageRule> ImageStages() {
   };
 }
 
-/// From verified pairs to the model. `manifest` and `features` say where these come from,
-/// `matches_stage` which stage verified the pairs.
+/// From verified pairs to the model. `manifest`, `features` and `clusters` (by hand; empty: none)
+/// say where these come from, `matches_stage` which stage verified the pairs.
 std::vector<StageRule> ModelStages(const InputRule& manifest,
                                    const InputRule& features,
+                                   const InputRule& clusters,
                                    const std::string& matches_stage) {
   return {
       {.stage = "partition_view_graph",
        .inputs = {manifest,
                   features,
                   AllOutputs(matches_stage),
+                  clusters,
                   Output("partition_view_graph"),
                   Output("review_seams")},
        .option_sections = {"view_graph", "partition"}},
@@ -107,7 +109,8 @@ JobPlan SparsePlan() {
   return Joined(
       "sparse",
       ImageStages(),
-      ModelStages(Output("ingest_images"), AllOutputs("extract_features"), "match_images"));
+      ModelStages(
+          Output("ingest_images"), AllOutputs("extract_features"), JobInput(1), "match_images"));
 }
 
 JobPlan SparseFromMatchesPlan() {
@@ -115,8 +118,9 @@ JobPlan SparseFromMatchesPlan() {
                             .parts_listed_in = 2,
                             .inputs = {Recipe()},
                             .option_sections = {"two_view"}};
-  return Joined(
-      "sparse_from_matches", {verify}, ModelStages(JobInput(0), JobInput(1), "verify_matches"));
+  return Joined("sparse_from_matches",
+                {verify},
+                ModelStages(JobInput(0), JobInput(1), JobInput(3), "verify_matches"));
 }
 
 }  // namespace

@@ -166,6 +166,25 @@ absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
   return sources;
 }
 
+std::string EncodeClusterNames(const ClusterNames& clusters) {
+  v1::ClusterNames proto;
+  for (const auto& [image, cluster] : clusters) {
+    proto.add_images(image);
+    proto.add_clusters(cluster);
+  }
+  return proto.SerializeAsString();
+}
+
+absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterNames proto,
+                            codec::Parse<v1::ClusterNames>(bytes, "cluster names"));
+  if (proto.images_size() != proto.clusters_size())
+    return absl::InvalidArgumentError("cluster names: one cluster per image");
+  ClusterNames clusters;
+  for (int i = 0; i < proto.images_size(); ++i) clusters[proto.images(i)] = proto.clusters(i);
+  return clusters;
+}
+
 std::string EncodeImageManifest(const ImageManifest& manifest) {
   v1::ImageManifest proto;
   for (const ImageRecord& image : manifest.images) ToProto(image, proto.add_images());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/status.h"
+#include "core/io/cluster_table.h"
 #include "core/io/image_sources.h"
 #include "core/scene/image_manifest.h"
 
@@ -14,6 +15,10 @@ namespace orbweave {
 /// Paths are not written: a decoded source knows its mask by file name alone.
 [[nodiscard]] std::string EncodeImageSources(const ImageSources& sources);
 [[nodiscard]] absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes);
+
+[[nodiscard]] std::string EncodeClusterNames(const ClusterNames& clusters);
+/// InvalidArgument unless there is one cluster per image.
+[[nodiscard]] absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes);
 
 [[nodiscard]] std::string EncodeImageManifest(const ImageManifest& manifest);
 [[nodiscard]] absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes);

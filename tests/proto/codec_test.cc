@@ -230,6 +230,12 @@ TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
   EXPECT_EQ(EncodeImageSources(*out), bytes);
 }
 
+TEST(ClusterNamesCodec, RoundTrips) {
+  const ClusterNames clusters = {{"a/1.jpg", "north"}, {"b.jpg", "south"}};
+  EXPECT_EQ(DecodeClusterNames(EncodeClusterNames(clusters)).value(), clusters);
+  EXPECT_TRUE(DecodeClusterNames("")->empty());
+}
+
 TEST(ManifestCodec, RoundTrips) {
   ImageManifest in{
       .excluded = {{"c.jpg", "not 2:1"}}, .warnings = {"row 3"}, .mask_ignores_white = false};

@@ -175,6 +175,32 @@ size_t NumLent(const Partition& partition, uint32_t a, uint32_t b) {
   return 0;
 }
 
+TEST(PartitionByHand, TakesTheClustersGivenAndGrowsTheirOverlap) {
+  ViewGraph street = Street(60, 4);
+  street.num_images = 61;
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < 61; ++i) names.emplace_back(i < 20 ? "zebra" : i < 50 ? "ant" : "owl");
+  const PartitionOptions options{.overlap = 6};
+  const auto partition = PartitionByHand(street, names, options);
+  ASSERT_TRUE(partition.ok()) << partition.status();
+  ASSERT_EQ(partition->clusters.size(), 3U);
+  ExpectLawful(street, *partition, options);
+  EXPECT_EQ(partition->clusters[0].interior.size(), 20U) << "in order of images, not of names";
+  EXPECT_EQ(partition->clusters[1].interior.size(), 30U);
+  EXPECT_EQ(partition->clusters[2].interior.size(), 10U) << "image 60 has no edge";
+  EXPECT_EQ(NumLent(*partition, 0, 1), 6U);
+}
+
+TEST(PartitionByHand, AcceptsAClusterOfUnconnectedPieces) {
+  std::vector<std::string> names(30, "a");
+  for (uint32_t i = 10; i < 20; ++i) names[i] = "b";
+  const auto partition = PartitionByHand(Street(30, 3), names, {.overlap = 4});
+  ASSERT_TRUE(partition.ok()) << partition.status();
+  ASSERT_EQ(partition->clusters.size(), 2U);
+  EXPECT_EQ(partition->clusters[0].interior.size(), 20U);
+  EXPECT_EQ(NumLent(*partition, 0, 1), 4U);
+}
+
 TEST(WidenOverlaps, GrowsTheSeamsThatAskAndNoOtherCluster) {
   const ViewGraph grid = Grid(20);
   const PartitionOptions options{.cluster_size = 50, .overlap = 6};

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Seams that the usual overlap does not hold together, clusters by hand, images placed by GNSS.
+
+#include <gmock/gmock.h>
+
+#include "tests/jobs/corridor_job.h"
+
+namespace orbweave::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string MakeStreet(const TemporaryFolder& folder, const std::vector<std::string>& more) {
+  std::vector<std::string> command = {
+      ORBWEAVE_BINARY, "synth", "corridor", "--output", folder / "street"};
+  command.insert(command.end(), more.begin(), more.end());
+  const CommandOutcome made = RunCommand(command);
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  return folder / "street";
+}
+
+/// Four clusters, the middle two of which meet in a tunnel that shows little.
+std::string MakeWeakStreet(const TemporaryFolder& folder) {
+  return MakeStreet(folder,
+                    {"--panoramas",
+                     "80",
+                     "--features-per-panorama",
+                     "300",
+                     "--tunnel-panoramas",
+                     "16",
+                     "--tunnel-features",
+                     "50",
+                     "--seed",
+                     "3"});
+}
+
+const std::vector<std::string> kSmallOverlap = {
+    "--set", "partition.min_clusters=4", "--set", "partition.overlap=3"};
+
+CommandOutcome Reconstruct(const std::string& street,
+                           const std::string& output,
+                           const std::vector<std::string>& more) {
+  std::vector<std::string> command = {ORBWEAVE_BINARY,
+                                      "reconstruct",
+                                      "--database",
+                                      street + "/corridor.db",
+                                      "--gnss",
+                                      street + "/gnss.csv",
+                                      "--output",
+                                      output};
+  command.insert(command.end(), more.begin(), more.end());
+  return RunCommand(command);
+}
+
+/// Tasks of a stage in report.json.
+int TasksOf(const nlohmann::json& report, const std::string& stage, const char* key) {
+  for (const auto& row : report["stages"]) {
+    if (row["name"] == stage) return row[key];
+  }
+  return -1;
+}
+
+TEST(WeakSeam, AReviewMendsWhatTheUsualOverlapLeavesInTwoModels) {
+  const TemporaryFolder folder;
+  const std::string street = MakeWeakStreet(folder);
+  std::vector<std::string> without = kSmallOverlap;
+  without.insert(without.end(), {"--set", "partition.reviews=0"});
+  ASSERT_EQ(Reconstruct(street, folder / "left", without).exit_code, 0);
+  EXPECT_EQ(ReportOf(folder / "left")["models"], 2);
+
+  ASSERT_EQ(Reconstruct(street, folder / "mended", kSmallOverlap).exit_code, 0);
+  const nlohmann::json mended = ReportOf(folder / "mended");
+  EXPECT_EQ(mended["models"], 1) << mended["seams"].dump(1);
+  EXPECT_EQ(mended["registered"], 80);
+  EXPECT_THAT(mended["warnings"].dump(), HasSubstr("clusters 1 and 2 were reconstructed again"));
+  for (const auto& seam : mended["seams"]) EXPECT_EQ(seam["verdict"], "good") << seam.dump();
+  const int reused = TasksOf(mended, "reconstruct_cluster", "tasks_reused");
+  EXPECT_GE(reused, 2) << "clusters 0 and 3 got no more images";
+  EXPECT_EQ(TasksOf(mended, "reconstruct_cluster", "tasks_computed"), 4 + reused)
+      << "two clusters of four in each round";
+}
+
+TEST(WeakSeam, AReviewLeavesTheSameBytesForAnyNumberOfWorkersAndARestartComputesNothing) {
+  const TemporaryFolder folder;
+  const std::string street = MakeWeakStreet(folder);
+  for (const char* workers : {"1", "3", "3"}) {
+    std::vector<std::string> options = kSmallOverlap;
+    options.insert(options.end(), {"--workers", workers});
+    const CommandOutcome run = Reconstruct(street, folder / workers, options);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  ExpectSameModel(folder / "1", folder / "3");
+  EXPECT_EQ(TasksOf(ReportOf(folder / "3"), "reconstruct_cluster", "tasks_computed"), 0);
+}
+
+TEST(LooseImages, ArePlacedByGnssWhereATunnelShowsNothing) {
+  const TemporaryFolder folder;
+  const std::string street = MakeStreet(
+      folder, {"--panoramas", "60", "--tunnel-panoramas", "10", "--tunnel-features", "30"});
+  ASSERT_EQ(Reconstruct(street, folder / "out", {}).exit_code, 0);
+  ASSERT_EQ(
+      Reconstruct(street, folder / "without", {"--set", "global.attach_loose=false"}).exit_code, 0);
+  const nlohmann::json report = ReportOf(folder / "out");
+  const int registered = report["registered"];
+  EXPECT_LT(registered, 60);
+  EXPECT_EQ(report["not_registered"].size(), static_cast<size_t>(60 - registered));
+  EXPECT_THAT(report["warnings"].dump(), HasSubstr("placed loosely"));
+  EXPECT_THAT(ReadAll(folder / "out/cameras.csv"), HasSubstr(",loose"));
+  EXPECT_EQ(ReadAll(folder / "without/cameras.csv").find(",loose"), std::string::npos);
+  EXPECT_EQ(ReportOf(folder / "without")["registered"], registered);
+}
+
+std::string ClustersByHand(uint32_t num_images) {
+  std::string csv = "name,cluster\n";
+  for (uint32_t i = 0; i < num_images; ++i) {
+    const std::string number = std::to_string(i);
+    csv += "pano_" + std::string(6 - number.size(), '0') + number + ".jpg," +
+           (i < 25 ? "east\n" : "west\n");
+  }
+  return csv;
+}
+
+TEST(ClustersByHand, AreTakenInsteadOfAutomaticOnes) {
+  const TemporaryFolder folder;
+  WriteAll(folder / "clusters.csv", ClustersByHand(60));
+  const CommandOutcome run =
+      Reconstruct(CorridorFolder(), folder / "out", {"--clusters", folder / "clusters.csv"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json report = ReportOf(folder / "out");
+  EXPECT_EQ(report["registered"], 60);
+  ASSERT_EQ(report["clusters"].size(), 2U);
+  EXPECT_EQ(report["clusters"][0]["interior"], 25);
+  EXPECT_EQ(report["clusters"][1]["interior"], 35);
+}
+
+TEST(ClustersByHand, ThatForgetAnImageAreRefusedByName) {
+  const TemporaryFolder folder;
+  WriteAll(folder / "clusters.csv", ClustersByHand(59));
+  const CommandOutcome run =
+      Reconstruct(CorridorFolder(), folder / "out", {"--clusters", folder / "clusters.csv"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("pano_000059.jpg"));
+}
+
+}  // namespace
+}  // namespace orbweave::testing
