@@ -45,7 +45,7 @@ absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
   double cpu_start_s = 0.0;
   const auto prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
     absl::StatusOr<JobSpec> spec = PrepareDatabaseJob(
-        coordinator, corridor + "/corridor.db", corridor + "/gnss.csv", options, context);
+        coordinator, corridor + "/corridor.db", corridor + "/gnss.csv", "", options, context);
     RestartPeakMemory();
     cpu_start_s = ProcessCpuSeconds();
     return spec;

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/jobs/corridor_job.h"
 
 namespace orbweave::testing {
@@ -21,7 +23,8 @@ std::string MakeStreet(const TemporaryFolder& folder, const std::vector<std::str
   return folder / "street";
 }
 
-/// Four clusters, the middle two of which meet in a tunnel that shows little.
+/// Four clusters. A tunnel that shows little splits the second, whose remainder beyond the tunnel
+/// has too little in common with the third.
 std::string MakeWeakStreet(const TemporaryFolder& folder) {
   return MakeStreet(folder,
                     {"--panoramas",
@@ -29,15 +32,15 @@ std::string MakeWeakStreet(const TemporaryFolder& folder) {
                      "--features-per-panorama",
                      "300",
                      "--tunnel-panoramas",
-                     "16",
+                     "24",
                      "--tunnel-features",
-                     "50",
+                     "40",
                      "--seed",
                      "3"});
 }
 
 const std::vector<std::string> kSmallOverlap = {
-    "--set", "partition.min_clusters=4", "--set", "partition.overlap=3"};
+    "--set", "partition.min_clusters=4", "--set", "partition.overlap=2"};
 
 CommandOutcome Reconstruct(const std::string& street,
                            const std::string& output,
@@ -62,24 +65,31 @@ int TasksOf(const nlohmann::json& report, const std::string& stage, const char* 
   return -1;
 }
 
-TEST(WeakSeam, AReviewMendsWhatTheUsualOverlapLeavesInTwoModels) {
+/// Whether some submodels of clusters 1 and 2 hold together.
+bool MiddleIsJoined(const nlohmann::json& report) {
+  return std::ranges::any_of(report["seams"], [](const nlohmann::json& seam) {
+    return seam["clusters"] == nlohmann::json{1, 2} && seam["used"] == true &&
+           seam["verdict"] == "good";
+  });
+}
+
+TEST(WeakSeam, AReviewJoinsWhatTheUsualOverlapLeavesApart) {
   const TemporaryFolder folder;
   const std::string street = MakeWeakStreet(folder);
   std::vector<std::string> without = kSmallOverlap;
   without.insert(without.end(), {"--set", "partition.reviews=0"});
   ASSERT_EQ(Reconstruct(street, folder / "left", without).exit_code, 0);
-  EXPECT_EQ(ReportOf(folder / "left")["models"], 2);
+  const nlohmann::json left = ReportOf(folder / "left");
+  EXPECT_FALSE(MiddleIsJoined(left)) << left["seams"].dump(1);
 
   ASSERT_EQ(Reconstruct(street, folder / "mended", kSmallOverlap).exit_code, 0);
   const nlohmann::json mended = ReportOf(folder / "mended");
-  EXPECT_EQ(mended["models"], 1) << mended["seams"].dump(1);
+  EXPECT_TRUE(MiddleIsJoined(mended)) << mended["seams"].dump(1);
+  EXPECT_LT(mended["models"], left["models"]);
   EXPECT_EQ(mended["registered"], 80);
   EXPECT_THAT(mended["warnings"].dump(), HasSubstr("clusters 1 and 2 were reconstructed again"));
-  for (const auto& seam : mended["seams"]) EXPECT_EQ(seam["verdict"], "good") << seam.dump();
   const int reused = TasksOf(mended, "reconstruct_cluster", "tasks_reused");
   EXPECT_GE(reused, 2) << "clusters 0 and 3 got no more images";
-  EXPECT_EQ(TasksOf(mended, "reconstruct_cluster", "tasks_computed"), 4 + reused)
-      << "two clusters of four in each round";
 }
 
 TEST(WeakSeam, AReviewLeavesTheSameBytesForAnyNumberOfWorkersAndARestartComputesNothing) {
