@@ -53,16 +53,31 @@ bool JobMachine::MayTake(const TaskRecord& task,
   return !failed_on(worker) || std::all_of(alive.begin(), alive.end(), failed_on);
 }
 
+const std::string& JobMachine::HolderBefore(const StageRun& run, uint32_t part) const {
+  static const std::string* const kNobody = new std::string;
+  if (!run.before) return *kNobody;
+  const std::vector<TaskRecord>& tasks = runs_[*run.before].tasks;
+  return part < tasks.size() ? tasks[part].holder.worker : *kNobody;
+}
+
 std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
                                              const std::vector<std::string>& alive,
                                              double now_s) const {
   if (state_ != JobState::kRunning || runs_.empty()) return std::nullopt;
   const StageRun& run = runs_.back();
+  const auto number = static_cast<uint32_t>(runs_.size() - 1);
+  std::optional<uint32_t> nobodys;
+  std::optional<uint32_t> somebodys;
   for (const uint32_t part : run.ready) {
     if (!MayTake(run.tasks[part], worker, alive, now_s)) continue;
-    return TaskRef{static_cast<uint32_t>(runs_.size() - 1), part};
+    const std::string& before = HolderBefore(run, part);
+    if (!run.before || before == worker) return TaskRef{number, part};
+    const bool is_free = std::ranges::find(alive, before) == alive.end();
+    if (!is_free) somebodys = part;
+    if (is_free && !nobodys) nobodys = part;
   }
-  return std::nullopt;
+  if (!nobodys && !somebodys) return std::nullopt;
+  return TaskRef{number, nobodys ? *nobodys : *somebodys};
 }
 
 bool JobMachine::WasDoneBy(const Digest& task, uint64_t epoch) const {
@@ -76,8 +91,11 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
   const std::optional<uint32_t> stage = StageToPlan();
   ORBWEAVE_CHECK(stage.has_value() && tasks.size() == found.size());
   const auto number = static_cast<uint32_t>(runs_.size());
-  StageRun& run = runs_.emplace_back();
-  run.stage = *stage;
+  const auto before = std::find_if(
+      runs_.rbegin(), runs_.rend(), [&](const StageRun& earlier) { return earlier.stage == *stage; });
+  StageRun fresh{.stage = *stage};
+  if (before != runs_.rend()) fresh.before = static_cast<uint32_t>(runs_.rend() - before - 1);
+  StageRun& run = runs_.emplace_back(std::move(fresh));
   if (results_.size() <= *stage) results_.resize(*stage + 1);
   std::vector<TaskResult>& results = results_[*stage];
   results.assign(tasks.size(), {});

@@ -55,8 +55,10 @@ class JobMachine {
 
   /// The stage whose tasks are to be written down now: all that come before it are done.
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
-  /// The first task that `worker` may do now. A task that failed here waits for another worker
-  /// while one that has not failed it is in `alive`.
+  /// The task that `worker` had better do now: of a loop's stage the first part that it had the
+  /// last time, which it may still know, else one that nobody in `alive` had, else the last part of
+  /// somebody else; of other stages the first part. A task that failed here waits for another
+  /// worker while one that has not failed it is in `alive`.
   [[nodiscard]] std::optional<TaskRef> NextReady(const std::string& worker,
                                                  const std::vector<std::string>& alive,
                                                  double now_s) const;
@@ -98,7 +100,8 @@ class JobMachine {
     TaskCost cost{};
   };
   struct StageRun {
-    uint32_t stage = 0;  ///< of the plan
+    uint32_t stage = 0;                ///< of the plan
+    std::optional<uint32_t> before{};  ///< the run of the same stage before this one
     std::vector<TaskRecord> tasks{};
     std::set<uint32_t> ready{};
     std::set<uint32_t> running{};
@@ -114,6 +117,8 @@ class JobMachine {
   [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
   /// The stage that comes after the last run; the number of stages: none.
   [[nodiscard]] uint32_t NextStage() const;
+  /// Who did this part when the stage last ran; empty: nobody.
+  [[nodiscard]] const std::string& HolderBefore(const StageRun& run, uint32_t part) const;
   [[nodiscard]] bool MayTake(const TaskRecord& task,
                              const std::string& worker,
                              const std::vector<std::string>& alive,

@@ -104,6 +104,23 @@ absl::StatusOr<AdvancedAdjustment> NextRound(AdjustmentProgress progress,
   return AdvanceAdjustment(std::move(progress), std::move(results), options.global, options.bundle);
 }
 
+/// The block of a task, from its blobs.
+absl::StatusOr<BlockWorker> MakeWorker(const TaskSpec& spec,
+                                       const BlockTask& task,
+                                       BlobAccess& blobs,
+                                       const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(WorldBlock block, FetchBlob(task.block, blobs, DecodeWorldBlock));
+  std::optional<EvaluatedState> state;
+  if (!task.state.IsZero()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(state, FetchBlob(task.state, blobs, DecodeBlockState));
+  }
+  return BlockWorker(std::move(block),
+                     std::move(state),
+                     BlockOptionsOf(options.global, options.bundle),
+                     context.num_threads);
+}
+
 }  // namespace
 
 absl::StatusOr<TaskResult> RunJoinSubmodels(const TaskSpec& spec,
@@ -191,19 +208,16 @@ absl::StatusOr<TaskResult> RunSteerAdjustment(const TaskSpec& spec,
 
 absl::StatusOr<TaskResult> RunAdjustBlock(const TaskSpec& spec,
                                           BlobAccess& blobs,
-                                          const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
+                                          const StageContext& context,
+                                          KeptBlocks& kept) {
   ORBWEAVE_ASSIGN_OR_RETURN(const BlockTask task, FetchInput(spec, 0, blobs, DecodeBlockTask));
-  ORBWEAVE_ASSIGN_OR_RETURN(WorldBlock block, FetchBlob(task.block, blobs, DecodeWorldBlock));
-  std::optional<EvaluatedState> state;
-  if (!task.state.IsZero()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(state, FetchBlob(task.state, blobs, DecodeBlockState));
+  std::optional<KeptBlocks::Ready> ready = kept.Take(task, spec.options_text);
+  if (!ready) {
+    ORBWEAVE_ASSIGN_OR_RETURN(BlockWorker worker, MakeWorker(spec, task, blobs, context));
+    ready = KeptBlocks::Ready{std::move(worker), task.order};
   }
-  BlockWorker worker(std::move(block),
-                     std::move(state),
-                     BlockOptionsOf(options.global, options.bundle),
-                     context.num_threads);
-  BlockResult done{.answer = worker.Execute(task.order)};
+  BlockWorker& worker = ready->worker;
+  BlockResult done{.answer = worker.Execute(ready->order)};
   using Work = BlockOrder::Work;
   TaskResult bulk;
   if (task.order.work == Work::kFilter) {
@@ -219,6 +233,7 @@ absl::StatusOr<TaskResult> RunAdjustBlock(const TaskSpec& spec,
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockResult(done), blobs, result));
   result.outputs.insert(result.outputs.end(), bulk.outputs.begin(), bulk.outputs.end());
   result.report_json = "{}";
+  kept.Keep(task, done, spec.options_text, std::move(worker));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/stage_context.h"
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/task.h"
+#include "worker/kept_blocks.h"
 
 /// The global adjustment in blocks. Inputs as in core/pipeline/job_plan.cc.
 
@@ -26,10 +27,11 @@ absl::StatusOr<TaskResult> RunSteerAdjustment(const TaskSpec& spec,
                                               BlobAccess& blobs,
                                               const StageContext& context);
 
-/// Leaves the answer, then what blobs it names.
+/// Leaves the answer, then what blobs it names. The block stays in `kept`.
 absl::StatusOr<TaskResult> RunAdjustBlock(const TaskSpec& spec,
                                           BlobAccess& blobs,
-                                          const StageContext& context);
+                                          const StageContext& context,
+                                          KeptBlocks& kept);
 
 /// Leaves the model but for its tracks.
 absl::StatusOr<TaskResult> RunConcludeAdjustment(const TaskSpec& spec,

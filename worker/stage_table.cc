@@ -11,6 +11,20 @@
 
 namespace orbweave {
 
+namespace {
+
+/// Memory of a process for blocks between two half-steps: 1 GiB.
+constexpr size_t kKeptObservations = (size_t{1} << 30) / KeptBlocks::kBytesPerObservation;
+
+absl::StatusOr<TaskResult> AdjustBlockOfThisProcess(const TaskSpec& spec,
+                                                    BlobAccess& blobs,
+                                                    const StageContext& context) {
+  static auto* const kKept = new KeptBlocks(kKeptObservations);
+  return RunAdjustBlock(spec, blobs, context, *kKept);
+}
+
+}  // namespace
+
 const StageFunction* FindStage(std::string_view stage) {
   static const auto* const kTable = new std::map<std::string, StageFunction, std::less<>>{
       {"ingest_images", RunIngestImages},
@@ -25,7 +39,7 @@ const StageFunction* FindStage(std::string_view stage) {
       {"join_submodels", RunJoinSubmodels},
       {"assemble_block", RunAssembleBlock},
       {"steer_adjustment", RunSteerAdjustment},
-      {"adjust_block", RunAdjustBlock},
+      {"adjust_block", AdjustBlockOfThisProcess},
       {"conclude_adjustment", RunConcludeAdjustment},
   };
   const auto found = kTable->find(stage);

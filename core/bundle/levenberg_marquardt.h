@@ -10,6 +10,8 @@ namespace orbweave {
 struct StepControl {
   double lambda = 1e-6;  ///< damping over the mean diagonal entry of each 3x3 block
   bool is_bent = false;  ///< RobustLoss::Bent
+
+  friend bool operator==(const StepControl&, const StepControl&) = default;
 };
 
 /// Where a Levenberg-Marquardt path stands: a plain value, to be kept between two steps. Damping

@@ -20,6 +20,8 @@ struct BlockTrial {
 struct ShortenedPoint {
   uint32_t point = 0;  ///< in the whole problem
   double share = 0.0;
+
+  friend bool operator==(const ShortenedPoint&, const ShortenedPoint&) = default;
 };
 
 /// The half-steps of one block. Every block moves its own copies of separators, from equal values

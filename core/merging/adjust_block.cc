@@ -67,7 +67,7 @@ BlockAnswer BlockWorker::Execute(const BlockOrder& order) {
       answer.system = *system_;
       break;
     case BlockOrder::Work::kTry: {
-      if (!system_) Linearise(order);
+      if (!system_ || control_ != order.control) Linearise(order);
       BlockTrial trial = solver_->BackSubstitute(state_, order.step);
       trial_ = std::move(trial.state);
       answer.trial = std::move(trial.cost);
@@ -123,6 +123,7 @@ void BlockWorker::Begin(const BlockOrder& order, BlockAnswer& answer) {
 void BlockWorker::Linearise(const BlockOrder& order) {
   if (!solver_) solver_ = std::make_unique<BlockSolver>(*terms_, BundleFor(order), num_threads_);
   system_ = solver_->Linearize(state_, order.control);
+  control_ = order.control;
 }
 
 void BlockWorker::Filter(const BundleState& state, BlockAnswer& answer) {

@@ -82,6 +82,9 @@ class BlockWorker {
                                      const std::vector<Eigen::Vector3d>& biases_m);
 
   [[nodiscard]] const WorldBlock& block() const { return block_; }
+  [[nodiscard]] size_t num_observations() const {
+    return terms_ ? terms_->problem.observations.size() : 0;
+  }
   [[nodiscard]] WorldBlock TakeBlock() { return std::move(block_); }
   /// After kBegin, kLinearise: the state. After kTry: the state it led to.
   [[nodiscard]] const EvaluatedState& state() const { return is_trial_ ? trial_ : state_; }
@@ -102,7 +105,8 @@ class BlockWorker {
   bool is_trial_ = false;
   std::unique_ptr<AdjustmentBlock> terms_;
   std::unique_ptr<BlockSolver> solver_;
-  std::optional<SeparatorSystem> system_;  // of the last linearisation at state_
+  std::optional<SeparatorSystem> system_;  // of the last linearisation at state_ ...
+  StepControl control_{};                  // ... with this
 };
 
 }  // namespace orbweave

@@ -54,7 +54,7 @@ struct GlobalAdjustOptions {
 
 /// Where the global adjustment is computed; results do not depend on it.
 struct BlocksOptions {
-  int distribute_from = 4000;
+  int distribute_from = 1000;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -134,6 +134,40 @@ TEST(JobMachine, RepeatsALoopWhoseEndHasOnePartAsLongAsThatLeavesARecipe) {
   EXPECT_EQ(machine.Status(102.0).stages[0].tasks_total, 3U);
 }
 
+/// A loop's stage `work` of four parts of which w1 did the first two the last time, w2 the others.
+JobMachine SecondRound() {
+  JobPlan plan = LinePlan({"work", "review", "end"});
+  plan.stages[1].back_to = "work";
+  JobMachine machine({.kind = "line"}, plan, {.first_wait_s = 1.0}, 100.0);
+  Begin(machine, "work", 4);
+  for (const char* worker : {"w1", "w1", "w2", "w2"})
+    machine.TaskDone(LeaseNext(machine, worker, 100.0), {}, 101.0);
+  Begin(machine, "review", 1);
+  machine.TaskDone(LeaseNext(machine, "w1", 101.0), {.recipes = {DigestOf("more")}}, 102.0);
+  Begin(machine, "work", 4);
+  return machine;
+}
+
+TEST(JobMachine, GivesTheNextRoundOfAPartToWhomHadTheLast) {
+  JobMachine machine = SecondRound();
+  const auto next = [&machine](const std::string& worker, const std::vector<std::string>& alive) {
+    const TaskRef ref = *machine.NextReady(worker, alive, 102.0);
+    machine.TaskLeased(ref, {.epoch = 9, .worker = worker}, 102.0);
+    return ref.part;
+  };
+  EXPECT_EQ(next("w2", {"w1", "w2"}), 2U);
+  EXPECT_EQ(next("w1", {"w1", "w2"}), 0U);
+  EXPECT_EQ(next("w2", {"w1", "w2"}), 3U);
+  EXPECT_EQ(next("w2", {"w1", "w2"}), 1U) << "rather another's than none";
+}
+
+TEST(JobMachine, GivesPartsOfWorkersThatAreGoneBeforeThoseOfOthers) {
+  const JobMachine machine = SecondRound();
+  EXPECT_EQ(machine.NextReady("w3", {"w1", "w3"}, 102.0)->part, 2U);
+  EXPECT_EQ(machine.NextReady("w3", {"w1", "w2", "w3"}, 102.0)->part, 3U);
+  EXPECT_EQ(machine.NextReady("w3", {"w3"}, 102.0)->part, 0U);
+}
+
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {
   JobMachine machine = MachineFor({"a"});
   const TaskResult found{.cost = {.cpu_s = 7.0}};
