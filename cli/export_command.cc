@@ -28,8 +28,12 @@ absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& 
                             coordinator.GetOutcomes(job.id));
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
                             FetchManifest(coordinator, job.spec, outcomes));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto features,
-                            FetchFeatures(coordinator, job.spec, outcomes, true));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> names,
+                            FetchFeatureNames(coordinator, job.spec, outcomes));
+  std::vector<Features> features;
+  for (const Digest& name : names) {
+    ORBWEAVE_ASSIGN_OR_RETURN(features.emplace_back(), FetchFeatures(coordinator, name));
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(const auto pairs, FetchVerifiedPairs(coordinator, outcomes));
   ORBWEAVE_RETURN_IF_ERROR(
       WriteColmapDatabase(arguments.database, manifest, features, pairs, arguments.camera));

@@ -60,14 +60,6 @@ absl::StatusOr<std::vector<Digest>> ExtractedBlobs(CoordinatorApi& coordinator,
   return DecodeCollection(bytes);
 }
 
-/// The report counts a cluster's tracks; what they see is in the model.
-ClusterResult WithoutObservations(ClusterResult cluster) {
-  for (Reconstruction& component : cluster.reconstruction.components) {
-    for (Track& track : component.tracks) track.observations = {};
-  }
-  return cluster;
-}
-
 std::vector<std::string> ImageProblems(const std::vector<TaskOutcome>& outcomes) {
   std::vector<std::string> problems;
   for (const TaskOutcome& outcome : outcomes) {
@@ -76,6 +68,42 @@ std::vector<std::string> ImageProblems(const std::vector<TaskOutcome>& outcomes)
     problems.push_back(report.is_object() ? report.value("problem", "") : "");
   }
   return problems;
+}
+
+absl::StatusOr<std::vector<ClusterSummary>> FetchClusters(
+    CoordinatorApi& coordinator, const std::vector<TaskOutcome>& outcomes) {
+  std::vector<ClusterSummary> clusters;
+  for (const Digest& digest : FirstOutputsOf(outcomes, "reconstruct_cluster")) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
+    ORBWEAVE_ASSIGN_OR_RETURN(const ClusterResult cluster, DecodeClusterResult(bytes));
+    clusters.push_back(SummariseCluster(cluster));
+  }
+  return clusters;
+}
+
+/// Measures a model, and shows it to `listener`, one block after the other.
+absl::StatusOr<AdjustedModel> FetchModel(CoordinatorApi& coordinator,
+                                         const ConcludedWorld& world,
+                                         const std::vector<Digest>& blocks,
+                                         const ImageManifest& manifest,
+                                         ModelListener* listener) {
+  AdjustedModel model{.images = ModelImages(world), .report = world.report};
+  ReconstructionMeter meter(model.images, manifest);
+  const auto visit = [&](const Track& track) {
+    meter.Add(track);
+    if (listener != nullptr) listener->TakePoint(track);
+  };
+  if (listener != nullptr) listener->BeginModel(model.images, manifest);
+  TracksOfWorld tracks(world.model_from_world);
+  for (const Digest& digest : blocks) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
+    ORBWEAVE_ASSIGN_OR_RETURN(WorldBlock block, DecodeWorldBlock(bytes));
+    tracks.Add(std::move(block), visit);
+  }
+  tracks.Finish(visit);
+  if (listener != nullptr) ORBWEAVE_RETURN_IF_ERROR(listener->EndModel());
+  model.measures = std::move(meter).Finish();
+  return model;
 }
 
 }  // namespace
@@ -91,18 +119,15 @@ absl::StatusOr<ImageManifest> FetchManifest(CoordinatorApi& coordinator,
 
 absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
                                         const JobSpec& job,
-                                        const std::vector<TaskOutcome>& outcomes) {
+                                        const std::vector<TaskOutcome>& outcomes,
+                                        ModelListener* listener) {
   JobResults results;
   ORBWEAVE_ASSIGN_OR_RETURN(results.manifest, FetchManifest(coordinator, job, outcomes));
   results.image_problems = ImageProblems(outcomes);
   ORBWEAVE_ASSIGN_OR_RETURN(
       results.view_graph,
       FetchOne(coordinator, outcomes, "partition_view_graph", DecodeDividedViewGraph));
-  for (const Digest& digest : FirstOutputsOf(outcomes, "reconstruct_cluster")) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
-    ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult cluster, DecodeClusterResult(bytes));
-    results.clusters.push_back(WithoutObservations(std::move(cluster)));
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(results.clusters, FetchClusters(coordinator, outcomes));
   ORBWEAVE_ASSIGN_OR_RETURN(results.alignment,
                             FetchOne(coordinator, outcomes, "align_submodels", DecodeAlignment));
   ORBWEAVE_ASSIGN_OR_RETURN(results.review,
@@ -111,33 +136,29 @@ absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
       const ConcludedModel model,
       FetchOne(coordinator, outcomes, "conclude_adjustment", DecodeConcludedModel));
   for (size_t world = 0; world < model.worlds.size(); ++world) {
-    std::vector<WorldBlock> blocks;
-    for (const Digest& digest : model.blocks[world]) {
-      ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
-      ORBWEAVE_ASSIGN_OR_RETURN(blocks.emplace_back(), DecodeWorldBlock(bytes));
-    }
-    results.worlds.push_back(
-        {GatherWorld(model.worlds[world], std::move(blocks)), model.worlds[world].report});
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        results.models.emplace_back(),
+        FetchModel(
+            coordinator, model.worlds[world], model.blocks[world], results.manifest, listener));
     const std::vector<SeamCertificate>& seams = model.worlds[world].seams;
     results.certificates.insert(results.certificates.end(), seams.begin(), seams.end());
   }
   return results;
 }
 
-absl::StatusOr<std::vector<Features>> FetchFeatures(CoordinatorApi& coordinator,
-                                                    const JobSpec& job,
-                                                    const std::vector<TaskOutcome>& outcomes,
-                                                    bool keep_descriptors) {
+absl::StatusOr<std::vector<Digest>> FetchFeatureNames(CoordinatorApi& coordinator,
+                                                      const JobSpec& job,
+                                                      const std::vector<TaskOutcome>& outcomes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> blobs,
                             ExtractedBlobs(coordinator, job, outcomes));
-  std::vector<Features> features;
-  for (size_t i = 0; i < blobs.size(); i += 2) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(blobs[i]));
-    ORBWEAVE_ASSIGN_OR_RETURN(Features decoded, DecodeFeatures(bytes));
-    if (!keep_descriptors) decoded.descriptors = {};
-    features.push_back(std::move(decoded));
-  }
-  return features;
+  std::vector<Digest> names;
+  for (size_t i = 0; i < blobs.size(); i += 2) names.push_back(blobs[i]);
+  return names;
+}
+
+absl::StatusOr<Features> FetchFeatures(CoordinatorApi& coordinator, const Digest& name) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(name));
+  return DecodeFeatures(bytes);
 }
 
 absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(

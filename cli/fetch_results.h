@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "core/pipeline/coordinator_api.h"
@@ -11,17 +12,29 @@
 
 namespace orbweave {
 
-/// The results of a finished job, fetched and decoded.
+/// Is shown the points of a job's models while they pass by; nobody holds all of them.
+class ModelListener {
+ public:
+  virtual ~ModelListener() = default;
+  /// The next model. Both arguments stay where they are until EndModel returns.
+  virtual void BeginModel(const std::map<ImageId, RegisteredImage>& images,
+                          const ImageManifest& manifest) = 0;
+  virtual void TakePoint(const Track& track) = 0;
+  [[nodiscard]] virtual absl::Status EndModel() = 0;
+};
+
+/// The results of a finished job, fetched and decoded; models go by `listener`, which may be null.
 [[nodiscard]] absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
                                                       const JobSpec& job,
-                                                      const std::vector<TaskOutcome>& outcomes);
+                                                      const std::vector<TaskOutcome>& outcomes,
+                                                      ModelListener* listener);
 
-/// The features of every image, in id order; `keep_descriptors` false leaves them empty.
-[[nodiscard]] absl::StatusOr<std::vector<Features>> FetchFeatures(
-    CoordinatorApi& coordinator,
-    const JobSpec& job,
-    const std::vector<TaskOutcome>& outcomes,
-    bool keep_descriptors);
+/// The names of every image's features, in id order.
+[[nodiscard]] absl::StatusOr<std::vector<Digest>> FetchFeatureNames(
+    CoordinatorApi& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes);
+
+[[nodiscard]] absl::StatusOr<Features> FetchFeatures(CoordinatorApi& coordinator,
+                                                     const Digest& name);
 
 /// All verified pairs, sorted.
 [[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(

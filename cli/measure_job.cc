@@ -25,7 +25,7 @@ absl::StatusOr<JobMeasurement> Recorded(CoordinatorApi& coordinator, const JobSt
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
                             coordinator.GetOutcomes(job.id));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobResults results,
-                            FetchResults(coordinator, job.spec, outcomes));
+                            FetchResults(coordinator, job.spec, outcomes, nullptr));
   const JobReport report = BuildJobReport(results);
   JobMeasurement measurement{.label = job.spec.label,
                              .panoramas = report.images_total,

@@ -35,7 +35,7 @@ std::string TruthCsv(const Corridor& corridor) {
   for (const ImageRecord& image : corridor.manifest.images) {
     truth.images[image.id].cam_from_world = corridor.cams_from_world[image.id.value];
   }
-  return CamerasCsv(truth, corridor.manifest, false);
+  return CamerasCsv(truth.images, corridor.manifest, false);
 }
 
 std::vector<TwoViewGeometry> VerifiedPairs(Corridor& corridor) {

@@ -3,17 +3,18 @@
 #include "cli/write_outputs.h"
 
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "cli/fetch_results.h"
+#include "cli/write_models.h"
 #include "core/io/cameras_csv.h"
-#include "core/io/colmap_model.h"
 #include "core/io/file.h"
 #include "core/io/georeference_json.h"
 #include "core/io/report_html.h"
 #include "core/io/report_json.h"
 #include "core/io/trace_json.h"
 #include "core/io/trajectory_geojson.h"
-#include "core/io/write_ply.h"
 #include "core/pipeline/build_version.h"
 
 namespace orbweave {
@@ -37,39 +38,12 @@ void FillRun(const JobStatus& status, JobReport& report) {
   }
 }
 
-absl::StatusOr<std::vector<std::vector<Keypoint>>> FetchKeypoints(
-    CoordinatorApi& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Features> features,
-                            FetchFeatures(coordinator, job, outcomes, false));
-  std::vector<std::vector<Keypoint>> keypoints;
-  for (Features& image : features) keypoints.push_back(std::move(image.keypoints));
-  return keypoints;
-}
-
-/// sparse/0 ..., and no leftovers of an earlier run that had more models.
-absl::Status WriteModels(const JobResults& results,
-                         const std::vector<std::vector<Keypoint>>& keypoints,
-                         const std::filesystem::path& folder) {
-  for (size_t model = 0; model < results.worlds.size(); ++model) {
-    ORBWEAVE_RETURN_IF_ERROR(WriteColmapModel(
-        ToColmapModel(results.worlds[model].reconstruction, results.manifest, keypoints),
-        (folder / "sparse" / std::to_string(model)).string()));
-  }
-  for (size_t stale = results.worlds.size();; ++stale) {
-    std::error_code error;
-    if (std::filesystem::remove_all(folder / "sparse" / std::to_string(stale), error) == 0 || error)
-      break;
-  }
-  return absl::OkStatus();
-}
-
 absl::Status WriteMainModelFiles(const JobResults& results,
                                  bool georeferenced,
                                  const std::filesystem::path& folder) {
-  const Reconstruction empty;
-  const Reconstruction& main =
-      results.worlds.empty() ? empty : results.worlds.front().reconstruction;
-  ORBWEAVE_RETURN_IF_ERROR(WritePly(main, (folder / "points.ply").string()));
+  const std::map<ImageId, RegisteredImage> none;
+  const std::map<ImageId, RegisteredImage>& main =
+      results.models.empty() ? none : results.models.front().images;
   ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / "cameras.csv").string(),
                                                CamerasCsv(main, results.manifest, georeferenced)));
   ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / "georeference.json").string(),
@@ -108,15 +82,16 @@ absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
                                        const std::string& folder) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
                             coordinator.GetOutcomes(status.id));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Digest> feature_names,
+                            FetchFeatureNames(coordinator, status.spec, outcomes));
+  const std::filesystem::path path(folder);
+  ModelWriter models(coordinator, std::move(feature_names), path);
   ORBWEAVE_ASSIGN_OR_RETURN(const JobResults results,
-                            FetchResults(coordinator, status.spec, outcomes));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto keypoints,
-                            FetchKeypoints(coordinator, status.spec, outcomes));
+                            FetchResults(coordinator, status.spec, outcomes, &models));
+  ORBWEAVE_RETURN_IF_ERROR(models.Finish());
   JobReport report = BuildJobReport(results);
   FillRun(status, report);
 
-  const std::filesystem::path path(folder);
-  ORBWEAVE_RETURN_IF_ERROR(WriteModels(results, keypoints, path));
   ORBWEAVE_RETURN_IF_ERROR(WriteMainModelFiles(results, report.origin.has_value(), path));
   ORBWEAVE_RETURN_IF_ERROR(WriteTrace(coordinator, status.id, path));
   ORBWEAVE_RETURN_IF_ERROR(

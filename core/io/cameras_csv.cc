@@ -49,7 +49,7 @@ void AppendUncertainty(std::string& line, const std::optional<PoseUncertainty>& 
 
 }  // namespace
 
-std::string CamerasCsv(const Reconstruction& reconstruction,
+std::string CamerasCsv(const std::map<ImageId, RegisteredImage>& images,
                        const ImageManifest& manifest,
                        bool georeferenced) {
   std::string csv =
@@ -57,8 +57,8 @@ std::string CamerasCsv(const Reconstruction& reconstruction,
       "sigma_x,sigma_y,sigma_z,sigma_rotation_deg\n";
   for (const ImageRecord& record : manifest.images) {
     csv += CsvField(record.name);
-    const auto image = reconstruction.images.find(record.id);
-    if (image == reconstruction.images.end()) {
+    const auto image = images.find(record.id);
+    if (image == images.end()) {
       csv += ",,,,,,,,,,,not_registered,,,,\n";
       continue;
     }

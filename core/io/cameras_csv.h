@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "core/scene/image_manifest.h"
@@ -17,7 +18,7 @@ namespace orbweave {
 /// when `georeferenced` and the manifest has an origin. The sigmas are one standard deviation of
 /// x,y,z and the rms angle of the rotation's error (PoseUncertainty), empty where unknown. Names
 /// with comma, quote or line break are quoted as RFC 4180 says.
-[[nodiscard]] std::string CamerasCsv(const Reconstruction& reconstruction,
+[[nodiscard]] std::string CamerasCsv(const std::map<ImageId, RegisteredImage>& images,
                                      const ImageManifest& manifest,
                                      bool georeferenced);
 

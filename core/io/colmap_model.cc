@@ -3,127 +3,134 @@
 
 #include "core/io/colmap_model.h"
 
-#include <algorithm>
-#include <map>
-#include <numbers>
+#include <cmath>
+#include <set>
 
+#include "absl/strings/str_cat.h"
 #include "core/base/status.h"
-#include "core/geometry/rotation.h"
+#include "core/io/byte_stream.h"
+#include "core/io/file.h"
 
 namespace orbweave {
 namespace {
 
-uint32_t ColmapId(ImageId id) { return id.value + 1; }
+constexpr int kMaxSidePx = 1 << 20;
 
-/// Adds one camera per image size in order of first use; returns the camera id of each image.
-std::map<ImageId, uint32_t> AddCameras(const Reconstruction& reconstruction,
-                                       const ImageManifest& manifest,
-                                       ColmapModel& model) {
-  std::map<ImageId, uint32_t> camera_ids;
-  for (const auto& [id, image] : reconstruction.images) {
-    const EquirectangularCamera& camera = manifest.At(id).camera;
-    const auto known = std::find_if(model.cameras.begin(),
-                                    model.cameras.end(),
-                                    [&](const ColmapCamera& c) { return c.camera == camera; });
-    if (known == model.cameras.end()) {
-      model.cameras.push_back({static_cast<uint32_t>(model.cameras.size()) + 1, camera});
-      camera_ids[id] = model.cameras.back().camera_id;
-    } else {
-      camera_ids[id] = known->camera_id;
-    }
-  }
-  return camera_ids;
+absl::Status Damaged(const std::string& path, const ByteReader& in) {
+  return absl::InvalidArgumentError(
+      absl::StrCat(path, ": no COLMAP model file, or damaged, at byte ", in.Position()));
 }
 
-/// One observation on its way into an image's list.
-struct Sighting {
-  FeatureIndex feature = 0;
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  size_t track = 0;
-};
-
-std::map<ImageId, std::vector<Sighting>> SightingsByImage(const Reconstruction& reconstruction,
-                                                          const ImageManifest& manifest) {
-  std::map<ImageId, std::vector<Sighting>> sightings;
-  for (size_t t = 0; t < reconstruction.tracks.size(); ++t) {
-    for (const Observation& observation : reconstruction.tracks[t].observations) {
-      const ImageId id = observation.ref.image;
-      const Eigen::Vector2d pixel = manifest.At(id).camera.PixelFromBearing(observation.bearing);
-      sightings[id].push_back({observation.ref.feature, pixel, t});
+absl::Status ReadCameras(const std::string& path, ColmapModel& model) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  ByteReader in(bytes);
+  for (size_t left = in.TakeCount(40); left > 0 && in.ok(); --left) {
+    ColmapCamera& camera = model.cameras.emplace_back();
+    camera.camera_id = in.Take<uint32_t>();
+    const int32_t kind = in.Take<int32_t>();
+    const uint64_t width_px = in.Take<uint64_t>();
+    const uint64_t height_px = in.Take<uint64_t>();
+    if (in.ok() && kind != kColmapEquirectangularId && kind != kColmapSphereId) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(path,
+                       ": camera ",
+                       camera.camera_id,
+                       " has model ",
+                       kind,
+                       "; only EQUIRECTANGULAR (17) and SPHERE (11) are spherical"));
     }
+    for (int i = 0; i < (kind == kColmapSphereId ? 3 : 2); ++i) in.Take<double>();
+    if (!in.ok() || width_px > kMaxSidePx || height_px > kMaxSidePx) return Damaged(path, in);
+    camera.camera = {static_cast<int>(width_px), static_cast<int>(height_px)};
   }
-  for (auto& [id, list] : sightings) {
-    std::sort(list.begin(), list.end(), [](const Sighting& a, const Sighting& b) {
-      return std::pair(a.feature, a.track) < std::pair(b.feature, b.track);
-    });
-  }
-  return sightings;
+  return in.ok() && in.AtEnd() ? absl::OkStatus() : Damaged(path, in);
 }
 
-/// Lists the image's points2d and enters them into the tracks.
-void AddPoints2d(const std::vector<Sighting>& sightings,
-                 const std::vector<Keypoint>* keypoints,
-                 ColmapImage& image,
-                 ColmapModel& model) {
-  if (keypoints != nullptr) {
-    for (const Keypoint& keypoint : *keypoints)
-      image.points2d.push_back({{keypoint.x_px, keypoint.y_px}, kNoColmapPoint});
-  }
-  for (const Sighting& sighting : sightings) {
-    uint32_t index = sighting.feature;
-    if (keypoints == nullptr) {
-      index = static_cast<uint32_t>(image.points2d.size());
-      image.points2d.push_back({sighting.pixel, kNoColmapPoint});
-    }
-    ORBWEAVE_CHECK(index < image.points2d.size());
-    image.points2d[index].point3d_id = model.points[sighting.track].point3d_id;
-    model.points[sighting.track].track.emplace_back(image.image_id, index);
-  }
+Rigid3 TakePose(ByteReader& in) {
+  double v[7];
+  for (double& value : v) value = in.Take<double>();
+  return {Eigen::Quaterniond(v[0], v[1], v[2], v[3]), {v[4], v[5], v[6]}};
 }
 
-/// Mean angle between bearings and point, in pixels at the equator.
-double MeanErrorPx(const Track& track,
-                   const Reconstruction& reconstruction,
-                   const ImageManifest& manifest) {
-  double sum = 0.0;
-  for (const Observation& observation : track.observations) {
-    const RegisteredImage& image = reconstruction.images.at(observation.ref.image);
-    const Eigen::Vector3d ray_in_cam = image.cam_from_world * track.point_in_world;
-    sum += AngleBetween(observation.bearing, ray_in_cam) *
-           manifest.At(observation.ref.image).camera.width_px / (2.0 * std::numbers::pi);
+absl::Status ReadImages(const std::string& path, ColmapModel& model) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  ByteReader in(bytes);
+  for (size_t left = in.TakeCount(73); left > 0 && in.ok(); --left) {
+    ColmapImage& image = model.images.emplace_back();
+    image.image_id = in.Take<uint32_t>();
+    image.cam_from_world = TakePose(in);
+    image.camera_id = in.Take<uint32_t>();
+    image.name = in.TakeText();
+    image.points2d.resize(in.TakeCount(24));
+    for (ColmapPoint2d& point : image.points2d) {
+      point.pixel.x() = in.Take<double>();
+      point.pixel.y() = in.Take<double>();
+      point.point3d_id = in.Take<uint64_t>();
+    }
+    const double norm = image.cam_from_world.rotation.norm();
+    if (!in.ok() || !(std::abs(norm - 1.0) < 1e-3)) return Damaged(path, in);
+    image.cam_from_world.rotation.coeffs() /= norm;
   }
-  return track.observations.empty() ? 0.0 : sum / static_cast<double>(track.observations.size());
+  return in.ok() && in.AtEnd() ? absl::OkStatus() : Damaged(path, in);
+}
+
+absl::Status ReadPoints(const std::string& path, ColmapModel& model) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  ByteReader in(bytes);
+  for (size_t left = in.TakeCount(51); left > 0 && in.ok(); --left) {
+    ColmapPoint3d& point = model.points.emplace_back();
+    point.point3d_id = in.Take<uint64_t>();
+    for (int axis = 0; axis < 3; ++axis) point.point_in_world[axis] = in.Take<double>();
+    point.color.r = in.Take<uint8_t>();
+    point.color.g = in.Take<uint8_t>();
+    point.color.b = in.Take<uint8_t>();
+    point.error_px = in.Take<double>();
+    point.track.resize(in.TakeCount(8));
+    for (auto& [image_id, index] : point.track) {
+      image_id = in.Take<uint32_t>();
+      index = in.Take<uint32_t>();
+    }
+  }
+  return in.ok() && in.AtEnd() ? absl::OkStatus() : Damaged(path, in);
+}
+
+/// Every name used is defined.
+absl::Status CheckReferences(const std::string& folder, const ColmapModel& model) {
+  std::set<uint32_t> cameras;
+  for (const ColmapCamera& camera : model.cameras) cameras.insert(camera.camera_id);
+  std::set<uint64_t> points;
+  for (const ColmapPoint3d& point : model.points) points.insert(point.point3d_id);
+  for (const ColmapImage& image : model.images) {
+    if (!cameras.contains(image.camera_id)) {
+      return absl::InvalidArgumentError(absl::StrCat(folder,
+                                                     ": image ",
+                                                     image.name,
+                                                     " has camera ",
+                                                     image.camera_id,
+                                                     ", which is not in cameras.bin"));
+    }
+    for (const ColmapPoint2d& point : image.points2d) {
+      if (point.point3d_id != kNoColmapPoint && !points.contains(point.point3d_id)) {
+        return absl::InvalidArgumentError(absl::StrCat(folder,
+                                                       ": image ",
+                                                       image.name,
+                                                       " sees point ",
+                                                       point.point3d_id,
+                                                       ", which is not in points3D.bin"));
+      }
+    }
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace
 
-ColmapModel ToColmapModel(const Reconstruction& reconstruction,
-                          const ImageManifest& manifest,
-                          const std::vector<std::vector<Keypoint>>& pixels_by_image) {
+absl::StatusOr<ColmapModel> ReadColmapModel(const std::string& folder) {
   ColmapModel model;
-  const std::map<ImageId, uint32_t> camera_ids = AddCameras(reconstruction, manifest, model);
-  for (size_t t = 0; t < reconstruction.tracks.size(); ++t) {
-    const Track& track = reconstruction.tracks[t];
-    model.points.push_back({t + 1,
-                            track.point_in_world,
-                            track.color,
-                            MeanErrorPx(track, reconstruction, manifest),
-                            {}});
-  }
-  const std::map<ImageId, std::vector<Sighting>> sightings =
-      SightingsByImage(reconstruction, manifest);
-  for (const auto& [id, registered] : reconstruction.images) {
-    ColmapImage& image = model.images.emplace_back();
-    image.image_id = ColmapId(id);
-    image.camera_id = camera_ids.at(id);
-    image.name = manifest.At(id).name;
-    image.cam_from_world = registered.cam_from_world;
-    const std::vector<Keypoint>* keypoints =
-        pixels_by_image.empty() ? nullptr : &pixels_by_image[id.value];
-    const auto list = sightings.find(id);
-    AddPoints2d(
-        list == sightings.end() ? std::vector<Sighting>() : list->second, keypoints, image, model);
-  }
+  ORBWEAVE_RETURN_IF_ERROR(ReadCameras(folder + "/cameras.bin", model));
+  ORBWEAVE_RETURN_IF_ERROR(ReadImages(folder + "/images.bin", model));
+  ORBWEAVE_RETURN_IF_ERROR(ReadPoints(folder + "/points3D.bin", model));
+  ORBWEAVE_RETURN_IF_ERROR(CheckReferences(folder, model));
   return model;
 }
 

@@ -17,6 +17,8 @@
 namespace orbweave {
 
 constexpr uint64_t kNoColmapPoint = ~uint64_t{0};
+constexpr int32_t kColmapEquirectangularId = 17;  ///< COLMAP >= 4.1: width, height
+constexpr int32_t kColmapSphereId = 11;           ///< SphereSfM: f, cx, cy
 
 struct ColmapPoint2d {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -51,22 +53,9 @@ struct ColmapModel {
   std::vector<ColmapPoint3d> points{};
 };
 
-/// COLMAP's view of a reconstruction: one camera per image size (ids from 1, in order of first
-/// use), image_id = ImageId + 1, point id = index of the track + 1. `pixels_by_image`, when not
-/// empty, holds all keypoint positions of every image (by ImageId): points2d then have the
-/// features' indices. Without it only observed keypoints are listed, in feature order, at the pixel
-/// of their bearing.
-[[nodiscard]] ColmapModel ToColmapModel(
-    const Reconstruction& reconstruction,
-    const ImageManifest& manifest,
-    const std::vector<std::vector<Keypoint>>& pixels_by_image = {});
-
-/// Writes cameras.bin, images.bin and points3D.bin (EQUIRECTANGULAR, model id 17, parameters width
-/// and height) into `folder`, which is made when missing. Codes of WriteFileAtomically.
-[[nodiscard]] absl::Status WriteColmapModel(const ColmapModel& model, const std::string& folder);
-
-/// Reads such a folder; SPHERE (id 11) is accepted too. NotFound: a file is missing.
-/// InvalidArgument: another camera model, or bytes that are no model (names file and place).
+/// Reads a folder as ColmapModelWriter leaves it; SPHERE (id 11) is accepted too. NotFound: a file
+/// is missing. InvalidArgument: another camera model, or bytes that are no model (names file and
+/// place).
 [[nodiscard]] absl::StatusOr<ColmapModel> ReadColmapModel(const std::string& folder);
 
 }  // namespace orbweave

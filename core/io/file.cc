@@ -80,11 +80,16 @@ int WriteAll(int fd, std::string_view bytes) {
   return 0;
 }
 
+/// 0, or the errno; some file systems have no fsync.
+int FlushToDisk(int fd) {
+  return ::fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
+}
+
 int WriteAndFlush(const std::string& path, std::string_view bytes) {
   OpenFile file(path, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.ok()) return errno;
   if (const int error = WriteAll(file.fd(), bytes); error != 0) return error;
-  if (::fsync(file.fd()) != 0 && errno != EINVAL && errno != ENOTSUP) return errno;
+  if (const int error = FlushToDisk(file.fd()); error != 0) return error;
   return file.Close();
 }
 
@@ -111,13 +116,51 @@ absl::StatusOr<std::string> ReadFile(const std::string& path) {
   return bytes;
 }
 
+AtomicFile::AtomicFile(std::string path)
+    : path_(std::move(path)),
+      temporary_(absl::StrCat(path_, ".tmp", ::getpid())),
+      fd_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
+  if (fd_ < 0) error_ = errno;
+}
+
+AtomicFile::~AtomicFile() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::Append(std::string_view bytes) {
+  constexpr size_t kEnough = 1 << 20;
+  buffer_.append(bytes);
+  if (buffer_.size() >= kEnough) Flush();
+}
+
+void AtomicFile::Flush() {
+  if (error_ == 0) error_ = WriteAll(fd_, buffer_);
+  buffer_.clear();
+}
+
+absl::Status AtomicFile::Commit() {
+  Flush();
+  if (error_ == 0) error_ = FlushToDisk(fd_);
+  if (error_ == 0 && ::close(fd_) != 0) error_ = errno;
+  if (error_ == 0 && std::rename(temporary_.c_str(), path_.c_str()) != 0) error_ = errno;
+  if (error_ != 0) return StatusFromErrno(error_, "write", path_);
+  fd_ = -1;
+  return absl::OkStatus();
+}
+
+absl::Status AtomicFile::CommitWithHead(std::string_view head) {
+  Flush();
+  if (error_ == 0 && ::lseek(fd_, 0, SEEK_SET) != 0) error_ = errno;
+  if (error_ == 0) error_ = WriteAll(fd_, head);
+  return Commit();
+}
+
 absl::Status WriteFileAtomically(const std::string& path, std::string_view bytes) {
-  const std::string temporary = absl::StrCat(path, ".tmp", ::getpid());
-  int error = WriteAndFlush(temporary, bytes);
-  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) return absl::OkStatus();
-  ::unlink(temporary.c_str());
-  return StatusFromErrno(error, "write", path);
+  AtomicFile file(path);
+  file.Append(bytes);
+  return file.Commit();
 }
 
 absl::Status EnsureWritableFolder(const std::string& folder) {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "core/geometry/rotation.h"
 
@@ -17,41 +17,43 @@ constexpr size_t kLongestTrack = 20;
 
 }  // namespace
 
-ReconstructionMeasures MeasureReconstruction(const Reconstruction& reconstruction,
-                                             const ImageManifest& manifest) {
-  ReconstructionMeasures measures;
-  measures.points = reconstruction.tracks.size();
-  measures.residual_histogram.counts.assign(kResidualBins, 0);
-  measures.track_lengths.assign(kLongestTrack + 1, 0);
-  for (const auto& [id, image] : reconstruction.images) measures.images[id] = {};
-  double sum = 0.0;
-  double sum_of_squares = 0.0;
-  for (const Track& track : reconstruction.tracks) {
-    ++measures.track_lengths[std::min(track.observations.size(), kLongestTrack)];
-    for (const Observation& observation : track.observations) {
-      const ImageId id = observation.ref.image;
-      const Eigen::Vector3d ray_in_cam =
-          reconstruction.images.at(id).cam_from_world * track.point_in_world;
-      const double residual_px = AngleBetween(observation.bearing, ray_in_cam) *
-                                 manifest.At(id).camera.width_px / (2.0 * std::numbers::pi);
-      const double bin = std::floor(residual_px / measures.residual_histogram.bin_width);
-      ++measures.residual_histogram.counts[static_cast<size_t>(std::min(bin, kResidualBins - 1.0))];
-      sum += residual_px;
-      sum_of_squares += residual_px * residual_px;
-      ++measures.observations;
-      ImageMeasures& of_image = measures.images[id];
-      ++of_image.observations;
-      of_image.residual_px_mean += residual_px;
-    }
+ReconstructionMeter::ReconstructionMeter(const std::map<ImageId, RegisteredImage>& images,
+                                         const ImageManifest& manifest)
+    : images_(images), manifest_(manifest) {
+  measures_.residual_histogram.counts.assign(kResidualBins, 0);
+  measures_.track_lengths.assign(kLongestTrack + 1, 0);
+  for (const auto& [id, image] : images) measures_.images[id] = {};
+}
+
+void ReconstructionMeter::Add(const Track& track) {
+  Histogram& histogram = measures_.residual_histogram;
+  ++measures_.points;
+  ++measures_.track_lengths[std::min(track.observations.size(), kLongestTrack)];
+  for (const Observation& observation : track.observations) {
+    const ImageId id = observation.ref.image;
+    const Eigen::Vector3d ray_in_cam = images_.at(id).cam_from_world * track.point_in_world;
+    const double residual_px =
+        manifest_.At(id).camera.PixelsFromAngle(AngleBetween(observation.bearing, ray_in_cam));
+    const double bin = std::floor(residual_px / histogram.bin_width);
+    ++histogram.counts[static_cast<size_t>(std::min(bin, kResidualBins - 1.0))];
+    sum_px_ += residual_px;
+    sum_px2_ += residual_px * residual_px;
+    ++measures_.observations;
+    ImageMeasures& of_image = measures_.images[id];
+    ++of_image.observations;
+    of_image.residual_px_mean += residual_px;
   }
-  for (auto& [id, image] : measures.images)
+}
+
+ReconstructionMeasures ReconstructionMeter::Finish() && {
+  for (auto& [id, image] : measures_.images)
     image.residual_px_mean /= std::max(image.observations, 1U);
-  if (measures.observations == 0) return measures;
-  const double n = static_cast<double>(measures.observations);
-  measures.mean_track_length = n / static_cast<double>(measures.points);
-  measures.residual_px_mean = sum / n;
-  measures.residual_px_rms = std::sqrt(sum_of_squares / n);
-  return measures;
+  if (measures_.observations == 0) return std::move(measures_);
+  const double n = static_cast<double>(measures_.observations);
+  measures_.mean_track_length = n / static_cast<double>(measures_.points);
+  measures_.residual_px_mean = sum_px_ / n;
+  measures_.residual_px_rms = std::sqrt(sum_px2_ / n);
+  return std::move(measures_);
 }
 
 }  // namespace orbweave

@@ -31,8 +31,23 @@ struct ReconstructionMeasures {
   std::map<ImageId, ImageMeasures> images{};
 };
 
-/// Zeros for a reconstruction without observations.
-[[nodiscard]] ReconstructionMeasures MeasureReconstruction(const Reconstruction& reconstruction,
-                                                           const ImageManifest& manifest);
+/// Measures a model track by track. `images` are all of the model's; both arguments outlive the
+/// object.
+class ReconstructionMeter {
+ public:
+  ReconstructionMeter(const std::map<ImageId, RegisteredImage>& images,
+                      const ImageManifest& manifest);
+
+  void Add(const Track& track);
+  /// Zeros for a model without observations.
+  [[nodiscard]] ReconstructionMeasures Finish() &&;
+
+ private:
+  const std::map<ImageId, RegisteredImage>& images_;
+  const ImageManifest& manifest_;
+  double sum_px_ = 0.0;
+  double sum_px2_ = 0.0;
+  ReconstructionMeasures measures_{};
+};
 
 }  // namespace orbweave

@@ -41,13 +41,13 @@ Json PropertiesOf(const ImageRecord& record, const RegisteredImage& image) {
 
 }  // namespace
 
-absl::StatusOr<std::string> TrajectoryGeoJson(const Reconstruction& reconstruction,
+absl::StatusOr<std::string> TrajectoryGeoJson(const std::map<ImageId, RegisteredImage>& images,
                                               const ImageManifest& manifest) {
   if (!manifest.origin)
     return absl::FailedPreconditionError("the job has no latitude and longitude");
   std::map<uint32_t, Json> line_of_drive;
   Json points = Json::array();
-  for (const auto& [id, image] : reconstruction.images) {
+  for (const auto& [id, image] : images) {
     const ImageRecord& record = manifest.At(id);
     Json position = PositionOf(image.cam_from_world, *manifest.origin);
     line_of_drive[record.drive].push_back(position);

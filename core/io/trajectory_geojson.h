@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -13,7 +14,7 @@ namespace orbweave {
 /// RFC 7946 FeatureCollection in WGS84: one LineString per drive through its registered images in
 /// id order, then one Point per registered image with its name and sigmas. FailedPrecondition: the
 /// manifest has no origin.
-[[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(const Reconstruction& reconstruction,
-                                                            const ImageManifest& manifest);
+[[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(
+    const std::map<ImageId, RegisteredImage>& images, const ImageManifest& manifest);
 
 }  // namespace orbweave

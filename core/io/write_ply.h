@@ -2,18 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "absl/status/status.h"
+#include "core/io/file.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {
 
-/// The points of a reconstruction as binary little-endian PLY: float64 x y z, uint8 red green blue.
-/// Doubles, so that coordinates far from the origin keep their millimetres.
-[[nodiscard]] std::string PlyFromReconstruction(const Reconstruction& reconstruction);
+/// Points and colours as a binary PLY file (double positions), written one by one.
+class PlyWriter {
+ public:
+  explicit PlyWriter(std::string path);
 
-/// Codes of WriteFileAtomically.
-[[nodiscard]] absl::Status WritePly(const Reconstruction& reconstruction, const std::string& path);
+  void Add(const Track& track);
+  /// Codes of WriteFileAtomically.
+  [[nodiscard]] absl::Status Finish();
+
+ private:
+  AtomicFile file_;
+  uint64_t num_points_ = 0;
+};
 
 }  // namespace orbweave

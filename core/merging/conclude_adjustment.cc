@@ -67,16 +67,6 @@ std::vector<Eigen::Vector3d> BiasesOf(std::span<const BlockSummary> summaries, s
   return biases_m;
 }
 
-void AddTracks(WorldBlock block, std::map<uint32_t, Track>& split, Reconstruction& model) {
-  std::ranges::move(block.scene.tracks, std::back_inserter(model.tracks));
-  for (SplitTrack& track : block.split) {
-    Track& whole = split[track.id];
-    whole.point_in_world = track.part.point_in_world;
-    whole.color = track.part.color;
-    std::ranges::move(track.part.observations, std::back_inserter(whole.observations));
-  }
-}
-
 }  // namespace
 
 WorldInspection BeginInspection(std::span<const BlockSummary> summaries,
@@ -124,17 +114,39 @@ ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
   return world;
 }
 
-Reconstruction GatherWorld(const ConcludedWorld& world, std::vector<WorldBlock> blocks) {
-  Reconstruction model{.images = world.images};
-  std::map<uint32_t, Track> split;
-  for (WorldBlock& block : blocks) AddTracks(std::move(block), split, model);
-  for (auto& [id, track] : split) {
+std::map<ImageId, RegisteredImage> ModelImages(const ConcludedWorld& world) {
+  return Transformed(world.model_from_world, Reconstruction{.images = world.images}).images;
+}
+
+void TracksOfWorld::Add(WorldBlock block, const Visit& visit) {
+  for (Track& track : block.scene.tracks) {
+    track.point_in_world = model_from_world_ * track.point_in_world;
+    visit(track);
+  }
+  for (SplitTrack& track : block.split) {
+    Track& whole = split_[track.id];
+    whole.point_in_world = model_from_world_ * track.part.point_in_world;
+    whole.color = track.part.color;
+    std::ranges::move(track.part.observations, std::back_inserter(whole.observations));
+  }
+}
+
+void TracksOfWorld::Finish(const Visit& visit) {
+  for (auto& [id, track] : split_) {
     if (track.observations.size() < 2) continue;
     std::ranges::sort(track.observations, {}, &Observation::ref);
-    model.tracks.push_back(std::move(track));
+    visit(track);
   }
+}
+
+Reconstruction GatherWorld(const ConcludedWorld& world, std::vector<WorldBlock> blocks) {
+  Reconstruction model{.images = ModelImages(world)};
+  const auto take = [&model](const Track& track) { model.tracks.push_back(track); };
+  TracksOfWorld tracks(world.model_from_world);
+  for (WorldBlock& block : blocks) tracks.Add(std::move(block), take);
+  tracks.Finish(take);
   model.SortTracks();
-  return Transformed(world.model_from_world, std::move(model));
+  return model;
 }
 
 }  // namespace orbweave

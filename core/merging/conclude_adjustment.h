@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -49,7 +50,28 @@ struct WorldInspection {
                                                 const ImageManifest& manifest,
                                                 const GlobalAdjustOptions& options);
 
-/// The model: the images with the tracks of all blocks, split ones made whole, in its frame.
+/// The images of the model, in its frame.
+[[nodiscard]] std::map<ImageId, RegisteredImage> ModelImages(const ConcludedWorld& world);
+
+/// The tracks of the model, in its frame, one after the other: block by block those that a block
+/// has for itself, then, by id, those that were split, made whole. Holds no more than one block and
+/// the split tracks.
+class TracksOfWorld {
+ public:
+  using Visit = std::function<void(const Track& track)>;
+
+  explicit TracksOfWorld(const Sim3& model_from_world) : model_from_world_(model_from_world) {}
+
+  void Add(WorldBlock block, const Visit& visit);
+  /// After all blocks.
+  void Finish(const Visit& visit);
+
+ private:
+  Sim3 model_from_world_;
+  std::map<uint32_t, Track> split_;
+};
+
+/// Both together.
 [[nodiscard]] Reconstruction GatherWorld(const ConcludedWorld& world,
                                          std::vector<WorldBlock> blocks);
 

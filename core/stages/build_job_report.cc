@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <set>
 
-#include "core/io/measure_reconstruction.h"
 #include "core/stages/list_missing_images.h"
 #include "core/stages/summarise_uncertainty.h"
 
@@ -31,25 +30,22 @@ std::vector<ReportImage> StartRows(const JobResults& results) {
   return rows;
 }
 
-void FillWorld(const JobResults& results,
-               uint32_t model,
-               const ReconstructionMeasures& measures,
-               JobReport& report) {
-  const GloballyAdjusted& world = results.worlds[model];
-  const std::set<std::string> outliers(world.report.gnss.outliers.begin(),
-                                       world.report.gnss.outliers.end());
-  for (const auto& [id, image] : world.reconstruction.images) {
+void FillModel(const JobResults& results, uint32_t number, JobReport& report) {
+  const AdjustedModel& model = results.models[number];
+  const std::set<std::string> outliers(model.report.gnss.outliers.begin(),
+                                       model.report.gnss.outliers.end());
+  for (const auto& [id, image] : model.images) {
     ReportImage& row = report.images[id.value];
     if (image.loose && row.registered) continue;  // seen by a model before
     const ImageRecord& record = results.manifest.At(id);
     row.registered = true;
     row.loose = image.loose;
-    row.model = model;
+    row.model = number;
     row.uncertainty = image.uncertainty;
     row.centre_in_world = image.cam_from_world.Centre();
-    if (world.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
+    if (model.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
     row.gnss_outlier = outliers.contains(record.name);
-    if (const auto found = measures.images.find(id); found != measures.images.end()) {
+    if (const auto found = model.measures.images.find(id); found != model.measures.images.end()) {
       row.observations = found->second.observations;
       row.residual_px_mean = found->second.residual_px_mean;
     }
@@ -83,10 +79,8 @@ void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
 
 void WarnOfContradictedPairs(const JobResults& results, JobReport& report) {
   std::set<ImagePair> pairs;
-  for (const ClusterResult& cluster : results.clusters) {
-    pairs.insert(cluster.reconstruction.contradicted_pairs.begin(),
-                 cluster.reconstruction.contradicted_pairs.end());
-  }
+  for (const ClusterSummary& cluster : results.clusters)
+    pairs.insert(cluster.contradicted_pairs.begin(), cluster.contradicted_pairs.end());
   if (pairs.empty()) return;
   report.warnings.push_back(std::to_string(pairs.size()) +
                             " verified pairs contradict the model, first " +
@@ -98,8 +92,8 @@ void WarnOfContradictedPairs(const JobResults& results, JobReport& report) {
 /// Residuals that repeat in every panorama bend a model without showing in its uncertainty.
 void WarnOfPatterns(const JobResults& results, JobReport& report) {
   constexpr double kNoticeable_px = 0.1;
-  for (size_t world = 0; world < results.worlds.size(); ++world) {
-    const double pattern_px = results.worlds[world].report.pattern_px;
+  for (size_t model = 0; model < results.models.size(); ++model) {
+    const double pattern_px = results.models[model].report.pattern_px;
     if (pattern_px < kNoticeable_px) continue;
     char text[256];
     std::snprintf(
@@ -108,7 +102,7 @@ void WarnOfPatterns(const JobResults& results, JobReport& report) {
         "model %zu: residuals of up to %.2f px repeat at the same place of every panorama: "
         "stitched lenses that do not share a centre, or another projection; the model may "
         "be bent or stretched by more than its sigmas say",
-        world,
+        model,
         pattern_px);
     report.warnings.emplace_back(text);
   }
@@ -130,13 +124,13 @@ std::vector<ReportCluster> ClusterRows(const JobResults& results) {
     rows[c].interior =
         static_cast<uint32_t>(results.view_graph.partition.clusters[c].interior.size());
   }
-  for (const ClusterResult& cluster : results.clusters) {
+  for (const ClusterSummary& cluster : results.clusters) {
     ReportCluster& row = rows[cluster.cluster];
-    row.components = static_cast<uint32_t>(cluster.reconstruction.components.size());
-    row.residual_px_rms = cluster.reconstruction.residual_rms_px;
-    for (const Reconstruction& component : cluster.reconstruction.components) {
-      row.registered += static_cast<uint32_t>(component.images.size());
-      row.points += component.tracks.size();
+    row.components = static_cast<uint32_t>(cluster.components.size());
+    row.residual_px_rms = cluster.residual_rms_px;
+    for (const ClusterSummary::Component& component : cluster.components) {
+      row.registered += component.images;
+      row.points += component.points;
     }
   }
   return rows;
@@ -158,9 +152,9 @@ SeamFit FitAfter(const JobResults& results, const ReportSeam& seam) {
 /// Seams speak of submodels; the report names their clusters.
 std::vector<ReportSeam> SeamRows(const JobResults& results) {
   std::vector<uint32_t> cluster_of_submodel;
-  for (const ClusterResult& cluster : results.clusters) {
+  for (const ClusterSummary& cluster : results.clusters) {
     cluster_of_submodel.insert(
-        cluster_of_submodel.end(), cluster.reconstruction.components.size(), cluster.cluster);
+        cluster_of_submodel.end(), cluster.components.size(), cluster.cluster);
   }
   std::vector<ReportSeam> rows;
   for (const SeamReport& seam : results.alignment.seams) {
@@ -191,17 +185,28 @@ ReportGnss GnssRow(const GnssReport& gnss) {
 
 }  // namespace
 
+ClusterSummary SummariseCluster(const ClusterResult& result) {
+  const ClusterReconstruction& cluster = result.reconstruction;
+  ClusterSummary summary{.cluster = result.cluster,
+                         .not_registered = cluster.not_registered,
+                         .contradicted_pairs = cluster.contradicted_pairs,
+                         .residual_rms_px = cluster.residual_rms_px};
+  for (const Reconstruction& component : cluster.components) {
+    summary.components.push_back(
+        {static_cast<uint32_t>(component.images.size()), component.tracks.size()});
+  }
+  return summary;
+}
+
 JobReport BuildJobReport(const JobResults& results) {
   JobReport report;
   report.images = StartRows(results);
   report.images_total =
       static_cast<uint32_t>(results.manifest.images.size() + results.manifest.excluded.size());
-  report.models = static_cast<uint32_t>(results.worlds.size());
+  report.models = static_cast<uint32_t>(results.models.size());
   for (uint32_t model = 0; model < report.models; ++model) {
-    const Reconstruction& reconstruction = results.worlds[model].reconstruction;
-    const ReconstructionMeasures measures = MeasureReconstruction(reconstruction, results.manifest);
-    AddMeasures(measures, report);
-    FillWorld(results, model, measures, report);
+    AddMeasures(results.models[model].measures, report);
+    FillModel(results, model, report);
   }
   if (report.points > 0) {
     report.mean_track_length =
@@ -216,9 +221,10 @@ JobReport BuildJobReport(const JobResults& results) {
   WarnOfPatterns(results, report);
   WarnOfContradictedPairs(results, report);
   TellReviews(results.review, report);
-  if (!results.worlds.empty()) {
-    report.gnss = GnssRow(results.worlds.front().report.gnss);
-    report.uncertainty = SummariseUncertainty(results.worlds.front());
+  if (!results.models.empty()) {
+    const AdjustedModel& main = results.models.front();
+    report.gnss = GnssRow(main.report.gnss);
+    report.uncertainty = SummariseUncertainty(main.report.uncertainty, main.images);
     if (report.gnss.used) report.origin = results.manifest.origin;
   }
   return report;

@@ -2,33 +2,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "core/io/job_report.h"
-#include "core/merging/adjust_globally.h"
+#include "core/io/measure_reconstruction.h"
 #include "core/merging/align_submodels.h"
+#include "core/merging/certify_seams.h"
+#include "core/merging/global_options.h"
 #include "core/merging/review_seams.h"
 #include "core/scene/image_manifest.h"
 #include "core/stages/stage_results.h"
 
 namespace orbweave {
 
-/// The results of a finished job, decoded.
+/// A cluster's reconstruction without its points.
+struct ClusterSummary {
+  struct Component {
+    uint32_t images = 0;
+    uint64_t points = 0;
+  };
+  uint32_t cluster = 0;
+  std::vector<Component> components{};
+  std::vector<NotRegistered> not_registered{};
+  std::vector<ImagePair> contradicted_pairs{};
+  double residual_rms_px = 0.0;
+};
+
+[[nodiscard]] ClusterSummary SummariseCluster(const ClusterResult& cluster);
+
+/// A model without its points.
+struct AdjustedModel {
+  std::map<ImageId, RegisteredImage> images{};
+  GlobalAdjustReport report{};
+  ReconstructionMeasures measures{};
+};
+
+/// The results of a finished job, decoded: what grows with images, but not what grows with points.
 struct JobResults {
   ImageManifest manifest{};
   std::vector<std::string>
       image_problems{};  ///< per image: why it has no features, mostly empty; or empty list
   DividedViewGraph view_graph{};
-  std::vector<ClusterResult> clusters{};
+  std::vector<ClusterSummary> clusters{};
   Alignment alignment{};
   PartitionReview review{};
-  std::vector<GloballyAdjusted> worlds{};       ///< most images first
-  std::vector<SeamCertificate> certificates{};  ///< of all worlds
+  std::vector<AdjustedModel> models{};          ///< most images first
+  std::vector<SeamCertificate> certificates{};  ///< of all models
 };
 
-/// The part of the report that follows from results alone: counts, residuals (recomputed from the
-/// model), clusters, seams, GNSS, one row per image, and a reason for every image that is not
+/// The part of the report that follows from results alone: counts, residuals (recomputed from
+/// the models), clusters, seams, GNSS, one row per image, and a reason for every image that is not
 /// registered. Stages, workers, times and options are the caller's.
 [[nodiscard]] JobReport BuildJobReport(const JobResults& results);
 

@@ -8,19 +8,19 @@
 namespace orbweave {
 namespace {
 
-/// Why each image that no world observes is missing, by what is known latest in the line.
+/// Why each image that no model observes is missing, by what is known latest in the line.
 std::vector<std::string> ReasonsOfImages(const JobResults& results) {
   std::vector<std::string> reasons(results.manifest.images.size(),
                                    "no verified matches with any other image");
-  for (const ClusterResult& cluster : results.clusters) {
-    for (const NotRegistered& image : cluster.reconstruction.not_registered) {
+  for (const ClusterSummary& cluster : results.clusters) {
+    for (const NotRegistered& image : cluster.not_registered) {
       reasons[image.image.value] = image.reason;
     }
   }
-  for (const GloballyAdjusted& world : results.worlds) {
-    const std::set<std::string> unobserved(world.report.unobserved_images.begin(),
-                                           world.report.unobserved_images.end());
-    for (const auto& [id, image] : world.reconstruction.images) {
+  for (const AdjustedModel& model : results.models) {
+    const std::set<std::string> unobserved(model.report.unobserved_images.begin(),
+                                           model.report.unobserved_images.end());
+    for (const auto& [id, image] : model.images) {
       if (unobserved.contains(results.manifest.At(id).name))
         reasons[id.value] = "it has no observations of its own left";
     }

@@ -15,8 +15,8 @@ constexpr size_t kMaxWorst = 10;
 
 }  // namespace
 
-ReportUncertainty SummariseUncertainty(const GloballyAdjusted& world) {
-  const UncertaintyReport& report = world.report.uncertainty;
+ReportUncertainty SummariseUncertainty(const UncertaintyReport& report,
+                                       const std::map<ImageId, RegisteredImage>& images) {
   ReportUncertainty result{.known = report.known,
                            .reason = report.reason,
                            .held_image = report.held_image,
@@ -27,7 +27,7 @@ ReportUncertainty SummariseUncertainty(const GloballyAdjusted& world) {
   std::vector<double> positions;
   std::vector<double> rotations_deg;
   std::vector<std::pair<double, uint32_t>> by_sigma;
-  for (const auto& [id, image] : world.reconstruction.images) {
+  for (const auto& [id, image] : images) {
     if (!image.uncertainty) continue;
     positions.push_back(image.uncertainty->PositionSigma());
     rotations_deg.push_back(image.uncertainty->RotationSigma_deg());

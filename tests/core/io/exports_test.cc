@@ -29,13 +29,18 @@ SmallScene GeoreferencedScene() {
   return scene;
 }
 
-TEST(WritePly, HoldsEveryPointAndColour) {
+TEST(PlyWriter, HoldsEveryPointAndColour) {
+  const TemporaryFolder folder;
   const SmallScene scene = MakeSmallScene(6, 50);
-  const std::string ply = PlyFromReconstruction(scene.reconstruction);
+  PlyWriter writer(folder / "points.ply");
+  for (const Track& track : scene.reconstruction.tracks) writer.Add(track);
+  ASSERT_TRUE(writer.Finish().ok());
+  const std::string ply = ReadFile(folder / "points.ply").value();
   const size_t body = ply.find("end_header\n") + 11;
-  EXPECT_THAT(ply,
-              StartsWith("ply\nformat binary_little_endian 1.0\nelement vertex " +
-                         std::to_string(scene.reconstruction.tracks.size()) + "\n"));
+  EXPECT_THAT(
+      ply,
+      HasSubstr("\nelement vertex " + std::to_string(scene.reconstruction.tracks.size()) + "\n"));
+  EXPECT_THAT(ply, StartsWith("ply\nformat binary_little_endian 1.0\n"));
   ASSERT_EQ(ply.size() - body, scene.reconstruction.tracks.size() * 27);
   ByteReader in(std::string_view(ply).substr(body));
   for (const Track& track : scene.reconstruction.tracks) {
@@ -52,7 +57,7 @@ TEST(CamerasCsv, GivesPosesBack) {
   scene.reconstruction.images[ImageId(3)].loose = true;
   scene.reconstruction.images[ImageId(4)].uncertainty = {
       Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
-  const std::string csv = CamerasCsv(scene.reconstruction, scene.manifest, true);
+  const std::string csv = CamerasCsv(scene.reconstruction.images, scene.manifest, true);
   const std::vector<std::string_view> lines = SplitLines(csv);
   ASSERT_EQ(lines.size(), 13U);
   for (uint32_t i = 0; i < 12; ++i) {
@@ -73,8 +78,9 @@ TEST(CamerasCsv, GivesPosesBack) {
     EXPECT_LT((EnuFromGeodetic({v[7], v[8], v[9]}, *scene.manifest.origin) - pose.Centre()).norm(),
               1e-3);
   }
-  EXPECT_THAT(std::string(SplitLines(CamerasCsv(scene.reconstruction, scene.manifest, false))[1]),
-              HasSubstr(",,,,registered,,,,"));
+  EXPECT_THAT(
+      std::string(SplitLines(CamerasCsv(scene.reconstruction.images, scene.manifest, false))[1]),
+      HasSubstr(",,,,registered,,,,"));
 }
 
 TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
@@ -82,7 +88,7 @@ TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
   scene.reconstruction.images[ImageId(0)].uncertainty = {
       Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
   const auto json =
-      nlohmann::json::parse(TrajectoryGeoJson(scene.reconstruction, scene.manifest).value());
+      nlohmann::json::parse(TrajectoryGeoJson(scene.reconstruction.images, scene.manifest).value());
   EXPECT_EQ(json["type"], "FeatureCollection");
   ASSERT_EQ(json["features"].size(), 2 + scene.reconstruction.images.size());
   EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
@@ -96,7 +102,7 @@ TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
       EnuFromGeodetic({position[1], position[0], position[2]}, *scene.manifest.origin);
   EXPECT_LT((enu - scene.reconstruction.images.at(ImageId(0)).cam_from_world.Centre()).norm(),
             1e-3);
-  EXPECT_EQ(TrajectoryGeoJson(scene.reconstruction, {}).status().code(),
+  EXPECT_EQ(TrajectoryGeoJson(scene.reconstruction.images, {}).status().code(),
             absl::StatusCode::kFailedPrecondition);
 }
 
@@ -114,9 +120,15 @@ TEST(GeoreferenceJson, PlacesTheFrameOnTheEarth) {
   EXPECT_EQ(nlohmann::json::parse(GeoreferenceJson(scene.manifest, false))["georeferenced"], false);
 }
 
-TEST(MeasureReconstruction, CountsAndMeasures) {
+ReconstructionMeasures Measured(const Reconstruction& model, const ImageManifest& manifest) {
+  ReconstructionMeter meter(model.images, manifest);
+  for (const Track& track : model.tracks) meter.Add(track);
+  return std::move(meter).Finish();
+}
+
+TEST(ReconstructionMeter, CountsAndMeasures) {
   SmallScene scene = MakeSmallScene(12, 200);
-  ReconstructionMeasures measures = MeasureReconstruction(scene.reconstruction, scene.manifest);
+  ReconstructionMeasures measures = Measured(scene.reconstruction, scene.manifest);
   EXPECT_EQ(measures.points, scene.reconstruction.tracks.size());
   EXPECT_EQ(measures.observations, scene.reconstruction.NumObservations());
   EXPECT_LT(measures.residual_px_rms, 1e-6);
@@ -129,7 +141,7 @@ TEST(MeasureReconstruction, CountsAndMeasures) {
       observation.bearing = std::cos(angle) * observation.bearing + std::sin(angle) * side;
     }
   }
-  measures = MeasureReconstruction(scene.reconstruction, scene.manifest);
+  measures = Measured(scene.reconstruction, scene.manifest);
   uint64_t wide = 0;
   uint64_t total = 0;
   for (const auto& [id, image] : measures.images) {
@@ -141,7 +153,7 @@ TEST(MeasureReconstruction, CountsAndMeasures) {
   EXPECT_EQ(total, measures.observations);
   EXPECT_EQ(measures.residual_histogram.counts[10], wide);
   EXPECT_EQ(measures.residual_histogram.counts[5], total - wide);
-  EXPECT_EQ(MeasureReconstruction({}, {}).mean_track_length, 0.0);
+  EXPECT_EQ(Measured({}, {}).mean_track_length, 0.0);
 }
 
 TEST(TraceJson, HasALanePerSlotAndDoesNotDependOnOrder) {

@@ -12,7 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Six images in two clusters. World 0 observes images 0 to 2, and 3 to 5 are loose in it.
+/// Six images in two clusters. Model 0 observes images 0 to 2, and 3 to 5 are loose in it.
 JobResults SixImages() {
   JobResults results;
   for (uint32_t i = 0; i < 6; ++i) {
@@ -23,11 +23,10 @@ JobResults SixImages() {
   results.view_graph.partition.clusters = {
       {.interior = {ImageId(0), ImageId(1), ImageId(2), ImageId(3)}},
       {.interior = {ImageId(4), ImageId(5)}}};
-  GloballyAdjusted& world = results.worlds.emplace_back();
-  for (uint32_t i = 0; i < 6; ++i) world.reconstruction.images[ImageId(i)].loose = i > 2;
-  world.report.unobserved_images = {"3.jpg"};
-  results.clusters = {
-      {.cluster = 1, .reconstruction = {.not_registered = {{ImageId(4), "too few points"}}}}};
+  AdjustedModel& model = results.models.emplace_back();
+  for (uint32_t i = 0; i < 6; ++i) model.images[ImageId(i)].loose = i > 2;
+  model.report.unobserved_images = {"3.jpg"};
+  results.clusters = {{.cluster = 1, .not_registered = {{ImageId(4), "too few points"}}}};
   return results;
 }
 
@@ -49,9 +48,9 @@ TEST(BuildJobReport, NamesLooseImagesWithTheirReasonsAndDoesNotCountThem) {
 
 TEST(BuildJobReport, AnImageThatAModelObservesIsNotLooseInAnother) {
   JobResults results = SixImages();
-  GloballyAdjusted& second = results.worlds.emplace_back();
-  second.reconstruction.images[ImageId(5)] = {};
-  second.reconstruction.images[ImageId(0)].loose = true;
+  AdjustedModel& second = results.models.emplace_back();
+  second.images[ImageId(5)] = {};
+  second.images[ImageId(0)].loose = true;
   const JobReport report = BuildJobReport(results);
   EXPECT_EQ(report.registered, 4U);
   EXPECT_FALSE(report.images[5].loose);

@@ -11,23 +11,22 @@ namespace {
 using ::testing::ElementsAre;
 
 // Image i has a position sigma of 5 (i % 7) and i thousandths of a radian; image 3 has none.
-GloballyAdjusted SomeWorld(uint32_t num_images) {
-  GloballyAdjusted world;
+std::map<ImageId, RegisteredImage> SomeImages(uint32_t num_images) {
+  std::map<ImageId, RegisteredImage> images;
   for (uint32_t i = 0; i < num_images; ++i) {
-    RegisteredImage& image = world.reconstruction.images[ImageId(i)];
+    RegisteredImage& image = images[ImageId(i)];
     if (i == 3) continue;
     const double sigma = i % 7;
     image.uncertainty = PoseUncertainty{
         .position_covariance = Eigen::Vector3d(9.0, 16.0, 0.0).asDiagonal() * (sigma * sigma),
         .rotation_sigma_rad = 1e-3 * i};
   }
-  return world;
+  return images;
 }
 
 TEST(SummariseUncertainty, HasMedianQuantileAndTheWorstFirst) {
-  GloballyAdjusted world = SomeWorld(20);
-  world.report.uncertainty = {.known = true, .held_image = "a.jpg", .bearing_sigma_factor = 1.25};
-  const ReportUncertainty summary = SummariseUncertainty(world);
+  const ReportUncertainty summary = SummariseUncertainty(
+      {.known = true, .held_image = "a.jpg", .bearing_sigma_factor = 1.25}, SomeImages(20));
   EXPECT_TRUE(summary.known);
   EXPECT_EQ(summary.held_image, "a.jpg");
   EXPECT_EQ(summary.bearing_sigma_factor, 1.25);
@@ -37,10 +36,8 @@ TEST(SummariseUncertainty, HasMedianQuantileAndTheWorstFirst) {
   EXPECT_THAT(summary.worst, ElementsAre(6, 13, 5, 12, 19, 4, 11, 18, 10, 17));
 }
 
-TEST(SummariseUncertainty, AcceptsAWorldThatKnowsNothing) {
-  GloballyAdjusted world;
-  world.report.uncertainty.reason = "why";
-  const ReportUncertainty summary = SummariseUncertainty(world);
+TEST(SummariseUncertainty, AcceptsAModelThatKnowsNothing) {
+  const ReportUncertainty summary = SummariseUncertainty({.reason = "why"}, {});
   EXPECT_FALSE(summary.known);
   EXPECT_EQ(summary.reason, "why");
   EXPECT_TRUE(summary.worst.empty());

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "cli/fetch_results.h"
+#include "core/io/colmap_model_writer.h"
+#include "core/io/write_ply.h"
+
+namespace orbweave {
+
+/// Writes the models of a job while they pass by: sparse/0, sparse/1, ... for COLMAP, and the
+/// points of the first as points.ply.
+class ModelWriter final : public ModelListener {
+ public:
+  /// `feature_names` as of FetchFeatureNames; `coordinator` outlives the object.
+  ModelWriter(CoordinatorApi& coordinator,
+              std::vector<Digest> feature_names,
+              std::filesystem::path folder);
+
+  void BeginModel(const std::map<ImageId, RegisteredImage>& images,
+                  const ImageManifest& manifest) override;
+  void TakePoint(const Track& track) override;
+  [[nodiscard]] absl::Status EndModel() override;
+
+  /// Removes what an earlier run with more models left; a job without a model has no points.
+  [[nodiscard]] absl::Status Finish();
+
+ private:
+  [[nodiscard]] absl::Status AddImages();
+
+  CoordinatorApi& coordinator_;
+  std::vector<Digest> feature_names_;
+  std::filesystem::path folder_;
+  absl::Status status_;  ///< of the folders
+  size_t num_models_ = 0;
+  const std::map<ImageId, RegisteredImage>* images_ = nullptr;
+  std::unique_ptr<ColmapModelWriter> colmap_;  ///< of the model that passes by
+  std::unique_ptr<PlyWriter> points_;          ///< while the first does
+};
+
+}  // namespace orbweave
