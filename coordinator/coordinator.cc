@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/durable_file.h"
+#include "coordinator/open_journal.h"
 #include "core/pipeline/build_version.h"
 
 namespace orbweave {
@@ -32,7 +33,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(StateLock lock, StateLock::Acquire(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(BlobStore blobs, BlobStore::Open(options.state_dir + "/blobs"));
-  ORBWEAVE_ASSIGN_OR_RETURN(Journal journal, Journal::Open(options.state_dir));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(options.state_dir));
   std::unique_ptr<Coordinator> coordinator(
       new Coordinator(options, clock, std::move(lock), std::move(blobs), std::move(journal)));
   ORBWEAVE_RETURN_IF_ERROR(coordinator->ResumeJobs());
@@ -45,20 +46,20 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
                          const Clock& clock,
                          StateLock lock,
                          BlobStore blobs,
-                         Journal journal)
+                         std::unique_ptr<Journal> journal)
     : options_(options),
       clock_(clock),
       lock_(std::move(lock)),
       blobs_(std::move(blobs)),
       journal_(std::move(journal)),
       roster_(options.lease_s),
-      last_epoch_(FirstOfGeneration(journal_.generation())),
-      last_session_(FirstOfGeneration(journal_.generation())) {}
+      last_epoch_(FirstOfGeneration(journal_->generation())),
+      last_session_(FirstOfGeneration(journal_->generation())) {}
 
 Coordinator::~Coordinator() { BeginShutdown(); }
 
 absl::Status Coordinator::ResumeJobs() {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> entries, journal_.LoadJobs());
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> entries, journal_->LoadJobs());
   const std::lock_guard lock(mutex_);
   for (const JobEntry& entry : entries) {
     absl::StatusOr<JobPlan> plan = options_.find_plan(entry.spec.kind);
@@ -201,7 +202,8 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
   ORBWEAVE_ASSIGN_OR_RETURN(const LeaseEntry entry, book_.Take(lease.epoch, lease.task, session));
   const uint64_t run = jobs_.at(entry.job).run;
   lock.unlock();
-  const absl::Status saved = journal_.SaveResult(lease.task, result);  // before it is acknowledged
+  const absl::Status saved =
+      journal_->SaveResult(lease.epoch, lease.task, result);  // before it is acknowledged
   lock.lock();
   if (jobs_.at(entry.job).run != run) return saved;
   if (!saved.ok()) {
@@ -287,7 +289,7 @@ absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
   const uint64_t next_number = order_.empty() ? 1 : order_.rbegin()->first + 1;
   const uint64_t number = known != nullptr ? known->number : next_number;
   lock.unlock();
-  ORBWEAVE_RETURN_IF_ERROR(journal_.SaveJob({spec, JobState::kRunning, "", number}));
+  ORBWEAVE_RETURN_IF_ERROR(journal_->SaveJob({spec, JobState::kRunning, "", number}));
   lock.lock();
   Job& job = jobs_[id];
   job.number = number;
@@ -422,7 +424,7 @@ void Coordinator::PlanNextStage(const Digest& id) {
       machine.spec(), machine.plan(), *stage, machine.results(), jobs_.at(id).verify};
   lock.unlock();
   absl::StatusOr<PreparedStage> prepared =
-      PrepareStage(snapshot, blobs_, journal_);  // files: without the lock
+      PrepareStage(snapshot, blobs_, *journal_);  // files: without the lock
   lock.lock();
   Job& job = jobs_.at(id);
   if (job.run != run || job.machine->state() != JobState::kRunning) return;
@@ -447,7 +449,7 @@ void Coordinator::SaveEnd(const Digest& id) {
   Log(absl::StrCat("job ended job=", id.ToShortHex(), " error=\"", entry.error, "\""));
   lock.unlock();
   // When this fails the job is found running after a restart, and its results end it again at once.
-  (void)journal_.SaveJob(entry);
+  (void)journal_->SaveJob(entry);
 }
 
 }  // namespace orbweave

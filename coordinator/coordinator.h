@@ -93,7 +93,7 @@ class Coordinator final : public CoordinatorApi {
               const Clock& clock,
               StateLock lock,
               BlobStore blobs,
-              Journal journal);
+              std::unique_ptr<Journal> journal);
   [[nodiscard]] absl::Status ResumeJobs();
 
   // All of these with mutex_ held.
@@ -118,7 +118,7 @@ class Coordinator final : public CoordinatorApi {
   const Clock& clock_;
   StateLock lock_;
   BlobStore blobs_;
-  Journal journal_;
+  std::unique_ptr<Journal> journal_;
 
   std::mutex saving_mutex_;  ///< one writer of job files at a time; taken before mutex_
   std::mutex mutex_;

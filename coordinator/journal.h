@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,33 +19,66 @@ struct JobEntry {
   uint64_t number = 0;  ///< order of submission
 };
 
-/// What the coordinator must not forget, as small files: `results/<task>` per finished task,
-/// `jobs/<job>` per job, `generation`. Each file carries the digest of its content and is replaced
-/// whole. Thread-safe.
+/// One attempt at a task: a lease, as it is remembered across restarts.
+struct Attempt {
+  uint64_t epoch = 0;  ///< names it
+  Digest task{};
+  Digest job{};
+  std::string stage{};
+  uint32_t part = 0;
+  std::string worker{};
+  uint32_t slot = 0;
+};
+
+/// An attempt that ended without a result, and why.
+struct AttemptEnd {
+  uint64_t epoch = 0;
+  std::string reason{};
+};
+
+/// What became of an attempt. The times are seconds since 1970 by the clock of the coordinator's
+/// machine, for people only.
+struct AttemptRecord {
+  Attempt attempt{};
+  double started_s = 0.0;
+  std::optional<double> ended_s{};
+  std::string reason{};  ///< empty when it ended with a result
+};
+
+/// What the coordinator must not forget: jobs, attempts, results, and how often it was started.
+/// Whatever a call has saved is durable when it returns OK, and saving it again changes nothing.
+/// One coordinator has a journal at a time. Thread-safe.
+///
+/// Errors of every call: Unavailable (try again later), ResourceExhausted (disk full), DataLoss
+/// (the store is damaged; says what to do), FailedPrecondition (another coordinator has taken the
+/// journal over).
 class Journal {
  public:
-  [[nodiscard]] static absl::StatusOr<Journal> Open(const std::string& folder);
+  virtual ~Journal() = default;
 
-  /// 1, 2, 3, ...: how often this folder was opened. The high half of every epoch and session.
-  [[nodiscard]] uint64_t generation() const { return generation_; }
+  /// 1, 2, 3, ...: how often this journal was opened. The high half of every epoch and session.
+  [[nodiscard]] virtual uint64_t generation() const = 0;
 
-  /// Durable when it returns OK.
-  [[nodiscard]] absl::Status SaveResult(const Digest& task, const TaskResult& result);
-  /// NotFound: never finished. DataLoss: the file is damaged.
-  [[nodiscard]] absl::StatusOr<TaskResult> LoadResult(const Digest& task) const;
+  [[nodiscard]] virtual absl::Status SaveJob(const JobEntry& job) = 0;
+  /// In order of submission.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<JobEntry>> LoadJobs() = 0;
 
-  [[nodiscard]] absl::Status SaveJob(const JobEntry& job);
-  /// In order of submission; damaged files are left out.
-  [[nodiscard]] absl::StatusOr<std::vector<JobEntry>> LoadJobs() const;
+  /// A task is handed out.
+  [[nodiscard]] virtual absl::Status SaveStart(const Attempt& attempt) = 0;
+  /// Attempt `epoch` ends with the result of `task`.
+  [[nodiscard]] virtual absl::Status SaveResult(uint64_t epoch,
+                                                const Digest& task,
+                                                const TaskResult& result) = 0;
+  [[nodiscard]] virtual absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) = 0;
 
- private:
-  explicit Journal(std::string folder) : folder_(std::move(folder)) {}
-  [[nodiscard]] absl::Status BeginGeneration();
-  [[nodiscard]] absl::Status Save(const std::string& name, const std::string& content) const;
-  [[nodiscard]] absl::StatusOr<std::string> Load(const std::string& name) const;
-
-  std::string folder_;
-  uint64_t generation_ = 0;
+  /// One answer per task: nothing where none was saved, or what was saved is damaged.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
+      const std::vector<Digest>& tasks) = 0;
+  /// Attempts that started and did not end, in order of epoch.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() = 0;
+  /// All attempts at a task, in order of epoch.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(
+      const Digest& task) = 0;
 };
 
 }  // namespace orbweave

@@ -21,25 +21,19 @@ absl::StatusOr<std::vector<Digest>> ReadListedRecipes(const JobSnapshot& snapsho
   return DecodeCollection(bytes);
 }
 
-std::optional<TaskResult> FindResult(const TaskSpec& task,
-                                     bool verify,
-                                     BlobStore& blobs,
-                                     const Journal& journal) {
-  absl::StatusOr<TaskResult> result = journal.LoadResult(task.Id());
-  if (!result.ok()) return std::nullopt;
+bool IsComplete(const TaskResult& result, bool verify, BlobStore& blobs) {
   const auto is_there = [&](const Digest& blob) {
     return verify ? blobs.Verify(blob) : blobs.Has(blob);
   };
-  const bool complete = std::all_of(result->outputs.begin(), result->outputs.end(), is_there) &&
-                        std::all_of(result->recipes.begin(), result->recipes.end(), is_there);
-  return complete ? std::optional(*std::move(result)) : std::nullopt;
+  return std::all_of(result.outputs.begin(), result.outputs.end(), is_there) &&
+         std::all_of(result.recipes.begin(), result.recipes.end(), is_there);
 }
 
 }  // namespace
 
 absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
                                            BlobStore& blobs,
-                                           const Journal& journal) {
+                                           Journal& journal) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed, ReadListedRecipes(snapshot, blobs));
   ORBWEAVE_ASSIGN_OR_RETURN(
       StagePlan plan,
@@ -48,8 +42,11 @@ absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
     ORBWEAVE_RETURN_IF_ERROR(blobs.Put(collection).status());
   }
   PreparedStage prepared{.tasks = std::move(plan.tasks)};
-  for (const TaskSpec& task : prepared.tasks) {
-    prepared.found.push_back(FindResult(task, snapshot.verify, blobs, journal));
+  std::vector<Digest> ids;
+  for (const TaskSpec& task : prepared.tasks) ids.push_back(task.Id());
+  ORBWEAVE_ASSIGN_OR_RETURN(prepared.found, journal.LoadResults(ids));
+  for (std::optional<TaskResult>& found : prepared.found) {
+    if (found && !IsComplete(*found, snapshot.verify, blobs)) found.reset();
   }
   return prepared;
 }

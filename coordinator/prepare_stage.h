@@ -32,6 +32,6 @@ struct JobSnapshot {
 /// Errors: those of PlanStage and of the store.
 [[nodiscard]] absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
                                                          BlobStore& blobs,
-                                                         const Journal& journal);
+                                                         Journal& journal);
 
 }  // namespace orbweave

@@ -23,7 +23,8 @@ absl::Status StatusFromSqlite(sqlite3* database, int code, const std::string& pa
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
     case SQLITE_ERROR:
-      return absl::InvalidArgumentError(absl::StrCat(text, "; is this a COLMAP database?"));
+      return absl::InvalidArgumentError(
+          absl::StrCat(text, "; not the database it should be, or damaged"));
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
     case SQLITE_PERM:
@@ -65,14 +66,20 @@ absl::StatusOr<bool> SqliteStatement::Step() {
   return StatusFromSqlite(sqlite3_db_handle(statement_.get()), code, path_);
 }
 
+void SqliteStatement::Reset() { sqlite3_reset(statement_.get()); }
+
 absl::Status SqliteStatement::Run() {
   const absl::StatusOr<bool> stepped = Step();
-  sqlite3_reset(statement_.get());
+  Reset();
   return stepped.status();
 }
 
 int64_t SqliteStatement::Integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
+}
+
+double SqliteStatement::Number(int column) const {
+  return sqlite3_column_double(statement_.get(), column);
 }
 
 bool SqliteStatement::IsNull(int column) const {
@@ -107,7 +114,7 @@ absl::StatusOr<SqliteConnection> SqliteConnection::OpenToRead(const std::string&
   return connection;
 }
 
-absl::StatusOr<SqliteConnection> SqliteConnection::Create(const std::string& path) {
+absl::StatusOr<SqliteConnection> SqliteConnection::OpenToWrite(const std::string& path) {
   SqliteConnection connection;
   connection.path_ = path;
   sqlite3* database = nullptr;

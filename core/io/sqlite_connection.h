@@ -16,7 +16,7 @@ struct sqlite3_stmt;
 namespace orbweave {
 
 /// One prepared statement. Bind from 1, step through the rows, read columns from 0; Reset to bind
-/// anew. A bound text or blob must live until the next Step. Blob columns are valid until the next
+/// anew. A bound text or blob must live until the last Step. Blob columns are valid until the next
 /// Step.
 class SqliteStatement {
  public:
@@ -28,10 +28,12 @@ class SqliteStatement {
   /// True: a row is ready; false: done. InvalidArgument: the file is damaged; ResourceExhausted:
   /// disk full; Unavailable otherwise.
   [[nodiscard]] absl::StatusOr<bool> Step();
+  void Reset();
   /// Steps a statement without rows and makes it ready to be bound again.
   [[nodiscard]] absl::Status Run();
 
   [[nodiscard]] int64_t Integer(int column) const;
+  [[nodiscard]] double Number(int column) const;
   [[nodiscard]] bool IsNull(int column) const;
   [[nodiscard]] std::string Text(int column) const;
   [[nodiscard]] std::string_view Blob(int column) const;
@@ -50,8 +52,9 @@ class SqliteConnection {
  public:
   /// NotFound: no such file. InvalidArgument: it is not an SQLite database.
   [[nodiscard]] static absl::StatusOr<SqliteConnection> OpenToRead(const std::string& path);
-  /// Creates `path`, which must not exist. Codes of WriteFileAtomically.
-  [[nodiscard]] static absl::StatusOr<SqliteConnection> Create(const std::string& path);
+  /// Opens `path` to read and write, and creates it when there is none. Codes of
+  /// WriteFileAtomically.
+  [[nodiscard]] static absl::StatusOr<SqliteConnection> OpenToWrite(const std::string& path);
 
   [[nodiscard]] absl::Status Execute(const std::string& sql) const;
   [[nodiscard]] absl::StatusOr<SqliteStatement> Prepare(const std::string& sql) const;

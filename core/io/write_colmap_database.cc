@@ -248,7 +248,7 @@ absl::Status WriteTables(const std::string& path,
                          const std::vector<Features>& features,
                          const std::vector<TwoViewGeometry>& pairs,
                          DatabaseCameraModel model) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const SqliteConnection connection, SqliteConnection::Create(path));
+  ORBWEAVE_ASSIGN_OR_RETURN(const SqliteConnection connection, SqliteConnection::OpenToWrite(path));
   ORBWEAVE_RETURN_IF_ERROR(connection.Execute(kSchema));
   ORBWEAVE_RETURN_IF_ERROR(connection.Execute("BEGIN"));
   ORBWEAVE_RETURN_IF_ERROR(WriteImages(connection, manifest, model));

@@ -272,6 +272,16 @@ TEST_F(CoordinatorTest, RefusesASecondCoordinatorOnTheSameState) {
   EXPECT_THAT(std::string(second.status().message()), HasSubstr("in use by another coordinator"));
 }
 
+TEST_F(CoordinatorTest, RefusesAFolderWhoseResultsAreFiles) {
+  testing::WriteAll(folder_ / "old/generation", "3");
+  CoordinatorOptions options = Options();
+  options.state_dir = folder_ / "old";
+  const auto opened = Coordinator::Open(options, clock_);
+  EXPECT_TRUE(absl::IsFailedPrecondition(opened.status()));
+  EXPECT_THAT(std::string(opened.status().message()), HasSubstr("older version"));
+  EXPECT_THAT(std::string(opened.status().message()), HasSubstr(options.state_dir));
+}
+
 TEST_F(CoordinatorTest, ShutdownWakesWaitingCallsAndTellsWorkersToLeave) {
   const uint64_t session = Join("w");
   std::jthread end([this] { coordinator_->BeginShutdown(); });

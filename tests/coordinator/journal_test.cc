@@ -1,75 +1,228 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The contract of a journal, held against every kind of database.
+
 #include "coordinator/journal.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <thread>
 
+#include "coordinator/sqlite_journal.h"
 #include "tests/support/command.h"
 
 namespace orbweave {
 namespace {
 
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 
-TEST(Journal, RemembersResultsAcrossGenerations) {
-  const TemporaryFolder folder;
-  const Digest task = DigestOf("task");
-  const TaskResult result{.outputs = {DigestOf("o")},
+const Digest kTask = DigestOf("task");
+const Digest kJob = DigestOf("job");
+
+Attempt MakeAttempt(uint64_t epoch, const Digest& task = kTask) {
+  return {.epoch = epoch,
+          .task = task,
+          .job = kJob,
+          .stage = "square",
+          .part = 7,
+          .worker = "w",
+          .slot = 1};
+}
+
+/// Where journals of one kind are kept.
+class Store {
+ public:
+  virtual ~Store() = default;
+  [[nodiscard]] virtual absl::StatusOr<std::unique_ptr<Journal>> Open() = 0;
+};
+
+class SqliteStore final : public Store {
+ public:
+  [[nodiscard]] absl::StatusOr<std::unique_ptr<Journal>> Open() override {
+    return OpenSqliteJournal(folder_ / "journal.db");
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+using MakeStore = std::unique_ptr<Store> (*)();
+
+class JournalContract : public ::testing::TestWithParam<MakeStore> {
+ protected:
+  void SetUp() override {
+    store_ = GetParam()();
+    if (store_ == nullptr) GTEST_SKIP() << "PostgreSQL's server is not installed";
+    Reopen();
+  }
+
+  void Reopen() {
+    journal_.reset();
+    auto opened = store_->Open();
+    ASSERT_TRUE(opened.ok()) << opened.status();
+    journal_ = *std::move(opened);
+  }
+
+  std::unique_ptr<Store> store_;
+  std::unique_ptr<Journal> journal_;
+};
+
+TEST_P(JournalContract, CountsItsGenerations) {
+  EXPECT_EQ(journal_->generation(), 1U);
+  Reopen();
+  EXPECT_EQ(journal_->generation(), 2U);
+}
+
+TEST_P(JournalContract, RemembersResultsAcrossGenerations) {
+  const TaskResult result{.outputs = {DigestOf("o"), DigestOf("p")},
                           .recipes = {DigestOf("r")},
-                          .report_json = "{}",
-                          .cost = {.cpu_s = 1.5}};
-  {
-    auto journal = Journal::Open(folder.Path());
-    ASSERT_TRUE(journal.ok());
-    EXPECT_EQ(journal->generation(), 1U);
-    EXPECT_TRUE(absl::IsNotFound(journal->LoadResult(task).status()));
-    ASSERT_TRUE(journal->SaveResult(task, result).ok());
+                          .report_json = "{\"why\":\"\xc3\xa4\"}",
+                          .cost = {.cpu_s = 1.5, .bytes_in = uint64_t{5} << 40}};
+  ASSERT_TRUE(journal_->SaveResult(1, kTask, result).ok());
+  Reopen();
+  const auto loaded = journal_->LoadResults({DigestOf("other"), kTask});
+  ASSERT_TRUE(loaded.ok()) << loaded.status();
+  ASSERT_EQ(loaded->size(), 2U);
+  EXPECT_FALSE(loaded->at(0).has_value());
+  ASSERT_TRUE(loaded->at(1).has_value());
+  const TaskResult& found = *loaded->at(1);
+  EXPECT_EQ(found.outputs, result.outputs);
+  EXPECT_EQ(found.recipes, result.recipes);
+  EXPECT_EQ(found.report_json, result.report_json);
+  EXPECT_DOUBLE_EQ(found.cost.cpu_s, 1.5);
+  EXPECT_EQ(found.cost.bytes_in, uint64_t{5} << 40);
+}
+
+TEST_P(JournalContract, TheLastResultOfATaskCounts) {
+  ASSERT_TRUE(journal_->SaveResult(1, kTask, {.outputs = {DigestOf("lost blob")}}).ok());
+  ASSERT_TRUE(journal_->SaveResult(2, kTask, {.outputs = {DigestOf("o")}}).ok());
+  EXPECT_THAT(journal_->LoadResults({kTask})->at(0)->outputs, ElementsAre(DigestOf("o")));
+}
+
+TEST_P(JournalContract, LooksUpAnyNumberOfTasksInTheirOrder) {
+  std::vector<Digest> tasks;
+  for (int i = 0; i < 150; ++i) {
+    tasks.push_back(DigestOf("task" + std::to_string(i)));
+    if (i % 3 != 0) {
+      ASSERT_TRUE(journal_->SaveResult(1, tasks.back(), {.outputs = {tasks.back()}}).ok());
+    }
   }
-  auto journal = Journal::Open(folder.Path());
-  ASSERT_TRUE(journal.ok());
-  EXPECT_EQ(journal->generation(), 2U);
-  const auto loaded = journal->LoadResult(task);
-  ASSERT_TRUE(loaded.ok());
-  EXPECT_EQ(loaded->outputs, result.outputs);
-  EXPECT_EQ(loaded->recipes, result.recipes);
-  EXPECT_EQ(loaded->report_json, "{}");
-  EXPECT_DOUBLE_EQ(loaded->cost.cpu_s, 1.5);
+  const auto found = journal_->LoadResults(tasks);
+  ASSERT_TRUE(found.ok()) << found.status();
+  ASSERT_EQ(found->size(), tasks.size());
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    ASSERT_EQ(found->at(i).has_value(), i % 3 != 0) << i;
+    if (!found->at(i)) continue;
+    EXPECT_THAT(found->at(i)->outputs, ElementsAre(tasks[i]));
+  }
+  EXPECT_TRUE(journal_->LoadResults({})->empty());
 }
 
-TEST(Journal, NoticesATornResult) {
-  const TemporaryFolder folder;
-  auto journal = Journal::Open(folder.Path());
-  ASSERT_TRUE(journal.ok());
-  const Digest task = DigestOf("task");
-  ASSERT_TRUE(journal->SaveResult(task, {.outputs = {DigestOf("o")}}).ok());
-  const std::string path = folder / ("results/" + task.ToHex());
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
-  EXPECT_TRUE(absl::IsDataLoss(journal->LoadResult(task).status()));
-}
-
-TEST(Journal, ListsJobsAsTheyWereSubmitted) {
-  const TemporaryFolder folder;
-  auto journal = Journal::Open(folder.Path());
-  ASSERT_TRUE(journal.ok());
+TEST_P(JournalContract, ListsJobsAsTheyWereSubmitted) {
   for (uint64_t number = 5; number > 0; --number) {
-    ASSERT_TRUE(
-        journal->SaveJob({.spec = {.kind = "k" + std::to_string(number)}, .number = number}).ok());
+    const JobSpec spec{.kind = "k" + std::to_string(number), .inputs = {kTask}, .label = "l"};
+    ASSERT_TRUE(journal_->SaveJob({.spec = spec, .number = number}).ok());
   }
+  const JobSpec third{.kind = "k3", .inputs = {kTask}, .label = "l"};
   ASSERT_TRUE(
-      journal
-          ->SaveJob(
-              {.spec = {.kind = "k3"}, .state = JobState::kFailed, .error = "why", .number = 3})
+      journal_
+          ->SaveJob({.spec = third, .state = JobState::kFailed, .error = "it's why", .number = 3})
           .ok());
-  const auto jobs = journal->LoadJobs();
-  ASSERT_TRUE(jobs.ok());
+  Reopen();
+  const auto jobs = journal_->LoadJobs();
+  ASSERT_TRUE(jobs.ok()) << jobs.status();
   ASSERT_EQ(jobs->size(), 5U);
   for (uint64_t i = 0; i < 5; ++i) EXPECT_EQ((*jobs)[i].spec.kind, "k" + std::to_string(i + 1));
+  EXPECT_EQ((*jobs)[2].spec.Id(), third.Id());
+  EXPECT_EQ((*jobs)[2].spec.label, "l");
   EXPECT_EQ((*jobs)[2].state, JobState::kFailed);
-  EXPECT_EQ((*jobs)[2].error, "why");
+  EXPECT_EQ((*jobs)[2].error, "it's why");
+  EXPECT_EQ((*jobs)[1].state, JobState::kRunning);
 }
+
+TEST_P(JournalContract, AnAttemptIsOpenUntilItsResultOrItsEnd) {
+  const uint64_t big = uint64_t{3} << 32;
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(big + 2, DigestOf("second"))).ok());
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(big + 1)).ok());
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(big + 3, DigestOf("third"))).ok());
+  Reopen();
+  auto open = journal_->LoadOpenAttempts();
+  ASSERT_TRUE(open.ok()) << open.status();
+  ASSERT_EQ(open->size(), 3U);
+  EXPECT_EQ(open->at(0).epoch, big + 1);
+  EXPECT_EQ(open->at(0).task, kTask);
+  EXPECT_EQ(open->at(0).job, kJob);
+  EXPECT_EQ(open->at(0).stage, "square");
+  EXPECT_EQ(open->at(0).part, 7U);
+  EXPECT_EQ(open->at(0).worker, "w");
+  EXPECT_EQ(open->at(0).slot, 1U);
+  ASSERT_TRUE(journal_->SaveResult(big + 1, kTask, {}).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{big + 3, "went silent"}}).ok());
+  open = journal_->LoadOpenAttempts();
+  ASSERT_EQ(open->size(), 1U);
+  EXPECT_EQ(open->at(0).epoch, big + 2);
+}
+
+TEST_P(JournalContract, KeepsAttemptsWithWhenAndWhyTheyEnded) {
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(1)).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{1, "out of memory"}}).ok());
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(2)).ok());
+  ASSERT_TRUE(journal_->SaveResult(2, kTask, {}).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{2, "too late to matter"}}).ok());
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(3)).ok());
+  const auto attempts = journal_->LoadAttempts(kTask);
+  ASSERT_TRUE(attempts.ok()) << attempts.status();
+  ASSERT_EQ(attempts->size(), 3U);
+  EXPECT_EQ(attempts->at(0).reason, "out of memory");
+  EXPECT_LE(attempts->at(0).started_s, attempts->at(0).ended_s);
+  EXPECT_GT(attempts->at(0).started_s, 1.7e9) << "seconds since 1970";
+  EXPECT_TRUE(attempts->at(1).ended_s.has_value());
+  EXPECT_EQ(attempts->at(1).reason, "");
+  EXPECT_FALSE(attempts->at(2).ended_s.has_value());
+  EXPECT_TRUE(journal_->LoadAttempts(DigestOf("other"))->empty());
+}
+
+TEST_P(JournalContract, SavingTwiceChangesNothing) {
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(journal_->SaveStart(MakeAttempt(1)).ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(journal_->SaveResult(1, kTask, {}).ok());
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(1)).ok());  // does not open it again
+  EXPECT_TRUE(journal_->LoadOpenAttempts()->empty());
+  EXPECT_EQ(journal_->LoadAttempts(kTask)->size(), 1U);
+}
+
+TEST_P(JournalContract, TakesWritesOfManyThreads) {
+  constexpr int kThreads = 8;
+  constexpr int kEach = 25;
+  const auto task = [](int thread, int i) {
+    return DigestOf(std::to_string(thread) + "," + std::to_string(i));
+  };
+  std::vector<std::jthread> threads;
+  for (int thread = 0; thread < kThreads; ++thread) {
+    threads.emplace_back([&, thread] {
+      for (int i = 0; i < kEach; ++i) {
+        const auto epoch = static_cast<uint64_t>(thread * kEach + i + 1);
+        EXPECT_TRUE(journal_->SaveStart(MakeAttempt(epoch, task(thread, i))).ok());
+        EXPECT_TRUE(journal_->SaveResult(epoch, task(thread, i), {.report_json = "{}"}).ok());
+      }
+    });
+  }
+  threads.clear();
+  Reopen();
+  EXPECT_TRUE(journal_->LoadOpenAttempts()->empty());
+  for (int thread = 0; thread < kThreads; ++thread) {
+    for (int i = 0; i < kEach; ++i) {
+      EXPECT_TRUE(journal_->LoadResults({task(thread, i)})->at(0).has_value());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sqlite, JournalContract, ::testing::Values([]() -> std::unique_ptr<Store> {
+                           return std::make_unique<SqliteStore>();
+                         }));
 
 }  // namespace
 }  // namespace orbweave

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/sqlite_connection.h"
 #include "tests/support/command.h"
 
 /// A small job that runs in seconds: a corridor of rays, divided into several clusters.
@@ -44,13 +45,13 @@ inline std::vector<std::string> ReconstructCorridor(const std::string& output, i
 
 /// Results in the journal of a job that may be running.
 inline size_t FinishedTasks(const std::string& output) {
-  std::error_code missing;
-  size_t files = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(output + "/.orbweave/results", missing)) {
-    files += entry.is_regular_file() ? 1 : 0;
-  }
-  return files;
+  const std::string journal = output + "/.orbweave/journal.db";
+  if (!std::filesystem::exists(journal)) return 0;
+  const auto database = SqliteConnection::OpenToRead(journal);
+  if (!database.ok()) return 0;
+  auto count = database->Prepare("SELECT COUNT(*) FROM orbweave_result");
+  if (!count.ok() || !count->Step().ok()) return 0;
+  return static_cast<size_t>(count->Integer(0));
 }
 
 inline nlohmann::json ReportOf(const std::string& output) {

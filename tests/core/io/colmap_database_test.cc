@@ -102,7 +102,7 @@ class DatabaseFile : public ::testing::Test {
     ASSERT_TRUE(WriteColmapDatabase(path_, job_.manifest, job_.features, job_.pairs).ok());
   }
   void Execute(const std::string& sql) const {
-    const auto connection = SqliteConnection::Create(path_);
+    const auto connection = SqliteConnection::OpenToWrite(path_);
     ASSERT_TRUE(connection.ok());
     const absl::Status status = connection->Execute(sql);
     ASSERT_TRUE(status.ok()) << status;
@@ -189,7 +189,7 @@ TEST_F(DatabaseFile, ReadsKeypointsOfTwoAndSixColumns) {
         .Put(scale * std::sin(angle))
         .Put(scale * std::cos(angle));
   }
-  const auto connection = SqliteConnection::Create(path_);
+  const auto connection = SqliteConnection::OpenToWrite(path_);
   SqliteStatement update =
       connection->Prepare("UPDATE keypoints SET cols = ?, data = ? WHERE image_id = ?").value();
   const std::string blobs[2] = {two.Take(), six.Take()};

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/open_journal.h"
+
+#include <filesystem>
+
+#include "absl/strings/str_cat.h"
+#include "coordinator/sqlite_journal.h"
+
+namespace orbweave {
+namespace {
+
+absl::Status RefuseFolderOfFiles(const std::string& state_dir) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(state_dir + "/generation", ignored)) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      absl::StrCat("the folder ",
+                   state_dir,
+                   " was written by an older version of orbweave, which kept its results in files; "
+                   "choose another folder, or remove it and compute everything again"));
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Journal>> OpenJournal(const std::string& state_dir) {
+  ORBWEAVE_RETURN_IF_ERROR(RefuseFolderOfFiles(state_dir));
+  return OpenSqliteJournal(state_dir + "/journal.db");
+}
+
+}  // namespace orbweave

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "coordinator/journal.h"
+
+namespace orbweave {
+
+/// The journal of a coordinator whose state is in `state_dir`. FailedPrecondition: the folder was
+/// written by a version that kept results in files.
+[[nodiscard]] absl::StatusOr<std::unique_ptr<Journal>> OpenJournal(const std::string& state_dir);
+
+}  // namespace orbweave

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "coordinator/group_commit.h"
+#include "coordinator/journal.h"
+#include "coordinator/sql_database.h"
+
+namespace orbweave {
+
+/// A journal in the tables of a database: `orbweave` (format and generation), `orbweave_job`,
+/// `orbweave_attempt`, `orbweave_result`. Writers share transactions (GroupCommit); readers have a
+/// connection of their own and do not wait for them.
+class SqlJournal final : public Journal {
+ public:
+  /// Makes the tables that are missing and begins a generation. FailedPrecondition: the tables are
+  /// of another format. Nobody else may have the journal: that is the caller's to see to.
+  [[nodiscard]] static absl::StatusOr<std::unique_ptr<Journal>> Open(
+      std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
+
+  [[nodiscard]] uint64_t generation() const override { return generation_; }
+  [[nodiscard]] absl::Status SaveJob(const JobEntry& job) override;
+  [[nodiscard]] absl::StatusOr<std::vector<JobEntry>> LoadJobs() override;
+  [[nodiscard]] absl::Status SaveStart(const Attempt& attempt) override;
+  [[nodiscard]] absl::Status SaveResult(uint64_t epoch,
+                                        const Digest& task,
+                                        const TaskResult& result) override;
+  [[nodiscard]] absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override;
+  [[nodiscard]] absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
+      const std::vector<Digest>& tasks) override;
+  [[nodiscard]] absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override;
+  [[nodiscard]] absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(
+      const Digest& task) override;
+
+ private:
+  SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
+  [[nodiscard]] absl::Status Begin();
+  /// All writes of a batch in one transaction, if this is still the journal's last generation.
+  [[nodiscard]] absl::Status Transact(const std::vector<const GroupCommit::Write*>& writes);
+  [[nodiscard]] absl::Status EndAttempt(uint64_t epoch, std::string_view reason);
+
+  std::unique_ptr<SqlDatabase> writer_;  ///< of whoever leads a commit
+  std::mutex reading_mutex_;
+  std::unique_ptr<SqlDatabase> reader_;
+  GroupCommit commit_;
+  uint64_t generation_ = 0;
+};
+
+}  // namespace orbweave
