@@ -37,7 +37,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& out
   if (!std::filesystem::is_directory(state)) {
     return absl::NotFoundError(output + " is not the output folder of a job (no .orbweave in it)");
   }
-  return Coordinator::Open({.state_dir = state}, clock);
+  return Coordinator::Open({.state_dir = state, .leases_survive = false}, clock);
 }
 
 absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std::string& output) {

@@ -53,7 +53,9 @@ class LocalFleet {
     ChildProcess process{};
   };
 
-  explicit LocalFleet(const LocalFleetOptions& options) : options_(options) {}
+  explicit LocalFleet(const LocalFleetOptions& options) : options_(options) {
+    options_.coordinator.leases_survive = false;  // no worker does
+  }
   [[nodiscard]] absl::Status OpenCoordinator();
   [[nodiscard]] absl::StatusOr<std::string> ChooseSocket();
   void Supervise(const std::stop_token& stop);

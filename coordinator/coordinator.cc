@@ -9,7 +9,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/durable_file.h"
-#include "coordinator/open_journal.h"
 #include "core/pipeline/build_version.h"
 
 namespace orbweave {
@@ -17,13 +16,16 @@ namespace {
 
 /// Waiting calls look at the clock this often: leases that ended and retries whose time has come.
 constexpr std::chrono::milliseconds kLook{100};
-/// How often a job starts over because a blob it had made is gone.
-constexpr uint32_t kMaxReruns = 3;
 
-uint64_t FirstOfGeneration(uint64_t generation) { return generation << 32; }
-
-absl::Status NoSuchJob(const Digest& job) {
-  return absl::NotFoundError(absl::StrCat("there is no job ", job.ToShortHex()));
+absl::Status CheckVersion(const WorkerInfo& worker) {
+  if (worker.version == BuildVersion()) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat("worker ",
+                                                    worker.name,
+                                                    " is orbweave ",
+                                                    worker.version,
+                                                    ", the coordinator is ",
+                                                    std::string(BuildVersion()),
+                                                    ": install the same version on both"));
 }
 
 }  // namespace
@@ -33,12 +35,12 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(StateLock lock, StateLock::Acquire(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(BlobStore blobs, BlobStore::Open(options.state_dir + "/blobs"));
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(options.state_dir));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
+                            options.open_journal(options.state_dir));
   std::unique_ptr<Coordinator> coordinator(
       new Coordinator(options, clock, std::move(lock), std::move(blobs), std::move(journal)));
-  ORBWEAVE_RETURN_IF_ERROR(coordinator->ResumeJobs());
-  coordinator->planner_ = std::jthread(
-      [raw = coordinator.get()](std::stop_token stop) { raw->RunPlanner(std::move(stop)); });
+  ORBWEAVE_RETURN_IF_ERROR(coordinator->desk_.Resume(options.leases_survive));
+  coordinator->planner_.Start();
   return coordinator;
 }
 
@@ -52,31 +54,15 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
       lock_(std::move(lock)),
       blobs_(std::move(blobs)),
       journal_(std::move(journal)),
-      roster_(options.lease_s),
-      last_epoch_(FirstOfGeneration(journal_->generation())),
-      last_session_(FirstOfGeneration(journal_->generation())) {}
+      dispatcher_({.lease_s = options.lease_s,
+                   .retry = options.retry,
+                   .log = options.log,
+                   .changed = [this] { WakeAll(); }},
+                  journal_->generation()),
+      desk_(mutex_, dispatcher_, *journal_, options.find_plan, clock),
+      planner_(mutex_, dispatcher_, desk_, blobs_, *journal_, clock) {}
 
 Coordinator::~Coordinator() { BeginShutdown(); }
-
-absl::Status Coordinator::ResumeJobs() {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> entries, journal_->LoadJobs());
-  const std::lock_guard lock(mutex_);
-  for (const JobEntry& entry : entries) {
-    absl::StatusOr<JobPlan> plan = options_.find_plan(entry.spec.kind);
-    if (!plan.ok()) continue;  // of a build that knew more kinds
-    const Digest id = entry.spec.Id();
-    Job& job = jobs_[id];
-    job.number = entry.number;
-    job.verify = entry.state == JobState::kRunning;
-    order_[job.number] = id;
-    StartRun(job, entry.spec, *std::move(plan));
-    const double now_s = clock_.NowSeconds();
-    if (entry.state == JobState::kFailed) job.machine->JobFails(entry.error, now_s);
-    if (entry.state == JobState::kCancelled) job.machine->JobIsCancelled(now_s);
-    job.saved = entry.state != JobState::kRunning;
-  }
-  return absl::OkStatus();
-}
 
 absl::StatusOr<std::string> Coordinator::Get(const Digest& digest) { return blobs_.Get(digest); }
 
@@ -93,44 +79,22 @@ absl::Status Coordinator::LinkFile(const Digest& digest, const std::string& path
 }
 
 absl::StatusOr<JoinReply> Coordinator::Join(const WorkerInfo& worker) {
-  if (worker.version != BuildVersion()) {
-    return absl::FailedPreconditionError(absl::StrCat("worker ",
-                                                      worker.name,
-                                                      " is orbweave ",
-                                                      worker.version,
-                                                      ", the coordinator is ",
-                                                      std::string(BuildVersion()),
-                                                      ": install the same version on both"));
-  }
+  ORBWEAVE_RETURN_IF_ERROR(CheckVersion(worker));
   const std::lock_guard lock(mutex_);
-  const uint64_t session = ++last_session_;
-  const std::optional<uint64_t> replaced = roster_.Join(worker, session, clock_.NowSeconds());
-  if (replaced)
-    EndAttempts(book_.TakeSession(*replaced),
-                absl::StrCat("worker ", worker.name, " started anew"));
-  Log(absl::StrCat("worker joined worker=", worker.name, " slots=", worker.slots));
-  return JoinReply{
-      .session = session, .lease_s = options_.lease_s, .heartbeat_s = options_.lease_s / 10.0};
+  return JoinReply{.session = dispatcher_.Join(worker, clock_.NowSeconds()),
+                   .lease_s = options_.lease_s,
+                   .heartbeat_s = options_.lease_s / 10.0};
 }
 
 absl::Status Coordinator::Leave(uint64_t session) {
   const std::lock_guard lock(mutex_);
-  for (const LeaseEntry& entry : book_.TakeSession(session)) {
-    EndAttempt(entry, absl::CancelledError("its worker left"));
-  }
-  if (const std::string name = roster_.NameOf(session); !name.empty())
-    Log("worker left worker=" + name);
-  roster_.End(session);
+  dispatcher_.Leave(session, clock_.NowSeconds());
   return absl::OkStatus();
 }
 
 void Coordinator::WorkerDied(std::string_view name) {
   const std::lock_guard lock(mutex_);
-  const std::optional<uint64_t> session = roster_.SessionOf(name);
-  if (!session) return;
-  EndAttempts(book_.TakeSession(*session),
-              absl::StrCat("the process of worker ", std::string(name), " ended"));
-  roster_.End(*session);
+  dispatcher_.WorkerDied(name, clock_.NowSeconds());
 }
 
 absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
@@ -140,46 +104,38 @@ absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
   std::unique_lock lock(mutex_);
   while (true) {
     if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
-    ORBWEAVE_RETURN_IF_ERROR(roster_.Hear(session, clock_.NowSeconds()));
-    ExpireLeases();
-    if (std::optional<Lease> lease = GrantNext(session, slot)) return lease;
+    const double now_s = clock_.NowSeconds();
+    ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, now_s));
+    dispatcher_.ExpireLeases(now_s);
+    if (const std::optional<Grant> grant = dispatcher_.GrantNext(session, slot, now_s)) {
+      lock.unlock();
+      return HandOut(session, *grant);
+    }
     const auto now = std::chrono::steady_clock::now();
     if (now >= deadline) return std::nullopt;
     changed_.wait_for(lock, std::min<std::chrono::duration<double>>(kLook, deadline - now));
   }
 }
 
-std::optional<Lease> Coordinator::GrantNext(uint64_t session, uint32_t slot) {
-  const double now_s = clock_.NowSeconds();
-  const std::string worker = roster_.NameOf(session);
-  const std::vector<std::string> alive = roster_.Alive(now_s);
-  for (const auto& [number, id] : order_) {
-    JobMachine& machine = *jobs_.at(id).machine;
-    const std::optional<TaskRef> ref = machine.NextReady(worker, alive, now_s);
-    if (!ref) continue;
-    const Lease lease{machine.TaskId(*ref), ++last_epoch_, machine.Spec(*ref), slot};
-    machine.TaskLeased(*ref, {lease.epoch, worker, slot}, now_s);
-    book_.Grant({lease.epoch, lease.task, id, *ref, session, now_s + options_.lease_s});
-    return lease;
-  }
-  return std::nullopt;
+absl::StatusOr<Lease> Coordinator::HandOut(uint64_t session, const Grant& grant) {
+  const absl::Status saved = journal_->SaveStart(grant.attempt);
+  if (saved.ok()) return grant.lease;
+  const std::lock_guard lock(mutex_);
+  dispatcher_
+      .TaskFailed(session,
+                  grant.lease,
+                  absl::CancelledError(absl::StrCat("not handed out: ", saved.message())),
+                  clock_.NowSeconds())
+      .IgnoreError();  // the lease may have ended meanwhile
+  return saved;
 }
 
 absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
                                                       const std::vector<LeaseProgress>& leases) {
   const std::lock_guard lock(mutex_);
-  const double now_s = clock_.NowSeconds();
-  ExpireLeases();
-  ORBWEAVE_RETURN_IF_ERROR(roster_.Hear(session, now_s));
-  HeartbeatReply reply{.shutdown = stopping_};
-  for (const LeaseProgress& held : leases) {
-    const LeaseEntry* entry = book_.Renew(held.epoch, held.task, session, now_s + options_.lease_s);
-    if (entry == nullptr) {
-      reply.cancelled.push_back(held.task);
-    } else {
-      jobs_.at(entry->job).machine->TaskProgressed(entry->ref, held.progress);
-    }
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(HeartbeatReply reply,
+                            dispatcher_.Heartbeat(session, leases, clock_.NowSeconds()));
+  reply.shutdown = stopping_;
   return reply;
 }
 
@@ -197,23 +153,15 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
     }
   }
   std::unique_lock lock(mutex_);
-  if (WasDoneBy(lease)) return absl::OkStatus();
-  ExpireLeases();
-  ORBWEAVE_ASSIGN_OR_RETURN(const LeaseEntry entry, book_.Take(lease.epoch, lease.task, session));
-  const uint64_t run = jobs_.at(entry.job).run;
+  if (dispatcher_.jobs().WasDoneBy(lease)) return absl::OkStatus();
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, clock_.NowSeconds()));
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.Hold(session, lease, clock_.NowSeconds()));
   lock.unlock();
-  const absl::Status saved =
-      journal_->SaveResult(lease.epoch, lease.task, result);  // before it is acknowledged
+  const absl::Status saved = journal_->SaveResult(lease.epoch, lease.task, result);
   lock.lock();
-  if (jobs_.at(entry.job).run != run) return saved;
-  if (!saved.ok()) {
-    EndAttempt(entry, saved);
-    return saved;
-  }
-  jobs_.at(entry.job).machine->TaskDone(entry.ref, result, clock_.NowSeconds());
-  roster_.CountTask(session);
-  WakeAll();
-  return absl::OkStatus();
+  if (saved.ok()) return dispatcher_.TaskDone(session, lease, result, clock_.NowSeconds());
+  dispatcher_.LetGo(session, lease, clock_.NowSeconds());
+  return saved;
 }
 
 absl::Status Coordinator::FailTask(uint64_t session,
@@ -221,150 +169,68 @@ absl::Status Coordinator::FailTask(uint64_t session,
                                    const absl::Status& error) {
   if (error.ok()) return absl::InvalidArgumentError("a failure needs a reason");
   const std::lock_guard lock(mutex_);
-  ExpireLeases();
-  ORBWEAVE_ASSIGN_OR_RETURN(const LeaseEntry entry, book_.Take(lease.epoch, lease.task, session));
-  EndAttempt(entry, error);
-  return absl::OkStatus();
-}
-
-void Coordinator::EndAttempt(const LeaseEntry& entry, const absl::Status& error) {
-  Job& job = jobs_.at(entry.job);
-  if (job.machine->state() != JobState::kRunning) return;
-  const TaskSpec& spec = job.machine->Spec(entry.ref);
-  Log(absl::StrCat("task not done job=",
-                   entry.job.ToShortHex(),
-                   " stage=",
-                   spec.stage,
-                   " part=",
-                   spec.part,
-                   " worker=",
-                   roster_.NameOf(entry.session),
-                   " reason=\"",
-                   error.message(),
-                   "\""));
-  const bool input_lost = ClassifyFailure(error.code()) == FailureClass::kInputLost;
-  if (input_lost && job.reruns < kMaxReruns) {
-    ++job.reruns;
-    job.verify = true;
-    StartRun(job, JobSpec(job.machine->spec()), JobPlan(job.machine->plan()));
-  } else {
-    job.machine->TaskFailed(entry.ref, error, clock_.NowSeconds());
-  }
-  if (job.machine->state() != JobState::kRunning) book_.DropJob(entry.job);
-  WakeAll();
-}
-
-void Coordinator::EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason) {
-  for (const LeaseEntry& entry : entries) EndAttempt(entry, absl::UnavailableError(reason));
-}
-
-void Coordinator::ExpireLeases() {
-  for (const LeaseEntry& entry : book_.TakeExpired(clock_.NowSeconds())) {
-    EndAttempt(entry,
-               absl::UnavailableError(
-                   absl::StrCat("worker ", roster_.NameOf(entry.session), " went silent")));
-  }
-}
-
-bool Coordinator::WasDoneBy(const Lease& lease) const {
-  return std::any_of(jobs_.begin(), jobs_.end(), [&lease](const auto& item) {
-    return item.second.machine->WasDoneBy(lease.task, lease.epoch);
-  });
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, clock_.NowSeconds()));
+  return dispatcher_.TaskFailed(session, lease, error, clock_.NowSeconds());
 }
 
 absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
-  absl::StatusOr<JobPlan> plan = options_.find_plan(spec.kind);
-  if (!plan.ok()) return absl::InvalidArgumentError(plan.status().message());
   for (const Digest& input : spec.inputs) {
     if (blobs_.Has(input)) continue;
     return absl::NotFoundError(
         absl::StrCat("the job's input blob ", input.ToShortHex(), " is not stored"));
   }
-  const Digest id = spec.Id();
-  const std::lock_guard saving(saving_mutex_);
-  std::unique_lock lock(mutex_);
-  Job* known = FindJob(id);
-  const bool is_running = known != nullptr && known->machine->state() == JobState::kRunning;
-  if (is_running && known->verify) return id;
-  const uint64_t next_number = order_.empty() ? 1 : order_.rbegin()->first + 1;
-  const uint64_t number = known != nullptr ? known->number : next_number;
-  lock.unlock();
-  ORBWEAVE_RETURN_IF_ERROR(journal_->SaveJob({spec, JobState::kRunning, "", number}));
-  lock.lock();
-  Job& job = jobs_[id];
-  job.number = number;
-  job.verify = true;
-  job.reruns = 0;
-  order_[number] = id;
-  StartRun(job, spec, *std::move(plan));
-  Log(absl::StrCat(
-      "job submitted job=", id.ToShortHex(), " kind=", spec.kind, " label=\"", spec.label, "\""));
-  return id;
+  return desk_.Submit(spec);
 }
 
-void Coordinator::StartRun(Job& job, const JobSpec& spec, JobPlan plan) {
-  book_.DropJob(spec.Id());
-  job.run = ++last_run_;
-  job.saved = false;
-  job.machine =
-      std::make_unique<JobMachine>(spec, std::move(plan), options_.retry, clock_.NowSeconds());
-  WakeAll();
+template <typename Look>
+auto Coordinator::LookAt(const Digest& id, Look&& look)
+    -> absl::StatusOr<decltype(look(std::declval<const Job&>()))> {
+  const std::lock_guard lock(mutex_);
+  dispatcher_.ExpireLeases(clock_.NowSeconds());
+  const Job* job = dispatcher_.jobs().Find(id);
+  if (job != nullptr) return look(*job);
+  return absl::NotFoundError(absl::StrCat("there is no job ", id.ToShortHex()));
 }
 
 absl::StatusOr<JobStatus> Coordinator::GetJob(const Digest& id) {
-  const std::lock_guard lock(mutex_);
-  ExpireLeases();
-  const Job* job = FindJob(id);
-  if (job == nullptr) return NoSuchJob(id);
-  const double now_s = clock_.NowSeconds();
-  JobStatus status = job->machine->Status(now_s);
-  status.workers = roster_.Status(now_s);
-  return status;
+  return LookAt(id, [this](const Job& job) {
+    JobStatus status = job.machine->Status(clock_.NowSeconds());
+    status.workers = dispatcher_.roster().Status(clock_.NowSeconds());
+    return status;
+  });
 }
 
 absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
   const std::lock_guard lock(mutex_);
-  ExpireLeases();
   const double now_s = clock_.NowSeconds();
+  dispatcher_.ExpireLeases(now_s);
   std::vector<JobStatus> jobs;
-  for (const auto& [number, id] : order_) {
-    jobs.push_back(jobs_.at(id).machine->Status(now_s));
-    jobs.back().workers = roster_.Status(now_s);
+  for (const auto& [number, id] : dispatcher_.jobs().order()) {
+    jobs.push_back(dispatcher_.jobs().At(id).machine->Status(now_s));
+    jobs.back().workers = dispatcher_.roster().Status(now_s);
   }
   return jobs;
 }
 
 absl::Status Coordinator::CancelJob(const Digest& id) {
-  {
-    const std::lock_guard lock(mutex_);
-    Job* job = FindJob(id);
-    if (job == nullptr) return NoSuchJob(id);
-    job->machine->JobIsCancelled(clock_.NowSeconds());
-    if (job->machine->state() != JobState::kRunning) book_.DropJob(id);
-  }
-  SaveEnd(id);
-  return absl::OkStatus();
+  const absl::StatusOr<Digest> cancelled = LookAt(id, [&](const Job&) {
+    dispatcher_.CancelJob(id, clock_.NowSeconds());
+    return id;
+  });
+  if (cancelled.ok()) desk_.SaveEnd(id);
+  return cancelled.status();
 }
 
 absl::StatusOr<std::vector<TaskOutcome>> Coordinator::GetOutcomes(const Digest& id) {
-  const std::lock_guard lock(mutex_);
-  const Job* job = FindJob(id);
-  if (job == nullptr) return NoSuchJob(id);
-  return job->machine->Outcomes();
+  return LookAt(id, [](const Job& job) { return job.machine->Outcomes(); });
 }
 
 absl::StatusOr<std::vector<TaskTiming>> Coordinator::GetTimings(const Digest& id) {
-  const std::lock_guard lock(mutex_);
-  const Job* job = FindJob(id);
-  if (job == nullptr) return NoSuchJob(id);
-  return job->machine->Timings();
+  return LookAt(id, [](const Job& job) { return std::vector(job.machine->Timings()); });
 }
 
 absl::StatusOr<std::vector<MeasuredTask>> Coordinator::GetCosts(const Digest& id) {
-  const std::lock_guard lock(mutex_);
-  const Job* job = FindJob(id);
-  if (job == nullptr) return NoSuchJob(id);
-  return job->machine->Costs();
+  return LookAt(id, [](const Job& job) { return job.machine->Costs(); });
 }
 
 void Coordinator::BeginShutdown() {
@@ -373,83 +239,9 @@ void Coordinator::BeginShutdown() {
   WakeAll();
 }
 
-Coordinator::Job* Coordinator::FindJob(const Digest& id) {
-  const auto it = jobs_.find(id);
-  return it == jobs_.end() ? nullptr : &it->second;
-}
-
-void Coordinator::Log(const std::string& line) const {
-  if (options_.log) options_.log(line);
-}
-
 void Coordinator::WakeAll() {
   changed_.notify_all();
-  to_plan_.notify_all();
-}
-
-std::optional<Digest> Coordinator::JobToPlan() const {
-  for (const auto& [number, id] : order_) {
-    if (jobs_.at(id).machine->StageToPlan()) return id;
-  }
-  return std::nullopt;
-}
-
-std::optional<Digest> Coordinator::JobToSave() const {
-  for (const auto& [number, id] : order_) {
-    const Job& job = jobs_.at(id);
-    if (!job.saved && job.machine->state() != JobState::kRunning) return id;
-  }
-  return std::nullopt;
-}
-
-void Coordinator::RunPlanner(std::stop_token stop) {
-  while (!stop.stop_requested()) {
-    std::unique_lock lock(mutex_);
-    to_plan_.wait(lock, stop, [this] { return JobToPlan() || JobToSave(); });
-    const std::optional<Digest> to_plan = JobToPlan();
-    const std::optional<Digest> to_save = JobToSave();
-    lock.unlock();
-    if (to_plan) PlanNextStage(*to_plan);
-    if (to_save) SaveEnd(*to_save);
-  }
-}
-
-void Coordinator::PlanNextStage(const Digest& id) {
-  std::unique_lock lock(mutex_);
-  const uint64_t run = jobs_.at(id).run;
-  const JobMachine& machine = *jobs_.at(id).machine;
-  const std::optional<uint32_t> stage = machine.StageToPlan();
-  if (!stage) return;
-  const JobSnapshot snapshot{
-      machine.spec(), machine.plan(), *stage, machine.results(), jobs_.at(id).verify};
-  lock.unlock();
-  absl::StatusOr<PreparedStage> prepared =
-      PrepareStage(snapshot, blobs_, *journal_);  // files: without the lock
-  lock.lock();
-  Job& job = jobs_.at(id);
-  if (job.run != run || job.machine->state() != JobState::kRunning) return;
-  const double now_s = clock_.NowSeconds();
-  if (prepared.ok()) {
-    job.machine->StageBegins(std::move(prepared->tasks), std::move(prepared->found), now_s);
-  } else {
-    const std::string& name = snapshot.plan.stages[*stage].stage;
-    job.machine->JobFails(Annotate(prepared.status(), "cannot plan stage " + name).ToString(),
-                          now_s);
-  }
-  WakeAll();
-}
-
-void Coordinator::SaveEnd(const Digest& id) {
-  const std::lock_guard saving(saving_mutex_);
-  std::unique_lock lock(mutex_);
-  Job& job = jobs_.at(id);
-  if (job.saved || job.machine->state() == JobState::kRunning) return;
-  const JobEntry entry{job.machine->spec(), job.machine->state(), job.machine->error(), job.number};
-  job.saved = true;
-  Log(absl::StrCat("job ended job=", id.ToShortHex(), " error=\"", entry.error, "\""));
-  lock.unlock();
-  // When this fails the job is found running after a restart, and its results end it again at once.
-  (void)journal_->SaveJob(entry);
+  planner_.Wake();
 }
 
 }  // namespace orbweave

@@ -4,18 +4,16 @@
 
 #include <condition_variable>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "coordinator/blob_store.h"
-#include "coordinator/job_machine.h"
+#include "coordinator/dispatcher.h"
+#include "coordinator/job_desk.h"
 #include "coordinator/journal.h"
-#include "coordinator/lease_book.h"
-#include "coordinator/prepare_stage.h"
+#include "coordinator/open_journal.h"
+#include "coordinator/planner.h"
 #include "coordinator/state_lock.h"
-#include "coordinator/worker_roster.h"
 #include "core/base/clock.h"
 #include "core/pipeline/coordinator_api.h"
 
@@ -23,23 +21,29 @@ namespace orbweave {
 
 struct CoordinatorOptions {
   std::string state_dir{};
+  /// Whether workers outlive the process of the coordinator. Then what they held when it died is
+  /// given to others only when they did not come back within one lease time.
+  bool leases_survive = true;
   double lease_s =
       20.0;  ///< a worker silent for so long loses its tasks; it beats ten times as often
   RetryPolicy retry{};
-  std::function<absl::StatusOr<JobPlan>(std::string_view kind)> find_plan = FindJobPlan;
+  JobDesk::FindPlan find_plan = FindJobPlan;
+  std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
+      open_journal = OpenJournal;
   /// Told one line per event ("task failed stage=... part=... worker=..."); may be empty. Must be
   /// quick.
   std::function<void(const std::string& line)> log{};
 };
 
-/// The coordinator: gives tasks to workers that ask, takes each result once, and remembers both
-/// results and jobs in `state_dir`. Opened again on the same folder it goes on where it was: a task
-/// whose result and blobs are there is not computed again. Thread-safe; see CoordinatorApi for the
-/// contract of each call.
+/// The coordinator: gives tasks to workers that ask, takes each result once, and remembers jobs,
+/// leases and results. A lease is durable before it is handed out, a result before it is
+/// acknowledged. Opened again on the same state it goes on where it was: a task whose result and
+/// blobs are there is not computed again. Thread-safe; see CoordinatorApi for the contract of each
+/// call.
 class Coordinator final : public CoordinatorApi {
  public:
-  /// FailedPrecondition: the folder is in use by another coordinator. `clock` outlives the
-  /// coordinator.
+  /// FailedPrecondition: the state is in use by another coordinator, or of another version.
+  /// DataLoss: it is damaged. `clock` outlives the coordinator.
   [[nodiscard]] static absl::StatusOr<std::unique_ptr<Coordinator>> Open(
       const CoordinatorOptions& options, const Clock& clock);
   ~Coordinator() override;
@@ -79,40 +83,18 @@ class Coordinator final : public CoordinatorApi {
   void BeginShutdown();
 
  private:
-  struct Job {
-    uint64_t number = 0;
-    uint64_t run =
-        0;  ///< which run of the job the machine is: results prepared for another are dropped
-    bool verify = true;
-    bool saved = true;  ///< its end is on disk
-    uint32_t reruns = 0;
-    std::unique_ptr<JobMachine> machine{};
-  };
-
   Coordinator(const CoordinatorOptions& options,
               const Clock& clock,
               StateLock lock,
               BlobStore blobs,
               std::unique_ptr<Journal> journal);
-  [[nodiscard]] absl::Status ResumeJobs();
-
-  // All of these with mutex_ held.
-  [[nodiscard]] Job* FindJob(const Digest& id);
-  void StartRun(Job& job, const JobSpec& spec, JobPlan plan);
-  [[nodiscard]] std::optional<Lease> GrantNext(uint64_t session, uint32_t slot);
-  [[nodiscard]] bool WasDoneBy(const Lease& lease) const;
-  void EndAttempt(const LeaseEntry& entry, const absl::Status& error);
-  void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason);
-  void ExpireLeases();
+  /// Writes a lease down; only then it may leave the house.
+  [[nodiscard]] absl::StatusOr<Lease> HandOut(uint64_t session, const Grant& grant);
+  /// What `look` says of a job, with the lock. NotFound: there is no such job.
+  template <typename Look>
+  [[nodiscard]] auto LookAt(const Digest& job, Look&& look)
+      -> absl::StatusOr<decltype(look(std::declval<const Job&>()))>;
   void WakeAll();
-  void Log(const std::string& line) const;
-  [[nodiscard]] std::optional<Digest> JobToPlan() const;
-  [[nodiscard]] std::optional<Digest> JobToSave() const;
-
-  // The planner thread.
-  void RunPlanner(std::stop_token stop);
-  void PlanNextStage(const Digest& id);
-  void SaveEnd(const Digest& id);
 
   CoordinatorOptions options_;
   const Clock& clock_;
@@ -120,19 +102,12 @@ class Coordinator final : public CoordinatorApi {
   BlobStore blobs_;
   std::unique_ptr<Journal> journal_;
 
-  std::mutex saving_mutex_;  ///< one writer of job files at a time; taken before mutex_
   std::mutex mutex_;
-  std::condition_variable_any changed_;  ///< a task may be ready, or the end is near
-  std::condition_variable_any to_plan_;
-  std::map<Digest, Job> jobs_;
-  std::map<uint64_t, Digest> order_;  ///< jobs by number: the oldest is served first
-  LeaseBook book_;
-  WorkerRoster roster_;
-  uint64_t last_epoch_;
-  uint64_t last_session_;
-  uint64_t last_run_ = 0;
+  std::condition_variable changed_;  ///< a task may be ready, or the end is near
+  Dispatcher dispatcher_;
   bool stopping_ = false;
-  std::jthread planner_;  ///< last: ends before what it uses
+  JobDesk desk_;
+  Planner planner_;  ///< last: ends before what it uses
 };
 
 }  // namespace orbweave

@@ -38,7 +38,8 @@ grpc::Status ReaderLeft() { return {grpc::StatusCode::CANCELLED, "the reader lef
 }  // namespace
 
 grpc::Status GrpcService::Join(Context*, const v1::JoinRequest* request, v1::JoinReply* reply) {
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JoinReply joined, api_.Join(FromProto(*request)));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const WorkerInfo worker, FromProto(*request));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JoinReply joined, api_.Join(worker));
   *reply = ToProto(joined);
   return grpc::Status::OK;
 }

@@ -80,6 +80,12 @@ std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
   return TaskRef{number, nobodys ? *nobodys : *somebodys};
 }
 
+std::optional<TaskRef> JobMachine::FindReady(const Digest& task) const {
+  const auto it = refs_.find(task);
+  if (it == refs_.end() || !runs_[it->second.run].ready.contains(it->second.part)) return {};
+  return it->second;
+}
+
 bool JobMachine::WasDoneBy(const Digest& task, uint64_t epoch) const {
   const auto it = refs_.find(task);
   return it != refs_.end() && Task(it->second).done && Task(it->second).holder.epoch == epoch;

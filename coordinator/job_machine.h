@@ -62,6 +62,8 @@ class JobMachine {
   [[nodiscard]] std::optional<TaskRef> NextReady(const std::string& worker,
                                                  const std::vector<std::string>& alive,
                                                  double now_s) const;
+  /// Where a task is, while it is ready.
+  [[nodiscard]] std::optional<TaskRef> FindReady(const Digest& task) const;
   /// Whether this very attempt is the one whose result was taken.
   [[nodiscard]] bool WasDoneBy(const Digest& task, uint64_t epoch) const;
 

@@ -7,6 +7,11 @@
 
 namespace orbweave {
 
+absl::Status StaleLease(uint64_t epoch, const Digest& task) {
+  return absl::FailedPreconditionError(absl::StrCat(
+      "stale lease of task ", task.ToShortHex(), " (epoch ", epoch, "): it was given away"));
+}
+
 const LeaseEntry* LeaseBook::Renew(uint64_t epoch,
                                    const Digest& task,
                                    uint64_t session,
@@ -21,8 +26,7 @@ const LeaseEntry* LeaseBook::Renew(uint64_t epoch,
 absl::StatusOr<LeaseEntry> LeaseBook::Take(uint64_t epoch, const Digest& task, uint64_t session) {
   const auto it = entries_.find(epoch);
   if (it == entries_.end() || it->second.task != task || it->second.session != session) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        "stale lease of task ", task.ToShortHex(), " (epoch ", epoch, "): it was given away"));
+    return StaleLease(epoch, task);
   }
   const LeaseEntry entry = it->second;
   entries_.erase(it);
@@ -48,8 +52,31 @@ std::vector<LeaseEntry> LeaseBook::TakeSession(uint64_t session) {
   return TakeIf([session](const LeaseEntry& entry) { return entry.session == session; });
 }
 
-void LeaseBook::DropJob(const Digest& job) {
-  std::erase_if(entries_, [&job](const auto& item) { return item.second.job == job; });
+std::vector<LeaseEntry> LeaseBook::TakeJob(const Digest& job) {
+  return TakeIf([&job](const LeaseEntry& entry) { return entry.job == job; });
+}
+
+std::vector<LeaseEntry> LeaseBook::Adopt(std::string_view worker,
+                                         const std::vector<LeaseProgress>& held,
+                                         uint64_t session,
+                                         double until_s) {
+  for (const LeaseProgress& lease : held) {
+    const auto it = entries_.find(lease.epoch);
+    if (it == entries_.end() || it->second.task != lease.task || it->second.worker != worker)
+      continue;
+    it->second.session = session;
+    it->second.until_s = until_s;
+  }
+  return TakeIf(
+      [&](const LeaseEntry& entry) { return entry.worker == worker && entry.session != session; });
+}
+
+std::vector<LeaseEntry*> LeaseBook::AwaitingPlace(const Digest& job) {
+  std::vector<LeaseEntry*> entries;
+  for (auto& [epoch, entry] : entries_) {
+    if (!entry.ref && entry.job == job) entries.push_back(&entry);
+  }
+  return entries;
 }
 
 }  // namespace orbweave

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "coordinator/job_machine.h"
@@ -15,10 +18,16 @@ struct LeaseEntry {
   uint64_t epoch = 0;
   Digest task{};
   Digest job{};
-  TaskRef ref{};
-  uint64_t session = 0;
+  std::optional<TaskRef>
+      ref{};  ///< nothing: of an earlier generation, its stage is not planned yet
+  std::string worker{};
+  uint32_t slot = 0;
+  uint64_t session = 0;  ///< 0: of an earlier generation, its holder has not come back yet
   double until_s = 0.0;
 };
+
+/// FailedPrecondition: whoever comes under this lease comes too late.
+[[nodiscard]] absl::Status StaleLease(uint64_t epoch, const Digest& task);
 
 /// The leases that are out. A lease is named by its epoch, which is never given twice: whoever
 /// comes with an epoch that is not in the book is late. Pure bookkeeping: time is handed in. Not
@@ -35,10 +44,19 @@ class LeaseBook {
                                                 const Digest& task,
                                                 uint64_t session);
 
+  /// A worker begins a session: those of its leases that it lists are of this session now and end
+  /// at `until_s`; its others are struck out and returned.
+  [[nodiscard]] std::vector<LeaseEntry> Adopt(std::string_view worker,
+                                              const std::vector<LeaseProgress>& held,
+                                              uint64_t session,
+                                              double until_s);
+  /// Leases of a job without a place in it; valid until the book changes.
+  [[nodiscard]] std::vector<LeaseEntry*> AwaitingPlace(const Digest& job);
+
   /// Strike out and return, in order of epoch.
   [[nodiscard]] std::vector<LeaseEntry> TakeExpired(double now_s);
   [[nodiscard]] std::vector<LeaseEntry> TakeSession(uint64_t session);
-  void DropJob(const Digest& job);
+  [[nodiscard]] std::vector<LeaseEntry> TakeJob(const Digest& job);
 
  private:
   template <typename Predicate>

@@ -7,17 +7,13 @@
 
 namespace orbweave {
 
-std::optional<uint64_t> WorkerRoster::Join(const WorkerInfo& worker,
-                                           uint64_t session,
-                                           double now_s) {
+void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s) {
   Record& record = records_[worker.name];
-  const uint64_t replaced = record.session;
-  if (replaced != 0) names_.erase(replaced);
+  names_.erase(record.session);
   record.session = session;
   record.heard_s = now_s;
   record.slots = worker.slots;
   names_[session] = worker.name;
-  return replaced != 0 ? std::optional(replaced) : std::nullopt;
 }
 
 absl::Status WorkerRoster::Hear(uint64_t session, double now_s) {

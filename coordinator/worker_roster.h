@@ -19,8 +19,8 @@ class WorkerRoster {
  public:
   explicit WorkerRoster(double silence_s) : silence_s_(silence_s) {}
 
-  /// Begins session `session` of a worker; returns the session it replaces.
-  std::optional<uint64_t> Join(const WorkerInfo& worker, uint64_t session, double now_s);
+  /// Begins session `session` of a worker, which ends the one it had.
+  void Join(const WorkerInfo& worker, uint64_t session, double now_s);
   /// Notes that a session was heard. NotFound: it is unknown, or over.
   [[nodiscard]] absl::Status Hear(uint64_t session, double now_s);
   /// Ends a session; the worker stays listed as not alive.

@@ -5,10 +5,9 @@
 
 namespace orbweave {
 
-std::stop_token HeldLeases::Add(uint64_t session, const Lease& lease) {
+std::stop_token HeldLeases::Add(const Lease& lease) {
   const std::lock_guard lock(mutex_);
   Held& held = held_[lease.epoch];
-  held.session = session;
   held.progress = {.task = lease.task, .epoch = lease.epoch};
   return held.stop.get_token();
 }
@@ -35,13 +34,6 @@ void HeldLeases::StopTask(const Digest& task) {
   const std::lock_guard lock(mutex_);
   for (auto& [epoch, held] : held_) {
     if (held.progress.task == task) held.stop.request_stop();
-  }
-}
-
-void HeldLeases::StopOtherSessions(uint64_t session) {
-  const std::lock_guard lock(mutex_);
-  for (auto& [epoch, held] : held_) {
-    if (held.session != session) held.stop.request_stop();
   }
 }
 

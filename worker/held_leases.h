@@ -17,19 +17,16 @@ namespace orbweave {
 class HeldLeases {
  public:
   /// The returned token is stopped when the lease is to be given up.
-  [[nodiscard]] std::stop_token Add(uint64_t session, const Lease& lease);
+  [[nodiscard]] std::stop_token Add(const Lease& lease);
   void Report(uint64_t epoch, const Progress& progress);
   void Remove(uint64_t epoch);
 
   [[nodiscard]] std::vector<LeaseProgress> List() const;
   void StopTask(const Digest& task);
-  /// Stops what was leased under other sessions than this one.
-  void StopOtherSessions(uint64_t session);
   void StopAll();
 
  private:
   struct Held {
-    uint64_t session = 0;
     LeaseProgress progress{};
     std::stop_source stop{};
   };

@@ -87,7 +87,7 @@ class Worker {
           api_.LeaseTask(session->session, slot, options_.poll_s);
       if (lease.ok()) {
         backoff = {};
-        if (*lease) Work(session->session, **lease);
+        if (*lease) Work(**lease);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
       } else if (!ending_.stop_requested()) {
@@ -97,9 +97,9 @@ class Worker {
     }
   }
 
-  void Work(uint64_t session, const Lease& lease) {
+  void Work(const Lease& lease) {
     StageContext context;
-    context.stop = leases_.Add(session, lease);
+    context.stop = leases_.Add(lease);
     context.num_threads = options_.threads_per_task;
     context.seed = lease.task.ToSeed();
     context.report = [this, epoch = lease.epoch](const Progress& progress) {
@@ -111,19 +111,31 @@ class Worker {
     const CpuClock cpu_clock = options_.slots == 1 ? CpuClock::kProcess : CpuClock::kThread;
     const absl::StatusOr<TaskResult> result =
         RunTask(stages_, lease.spec, blobs_, context, clock_, cpu_clock);
-    const absl::Status handed_in = result.ok() ? HandIn(session, lease, *result) : result.status();
+    const absl::Status handed_in = result.ok() ? HandIn(lease, *result) : result.status();
     if (!handed_in.ok()) {
       const bool given_up = context.stop.stop_requested();
-      GiveBack(
-          session, lease, given_up ? absl::CancelledError("the worker gave it up") : handed_in);
+      GiveBack(lease, given_up ? absl::CancelledError("the worker gave it up") : handed_in);
     }
     leases_.Remove(lease.epoch);
   }
 
-  /// Hands a result in, through times without a coordinator.
-  absl::Status HandIn(uint64_t session, const Lease& lease, const TaskResult& result) {
-    const absl::Status status = RetryWhileUnavailable(
-        ending_.get_token(), [&] { return api_.CompleteTask(session, lease, result); });
+  /// Calls `call(session)` through times without a coordinator; joins again when it was restarted.
+  template <typename Call>
+  absl::Status InSession(Call&& call) {
+    while (true) {
+      const absl::StatusOr<JoinReply> session = session_.Get(ending_.get_token());
+      if (!session.ok()) return session.status();
+      const absl::Status status =
+          RetryWhileUnavailable(ending_.get_token(), [&] { return call(session->session); });
+      if (!absl::IsNotFound(status)) return status;
+      session_.Forget(session->session);
+    }
+  }
+
+  /// Hands a result in.
+  absl::Status HandIn(const Lease& lease, const TaskResult& result) {
+    const absl::Status status =
+        InSession([&](uint64_t session) { return api_.CompleteTask(session, lease, result); });
     if (status.ok())
       Log(absl::StrCat("task done ", DescribeLease(lease), " wall_s=", result.cost.wall_s));
     return status;
@@ -131,10 +143,9 @@ class Worker {
 
   /// Tells the coordinator why there is no result. A lease that is no longer ours is not its
   /// business.
-  void GiveBack(uint64_t session, const Lease& lease, const absl::Status& error) {
+  void GiveBack(const Lease& lease, const absl::Status& error) {
     Log(absl::StrCat("task not done ", DescribeLease(lease), " reason=\"", error.ToString(), "\""));
-    (void)RetryWhileUnavailable(ending_.get_token(),
-                                [&] { return api_.FailTask(session, lease, error); });
+    (void)InSession([&](uint64_t session) { return api_.FailTask(session, lease, error); });
   }
 
   void BeatUntilEnd() {

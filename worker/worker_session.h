@@ -21,7 +21,7 @@ class WorkerSession {
   /// Unavailable. Cancelled: stopped before it could join. FailedPrecondition: the coordinator does
   /// not want this worker.
   [[nodiscard]] absl::StatusOr<JoinReply> Get(const std::stop_token& stop);
-  /// `session` is over: the next Get joins again, and tasks leased under it are stopped then.
+  /// `session` is over: the next Get joins again, with the leases that are held then.
   void Forget(uint64_t session);
   /// Leaves, when there is a session to leave.
   void Leave();

@@ -74,10 +74,18 @@ struct JobStatus {
   std::vector<WorkerStatus> workers{};
 };
 
+/// A lease that a worker holds, and how far its task is.
+struct LeaseProgress {
+  Digest task{};
+  uint64_t epoch = 0;
+  Progress progress{};
+};
+
 struct WorkerInfo {
   std::string name{};     ///< unique among workers
   std::string version{};  ///< build version; another one than the coordinator's is refused
   uint32_t slots = 1;
+  std::vector<LeaseProgress> held{};  ///< leases of its last session that it goes on with
 };
 
 struct JoinReply {
@@ -93,12 +101,6 @@ struct Lease {
   uint32_t slot = 0;
 };
 
-struct LeaseProgress {
-  Digest task{};
-  uint64_t epoch = 0;
-  Progress progress{};
-};
-
 struct HeartbeatReply {
   std::vector<Digest> cancelled{};  ///< leases to give up
   bool shutdown = false;            ///< finish nothing more; leave
@@ -109,8 +111,9 @@ struct HeartbeatReply {
 /// Unavailable (connection; try again).
 class CoordinatorApi : public BlobAccess {
  public:
-  /// FailedPrecondition: another version. A known name begins a new session and voids the old one's
-  /// leases.
+  /// FailedPrecondition: another version. A known name begins a new session; the worker goes on
+  /// with the leases it lists (the next heartbeat tells which are not its own any more), and its
+  /// others are void.
   [[nodiscard]] virtual absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) = 0;
   /// A task to do, or nullopt when none became ready within wait_s. NotFound: unknown session (join
   /// again).
@@ -120,12 +123,13 @@ class CoordinatorApi : public BlobAccess {
   /// Renews the leases listed. NotFound: unknown session.
   [[nodiscard]] virtual absl::StatusOr<HeartbeatReply> Heartbeat(
       uint64_t session, const std::vector<LeaseProgress>& leases) = 0;
-  /// FailedPrecondition: stale epoch, the result was not taken (harmless).
+  /// FailedPrecondition: stale epoch, the result was not taken (harmless). NotFound: unknown
+  /// session (join again).
   [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session,
                                                   const Lease& lease,
                                                   const TaskResult& result) = 0;
   /// InvalidArgument and FailedPrecondition errors are permanent and fail the job; Cancelled gives
-  /// the task back; others are retried.
+  /// the task back; others are retried. Answers as CompleteTask.
   [[nodiscard]] virtual absl::Status FailTask(uint64_t session,
                                               const Lease& lease,
                                               const absl::Status& error) = 0;

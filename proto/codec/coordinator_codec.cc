@@ -235,11 +235,16 @@ v1::JoinRequest ToProto(const WorkerInfo& worker) {
   proto.set_name(worker.name);
   proto.set_version(worker.version);
   proto.set_slots(worker.slots);
+  for (const LeaseProgress& lease : worker.held) *proto.add_held() = ToProto(lease);
   return proto;
 }
 
-WorkerInfo FromProto(const v1::JoinRequest& proto) {
-  return {.name = proto.name(), .version = proto.version(), .slots = proto.slots()};
+absl::StatusOr<WorkerInfo> FromProto(const v1::JoinRequest& proto) {
+  WorkerInfo worker{.name = proto.name(), .version = proto.version(), .slots = proto.slots()};
+  for (const v1::LeaseProgress& lease : proto.held()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(worker.held.emplace_back(), FromProto(lease));
+  }
+  return worker;
 }
 
 v1::JoinReply ToProto(const JoinReply& reply) {

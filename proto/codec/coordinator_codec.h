@@ -37,7 +37,7 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<JobState> JobStateFromProto(uint32_t state);
 
 [[nodiscard]] v1::JoinRequest ToProto(const WorkerInfo& worker);
-[[nodiscard]] WorkerInfo FromProto(const v1::JoinRequest& proto);
+[[nodiscard]] absl::StatusOr<WorkerInfo> FromProto(const v1::JoinRequest& proto);
 [[nodiscard]] v1::JoinReply ToProto(const JoinReply& reply);
 [[nodiscard]] JoinReply FromProto(const v1::JoinReply& proto);
 [[nodiscard]] v1::Lease ToProto(const Lease& lease);

@@ -48,8 +48,9 @@ class CoordinatorTest : public ::testing::Test {
             .find_plan = FindToyPlan};
   }
 
-  uint64_t Join(const std::string& name) {
-    return coordinator_->Join({.name = name, .version = std::string(BuildVersion())})->session;
+  uint64_t Join(const std::string& name, const std::vector<LeaseProgress>& held = {}) {
+    return coordinator_->Join({.name = name, .version = std::string(BuildVersion()), .held = held})
+        ->session;
   }
 
   Digest Submit(const std::string& numbers) {
@@ -138,7 +139,8 @@ TEST_F(CoordinatorTest, AWorkerThatRejoinsLosesItsOldLeasesAtOnce) {
   const Lease lease = MustLease(old_session);
   const uint64_t new_session = Join("w");
   EXPECT_TRUE(absl::IsNotFound(coordinator_->Heartbeat(old_session, {}).status()));
-  EXPECT_TRUE(absl::IsFailedPrecondition(Do(old_session, lease)));
+  EXPECT_TRUE(absl::IsNotFound(Do(old_session, lease))) << "join again";
+  EXPECT_TRUE(absl::IsFailedPrecondition(Do(new_session, lease)));
   clock_.Advance(1.5);
   EXPECT_EQ(MustLease(new_session).task, lease.task);
 }
@@ -175,8 +177,11 @@ TEST_F(CoordinatorTest, StartedAgainInTheMiddleItGoesOnByItself) {
   const Lease lost = MustLease(session);
   Restart();
   EXPECT_TRUE(absl::IsNotFound(coordinator_->Heartbeat(session, {}).status()));
-  EXPECT_TRUE(absl::IsFailedPrecondition(coordinator_->CompleteTask(session, lost, {})));
-  EXPECT_EQ(DoAll(Join("w")), 3);  // two squares and the sum
+  EXPECT_TRUE(absl::IsNotFound(coordinator_->CompleteTask(session, lost, {})));
+  const uint64_t anew = Join("w");  // the process started anew, too: it lists nothing
+  EXPECT_TRUE(absl::IsFailedPrecondition(coordinator_->CompleteTask(anew, lost, {})));
+  clock_.Advance(1.5);
+  EXPECT_EQ(DoAll(anew), 3);  // two squares and the sum
   EXPECT_EQ(WaitForEnd(*coordinator_, job)->state, JobState::kDone);
   EXPECT_EQ(*ToyAnswer(*coordinator_, job), "14");
 }

@@ -14,6 +14,8 @@ LeaseEntry Entry(uint64_t epoch, uint64_t session, double until_s) {
   return {.epoch = epoch,
           .task = kTask,
           .job = DigestOf("job"),
+          .ref = TaskRef{},
+          .worker = "w",
           .session = session,
           .until_s = until_s};
 }
@@ -53,8 +55,40 @@ TEST(LeaseBook, VoidsASessionOrAJobWhole) {
   book.Grant(Entry(2, 11, 5.0));
   book.Grant(Entry(3, 10, 5.0));
   EXPECT_EQ(book.TakeSession(10).size(), 2U);
-  book.DropJob(DigestOf("job"));
+  EXPECT_EQ(book.TakeJob(DigestOf("job")).size(), 1U);
   EXPECT_TRUE(book.TakeSession(11).empty());
+}
+
+TEST(LeaseBook, AWorkerThatJoinsKeepsWhatItListsAndNothingElse) {
+  LeaseBook book;
+  book.Grant(Entry(1, 10, 5.0));
+  book.Grant(Entry(2, 0, 5.0));
+  book.Grant(Entry(3, 0, 5.0));
+  LeaseEntry of_another = Entry(4, 0, 5.0);
+  of_another.worker = "other";
+  book.Grant(of_another);
+  const std::vector<LeaseEntry> lost =
+      book.Adopt("w", {{kTask, 2, {}}, {DigestOf("other"), 3, {}}, {kTask, 4, {}}}, 11, 9.0);
+  ASSERT_EQ(lost.size(), 2U);
+  EXPECT_EQ(lost[0].epoch, 1U);
+  EXPECT_EQ(lost[1].epoch, 3U);
+  EXPECT_TRUE(absl::IsFailedPrecondition(book.Take(4, kTask, 11).status()));
+  EXPECT_EQ(book.TakeExpired(6.0).size(), 1U) << "the other worker's";
+  EXPECT_TRUE(book.Take(2, kTask, 11).ok());
+}
+
+TEST(LeaseBook, FindsLeasesThatHaveNoPlaceInTheirJobYet) {
+  LeaseBook book;
+  book.Grant(Entry(1, 10, 5.0));
+  LeaseEntry awaited = Entry(2, 0, 5.0);
+  awaited.ref.reset();
+  book.Grant(awaited);
+  EXPECT_TRUE(book.AwaitingPlace(DigestOf("other job")).empty());
+  const std::vector<LeaseEntry*> found = book.AwaitingPlace(DigestOf("job"));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0]->epoch, 2U);
+  found[0]->ref = TaskRef{0, 1};
+  EXPECT_TRUE(book.AwaitingPlace(DigestOf("job")).empty());
 }
 
 }  // namespace

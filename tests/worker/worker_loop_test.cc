@@ -201,5 +201,38 @@ TEST_F(WorkerLoopTest, OutlastsACoordinatorThatIsStartedAgain) {
   coordinator->BeginShutdown();
 }
 
+TEST_F(WorkerLoopTest, GoesOnWithItsTaskWhenTheCoordinatorIsStartedAgain) {
+  const std::string address = "unix:" + (folder_ / "s");
+  auto coordinator = OpenCoordinator(folder_ / "state", clock_);
+  auto server = *GrpcServer::Start(*coordinator, address);
+  std::stop_source stop;
+  GrpcCoordinatorClient client(address, stop.get_token());
+  std::atomic<int> attempts{0};
+  std::atomic<bool> may_end{false};
+  testing::StageMap stages = ToyStages();
+  stages["square"] = [&](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    ++attempts;
+    WaitUntil([&] { return may_end || context.stop.stop_requested(); }, 60.0);
+    return testing::Square(spec, blobs, context);
+  };
+  RunningWorker worker(client, stages, "w");
+  const Digest job = Submit(*coordinator, "7");
+  ASSERT_TRUE(WaitUntil([&] { return attempts == 1; }, 20.0));
+  server.reset();  // as if the process had died: nobody is told
+  coordinator.reset();
+  coordinator = OpenCoordinator(folder_ / "state", clock_);
+  server = *GrpcServer::Start(*coordinator, address);
+  const auto is_squaring = [&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; };
+  ASSERT_TRUE(WaitUntil(is_squaring, 20.0));
+  may_end = true;
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator, job), "49");
+  EXPECT_EQ(attempts.load(), 1);
+  worker.RequestStop();
+  stop.request_stop();
+  EXPECT_TRUE(worker.Join().ok());
+  coordinator->BeginShutdown();
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/dispatcher.h"
+
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace orbweave {
+namespace {
+
+/// How often a job starts over because a blob it had made is gone.
+constexpr uint32_t kMaxReruns = 3;
+
+uint64_t FirstOfGeneration(uint64_t generation) { return generation << 32; }
+
+}  // namespace
+
+Dispatcher::Dispatcher(DispatcherOptions options, uint64_t generation)
+    : options_(std::move(options)),
+      roster_(options_.lease_s),
+      last_epoch_(FirstOfGeneration(generation)),
+      last_session_(FirstOfGeneration(generation)) {}
+
+Job& Dispatcher::BeginJob(const JobSpec& spec, JobPlan plan, uint64_t number, double now_s) {
+  VoidLeases(spec.Id(), "the job began anew");
+  Job& job = jobs_.Begin(spec, std::move(plan), number, options_.retry, now_s);
+  options_.changed();
+  return job;
+}
+
+void Dispatcher::CancelJob(const Digest& id, double now_s) {
+  jobs_.At(id).machine->JobIsCancelled(now_s);
+  if (!jobs_.At(id).IsRunning()) VoidLeases(id, "the job was cancelled");
+}
+
+uint64_t Dispatcher::Join(const WorkerInfo& worker, double now_s) {
+  const uint64_t session = ++last_session_;
+  roster_.Join(worker, session, now_s);
+  EndAttempts(book_.Adopt(worker.name, worker.held, session, now_s + options_.lease_s),
+              absl::StrCat("worker ", worker.name, " started anew"),
+              now_s);
+  Log(absl::StrCat("worker joined worker=",
+                   worker.name,
+                   " slots=",
+                   worker.slots,
+                   " leases=",
+                   worker.held.size()));
+  return session;
+}
+
+void Dispatcher::Leave(uint64_t session, double now_s) {
+  for (const LeaseEntry& entry : book_.TakeSession(session)) {
+    EndAttempt(entry, absl::CancelledError("its worker left"), now_s);
+  }
+  if (const std::string name = roster_.NameOf(session); !name.empty())
+    Log("worker left worker=" + name);
+  roster_.End(session);
+}
+
+void Dispatcher::WorkerDied(std::string_view name, double now_s) {
+  const std::optional<uint64_t> session = roster_.SessionOf(name);
+  if (!session) return;
+  EndAttempts(book_.TakeSession(*session),
+              absl::StrCat("the process of worker ", std::string(name), " ended"),
+              now_s);
+  roster_.End(*session);
+}
+
+std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, double now_s) {
+  const std::string worker = roster_.NameOf(session);
+  const std::vector<std::string> alive = roster_.Alive(now_s);
+  for (const auto& [number, id] : jobs_.order()) {
+    JobMachine& machine = *jobs_.At(id).machine;
+    const std::optional<TaskRef> ref = machine.NextReady(worker, alive, now_s);
+    if (!ref) continue;
+    const Lease lease{machine.TaskId(*ref), ++last_epoch_, machine.Spec(*ref), slot};
+    machine.TaskLeased(*ref, {lease.epoch, worker, slot}, now_s);
+    book_.Grant({.epoch = lease.epoch,
+                 .task = lease.task,
+                 .job = id,
+                 .ref = *ref,
+                 .worker = worker,
+                 .slot = slot,
+                 .session = session,
+                 .until_s = now_s + options_.lease_s});
+    return Grant{lease, {lease.epoch, lease.task, id, lease.spec.stage, ref->part, worker, slot}};
+  }
+  return std::nullopt;
+}
+
+void Dispatcher::Await(const Attempt& attempt, double now_s) {
+  book_.Grant({.epoch = attempt.epoch,
+               .task = attempt.task,
+               .job = attempt.job,
+               .worker = attempt.worker,
+               .slot = attempt.slot,
+               .until_s = now_s + options_.lease_s});
+}
+
+absl::StatusOr<HeartbeatReply> Dispatcher::Heartbeat(uint64_t session,
+                                                     const std::vector<LeaseProgress>& leases,
+                                                     double now_s) {
+  ExpireLeases(now_s);
+  ORBWEAVE_RETURN_IF_ERROR(roster_.Hear(session, now_s));
+  HeartbeatReply reply;
+  for (const LeaseProgress& held : leases) {
+    const LeaseEntry* entry = book_.Renew(held.epoch, held.task, session, now_s + options_.lease_s);
+    if (entry == nullptr) {
+      reply.cancelled.push_back(held.task);
+    } else if (entry->ref) {
+      jobs_.At(entry->job).machine->TaskProgressed(*entry->ref, held.progress);
+    }
+  }
+  return reply;
+}
+
+absl::Status Dispatcher::Hold(uint64_t session, const Lease& lease, double now_s) {
+  ExpireLeases(now_s);
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  if (book_.Renew(lease.epoch, lease.task, session, kNoEnd) != nullptr) return absl::OkStatus();
+  return StaleLease(lease.epoch, lease.task);
+}
+
+void Dispatcher::LetGo(uint64_t session, const Lease& lease, double now_s) {
+  book_.Renew(lease.epoch, lease.task, session, now_s + options_.lease_s);
+}
+
+absl::Status Dispatcher::TaskDone(uint64_t session,
+                                  const Lease& lease,
+                                  const TaskResult& result,
+                                  double now_s) {
+  const absl::StatusOr<LeaseEntry> entry = book_.Take(lease.epoch, lease.task, session);
+  if (!entry.ok()) return jobs_.WasDoneBy(lease) ? absl::OkStatus() : entry.status();
+  if (entry->ref) {
+    jobs_.At(entry->job).machine->TaskDone(*entry->ref, result, now_s);
+  } else {
+    ++early_results_;
+  }
+  roster_.CountTask(session);
+  options_.changed();
+  return absl::OkStatus();
+}
+
+absl::Status Dispatcher::TaskFailed(uint64_t session,
+                                    const Lease& lease,
+                                    const absl::Status& error,
+                                    double now_s) {
+  ExpireLeases(now_s);
+  ORBWEAVE_ASSIGN_OR_RETURN(const LeaseEntry entry, book_.Take(lease.epoch, lease.task, session));
+  EndAttempt(entry, error, now_s);
+  return absl::OkStatus();
+}
+
+void Dispatcher::EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s) {
+  ends_.push_back({entry.epoch, std::string(error.message())});
+  Log(absl::StrCat("task not done job=",
+                   entry.job.ToShortHex(),
+                   " task=",
+                   entry.task.ToShortHex(),
+                   " worker=",
+                   entry.worker,
+                   " reason=\"",
+                   error.message(),
+                   "\""));
+  if (entry.ref && jobs_.At(entry.job).IsRunning()) FailOrBeginAnew(entry, error, now_s);
+  options_.changed();
+}
+
+void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s) {
+  Job& job = jobs_.At(entry.job);
+  const bool input_lost = ClassifyFailure(error.code()) == FailureClass::kInputLost;
+  if (input_lost && job.reruns < kMaxReruns) {
+    ++job.reruns;
+    job.verify = true;
+    BeginJob(JobSpec(job.machine->spec()), JobPlan(job.machine->plan()), job.number, now_s);
+    return;
+  }
+  job.machine->TaskFailed(*entry.ref, error, now_s);
+  if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
+}
+
+void Dispatcher::EndAttempts(const std::vector<LeaseEntry>& entries,
+                             const std::string& reason,
+                             double now_s) {
+  for (const LeaseEntry& entry : entries) EndAttempt(entry, absl::UnavailableError(reason), now_s);
+}
+
+void Dispatcher::VoidLeases(const Digest& job, const std::string& reason) {
+  for (const LeaseEntry& entry : book_.TakeJob(job)) ends_.push_back({entry.epoch, reason});
+}
+
+void Dispatcher::ExpireLeases(double now_s) {
+  for (const LeaseEntry& entry : book_.TakeExpired(now_s)) {
+    const bool came_back = entry.session != 0;
+    EndAttempt(entry,
+               came_back
+                   ? absl::UnavailableError(absl::StrCat("worker ", entry.worker, " went silent"))
+                   : absl::CancelledError(absl::StrCat(
+                         "worker ", entry.worker, " did not come back after a restart")),
+               now_s);
+  }
+}
+
+void Dispatcher::StageBegins(const Digest& id, PreparedStage prepared, double now_s) {
+  JobMachine& machine = *jobs_.At(id).machine;
+  machine.StageBegins(std::move(prepared.tasks), std::move(prepared.found), now_s);
+  for (LeaseEntry* entry : book_.AwaitingPlace(id)) {
+    const std::optional<TaskRef> ref = machine.FindReady(entry->task);
+    if (!ref) continue;
+    entry->ref = ref;
+    machine.TaskLeased(*ref, {entry->epoch, entry->worker, entry->slot}, now_s);
+  }
+  options_.changed();
+}
+
+void Dispatcher::JobFails(const Digest& id, const std::string& error, double now_s) {
+  jobs_.At(id).machine->JobFails(error, now_s);
+  VoidLeases(id, "the job failed");
+  options_.changed();
+}
+
+void Dispatcher::Log(const std::string& line) const {
+  if (options_.log) options_.log(line);
+}
+
+}  // namespace orbweave

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "coordinator/job_table.h"
+#include "coordinator/journal.h"
+#include "coordinator/lease_book.h"
+#include "coordinator/worker_roster.h"
+
+namespace orbweave {
+
+struct DispatcherOptions {
+  double lease_s = 20.0;  ///< a worker silent for so long loses its tasks
+  RetryPolicy retry{};
+  std::function<void(const std::string& line)> log{};  ///< may be empty
+  std::function<void()> changed{};  ///< called when there may be something new to do
+};
+
+/// A task given to a worker: what the worker gets, and what the journal keeps.
+struct Grant {
+  Lease lease{};
+  Attempt attempt{};
+};
+
+/// What a coordinator knows: jobs, who works on which task until when, and which attempts ended
+/// since that was last saved. Pure bookkeeping: time is handed in, nothing is read or written. Not
+/// thread-safe.
+class Dispatcher {
+ public:
+  /// `generation`: the high half of the epochs and sessions given out.
+  Dispatcher(DispatcherOptions options, uint64_t generation);
+
+  [[nodiscard]] JobTable& jobs() { return jobs_; }
+  [[nodiscard]] WorkerRoster& roster() { return roster_; }
+  /// Lets a job begin (anew): what was leased of it before is void.
+  Job& BeginJob(const JobSpec& spec, JobPlan plan, uint64_t number, double now_s);
+  void CancelJob(const Digest& id, double now_s);
+
+  /// Begins a session. The worker goes on with the leases it lists; others it had are void.
+  [[nodiscard]] uint64_t Join(const WorkerInfo& worker, double now_s);
+  void Leave(uint64_t session, double now_s);
+  void WorkerDied(std::string_view name, double now_s);
+
+  [[nodiscard]] std::optional<Grant> GrantNext(uint64_t session, uint32_t slot, double now_s);
+  /// A lease of an earlier generation, whose holder has one lease time to come back.
+  void Await(const Attempt& attempt, double now_s);
+  /// See CoordinatorApi::Heartbeat.
+  [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(uint64_t session,
+                                                         const std::vector<LeaseProgress>& leases,
+                                                         double now_s);
+  /// Keeps a lease from ending while its result is saved. FailedPrecondition: it ended before.
+  [[nodiscard]] absl::Status Hold(uint64_t session, const Lease& lease, double now_s);
+  /// The result of a lease that was held could not be saved: it may be handed in again.
+  void LetGo(uint64_t session, const Lease& lease, double now_s);
+  /// The result of a lease that was held is saved. FailedPrecondition: the job went on without.
+  [[nodiscard]] absl::Status TaskDone(uint64_t session,
+                                      const Lease& lease,
+                                      const TaskResult& result,
+                                      double now_s);
+  [[nodiscard]] absl::Status TaskFailed(uint64_t session,
+                                        const Lease& lease,
+                                        const absl::Status& error,
+                                        double now_s);
+  void ExpireLeases(double now_s);
+
+  /// The stage that was prepared begins; tasks whose leases were awaited go on under them.
+  void StageBegins(const Digest& id, PreparedStage prepared, double now_s);
+  void JobFails(const Digest& id, const std::string& error, double now_s);
+  /// How many results came of awaited leases before their stage was planned: a stage prepared
+  /// before the last of them may have missed it.
+  [[nodiscard]] uint64_t early_results() const { return early_results_; }
+
+  [[nodiscard]] bool HasEnds() const { return !ends_.empty(); }
+  [[nodiscard]] std::vector<AttemptEnd> TakeEnds() { return std::exchange(ends_, {}); }
+  void Log(const std::string& line) const;
+
+ private:
+  void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
+  void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
+  void VoidLeases(const Digest& job, const std::string& reason);
+  void FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s);
+
+  DispatcherOptions options_;
+  JobTable jobs_;
+  LeaseBook book_;
+  WorkerRoster roster_;
+  std::vector<AttemptEnd> ends_;
+  uint64_t last_epoch_;
+  uint64_t last_session_;
+  uint64_t early_results_ = 0;
+};
+
+}  // namespace orbweave

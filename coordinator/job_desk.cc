@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/job_desk.h"
+
+#include <map>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace orbweave {
+
+absl::Status JobDesk::Resume(bool leases_survive) {
+  ORBWEAVE_RETURN_IF_ERROR(ResumeJobs());
+  return ResumeAttempts(leases_survive);
+}
+
+absl::Status JobDesk::ResumeJobs() {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> entries, journal_.LoadJobs());
+  const std::lock_guard lock(mutex_);
+  for (const JobEntry& entry : entries) {
+    absl::StatusOr<JobPlan> plan = find_plan_(entry.spec.kind);
+    if (!plan.ok()) continue;  // of a build that knew more kinds
+    const double now_s = clock_.NowSeconds();
+    Job& job = dispatcher_.BeginJob(entry.spec, *std::move(plan), entry.number, now_s);
+    job.verify = entry.state == JobState::kRunning;
+    if (entry.state == JobState::kFailed) job.machine->JobFails(entry.error, now_s);
+    if (entry.state == JobState::kCancelled) job.machine->JobIsCancelled(now_s);
+    job.is_saved = entry.state != JobState::kRunning;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status JobDesk::ResumeAttempts(bool leases_survive) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Attempt> open, journal_.LoadOpenAttempts());
+  std::map<std::pair<Digest, Digest>, uint64_t> newest;  // epoch by job and task
+  for (const Attempt& attempt : open) newest[{attempt.job, attempt.task}] = attempt.epoch;
+  std::vector<AttemptEnd> ended;
+  const std::lock_guard lock(mutex_);
+  for (const Attempt& attempt : open) {
+    const Job* job = dispatcher_.jobs().Find(attempt.job);
+    const bool is_newest = newest.at({attempt.job, attempt.task}) == attempt.epoch;
+    if (leases_survive && is_newest && job != nullptr && job->IsRunning()) {
+      dispatcher_.Await(attempt, clock_.NowSeconds());
+    } else {
+      ended.push_back({attempt.epoch, "the coordinator was started again"});
+    }
+  }
+  return ended.empty() ? absl::OkStatus() : journal_.SaveEnds(ended);
+}
+
+absl::StatusOr<Digest> JobDesk::Submit(const JobSpec& spec) {
+  absl::StatusOr<JobPlan> plan = find_plan_(spec.kind);
+  if (!plan.ok()) return absl::InvalidArgumentError(plan.status().message());
+  const Digest id = spec.Id();
+  const std::lock_guard saving(saving_mutex_);
+  std::unique_lock lock(mutex_);
+  JobTable& jobs = dispatcher_.jobs();
+  const Job* known = jobs.Find(id);
+  if (known != nullptr && known->IsRunning() && known->verify) return id;
+  const uint64_t number = known != nullptr ? known->number : jobs.NextNumber();
+  lock.unlock();
+  ORBWEAVE_RETURN_IF_ERROR(journal_.SaveJob({spec, JobState::kRunning, "", number}));
+  lock.lock();
+  Job& job = dispatcher_.BeginJob(spec, *std::move(plan), number, clock_.NowSeconds());
+  job.verify = true;
+  job.reruns = 0;
+  dispatcher_.Log(absl::StrCat(
+      "job submitted job=", id.ToShortHex(), " kind=", spec.kind, " label=\"", spec.label, "\""));
+  return id;
+}
+
+void JobDesk::SaveEnd(const Digest& id) {
+  const std::lock_guard saving(saving_mutex_);
+  std::unique_lock lock(mutex_);
+  Job& job = dispatcher_.jobs().At(id);
+  if (job.is_saved || job.IsRunning()) return;
+  const JobEntry entry{job.machine->spec(), job.machine->state(), job.machine->error(), job.number};
+  job.is_saved = true;
+  dispatcher_.Log(absl::StrCat("job ended job=", id.ToShortHex(), " error=\"", entry.error, "\""));
+  lock.unlock();
+  // When this fails the job is found running after a restart, and its results end it again at once.
+  journal_.SaveJob(entry).IgnoreError();
+}
+
+}  // namespace orbweave

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string_view>
+
+#include "coordinator/dispatcher.h"
+#include "coordinator/journal.h"
+#include "core/base/clock.h"
+#include "core/pipeline/job_plan.h"
+
+namespace orbweave {
+
+/// Where jobs come in and go out, the journal first: a job is durable before it begins. What the
+/// desk is given outlives it. Thread-safe.
+class JobDesk {
+ public:
+  using FindPlan = std::function<absl::StatusOr<JobPlan>(std::string_view kind)>;
+
+  /// `mutex` guards `dispatcher`.
+  JobDesk(std::mutex& mutex,
+          Dispatcher& dispatcher,
+          Journal& journal,
+          FindPlan find_plan,
+          const Clock& clock)
+      : mutex_(mutex),
+        dispatcher_(dispatcher),
+        journal_(journal),
+        find_plan_(std::move(find_plan)),
+        clock_(clock) {}
+
+  /// Takes up the jobs of the journal where they were. With `leases_survive` the attempts that were
+  /// open go on under their leases, if their workers come back in time; otherwise they have ended.
+  [[nodiscard]] absl::Status Resume(bool leases_survive);
+  /// See CoordinatorApi::SubmitJob.
+  [[nodiscard]] absl::StatusOr<Digest> Submit(const JobSpec& spec);
+  /// Notes in the journal how a job ended, unless that was done.
+  void SaveEnd(const Digest& id);
+
+ private:
+  [[nodiscard]] absl::Status ResumeJobs();
+  [[nodiscard]] absl::Status ResumeAttempts(bool leases_survive);
+
+  std::mutex& mutex_;
+  Dispatcher& dispatcher_;
+  Journal& journal_;
+  FindPlan find_plan_;
+  const Clock& clock_;
+  std::mutex saving_mutex_;  ///< one writer of jobs at a time; taken before mutex_
+};
+
+}  // namespace orbweave

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/planner.h"
+
+#include <chrono>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace orbweave {
+namespace {
+
+/// Before a journal that was away is asked again.
+constexpr std::chrono::milliseconds kPause{500};
+
+}  // namespace
+
+void Planner::Start() {
+  thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
+}
+
+bool Planner::HasWork() const {
+  const JobTable& jobs = dispatcher_.jobs();
+  return jobs.ToPlan() || jobs.ToSave() || dispatcher_.HasEnds();
+}
+
+void Planner::Run(const std::stop_token& stop) {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    woken_.wait(lock, stop, [this] { return HasWork(); });
+    if (stop.stop_requested()) break;
+    const std::optional<Digest> to_plan = dispatcher_.jobs().ToPlan();
+    const std::optional<Digest> to_save = dispatcher_.jobs().ToSave();
+    const std::vector<AttemptEnd> ends = dispatcher_.TakeEnds();
+    lock.unlock();
+    if (!ends.empty()) SaveEnds(ends);
+    if (to_plan) PlanNextStage(*to_plan, stop);
+    if (to_save) desk_.SaveEnd(*to_save);
+  }
+  const std::vector<AttemptEnd> ends = [this] {
+    const std::lock_guard lock(mutex_);
+    return dispatcher_.TakeEnds();
+  }();
+  if (!ends.empty()) SaveEnds(ends);
+}
+
+void Planner::SaveEnds(const std::vector<AttemptEnd>& ends) {
+  const absl::Status saved = journal_.SaveEnds(ends);
+  if (saved.ok()) return;  // otherwise they count as open after a restart, for one lease time
+  const std::lock_guard lock(mutex_);
+  dispatcher_.Log(absl::StrCat("ends of attempts not saved reason=\"", saved.message(), "\""));
+}
+
+void Planner::PlanNextStage(const Digest& id, const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  const uint64_t run = dispatcher_.jobs().At(id).run;
+  const uint64_t early_results = dispatcher_.early_results();
+  const std::optional<uint32_t> stage = dispatcher_.jobs().At(id).machine->StageToPlan();
+  if (!stage) return;
+  const JobSnapshot snapshot = dispatcher_.jobs().Snapshot(id, *stage);
+  lock.unlock();
+  absl::StatusOr<PreparedStage> prepared = Prepare(snapshot, stop);
+  lock.lock();
+  const Job& job = dispatcher_.jobs().At(id);
+  if (job.run != run || !job.IsRunning() || stop.stop_requested()) return;
+  if (dispatcher_.early_results() != early_results) return;  // once more, with that result
+  if (prepared.ok()) {
+    dispatcher_.StageBegins(id, *std::move(prepared), clock_.NowSeconds());
+  } else {
+    const std::string& name = snapshot.plan.stages[*stage].stage;
+    dispatcher_.JobFails(id,
+                         Annotate(prepared.status(), "cannot plan stage " + name).ToString(),
+                         clock_.NowSeconds());
+  }
+}
+
+absl::StatusOr<PreparedStage> Planner::Prepare(const JobSnapshot& snapshot,
+                                               const std::stop_token& stop) {
+  while (true) {
+    absl::StatusOr<PreparedStage> prepared = PrepareStage(snapshot, blobs_, journal_);
+    if (!absl::IsUnavailable(prepared.status()) || stop.stop_requested()) return prepared;
+    std::mutex never_mutex;
+    std::unique_lock never(never_mutex);
+    std::condition_variable_any().wait_for(never, stop, kPause, [] { return false; });
+  }
+}
+
+}  // namespace orbweave

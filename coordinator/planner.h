@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "coordinator/blob_store.h"
+#include "coordinator/dispatcher.h"
+#include "coordinator/job_desk.h"
+#include "coordinator/journal.h"
+#include "core/base/clock.h"
+
+namespace orbweave {
+
+/// The coordinator's own thread: plans stages (which reads files, without the lock) and notes in
+/// the journal how jobs and attempts ended. What it is given outlives it.
+class Planner {
+ public:
+  /// `mutex` guards `dispatcher`.
+  Planner(std::mutex& mutex,
+          Dispatcher& dispatcher,
+          JobDesk& desk,
+          BlobStore& blobs,
+          Journal& journal,
+          const Clock& clock)
+      : mutex_(mutex),
+        dispatcher_(dispatcher),
+        desk_(desk),
+        blobs_(blobs),
+        journal_(journal),
+        clock_(clock) {}
+
+  void Start();
+  /// There may be something to do.
+  void Wake() { woken_.notify_all(); }
+
+ private:
+  void Run(const std::stop_token& stop);
+  [[nodiscard]] bool HasWork() const;
+  void SaveEnds(const std::vector<AttemptEnd>& ends);
+  void PlanNextStage(const Digest& id, const std::stop_token& stop);
+  /// The stage, once the journal can be asked.
+  [[nodiscard]] absl::StatusOr<PreparedStage> Prepare(const JobSnapshot& snapshot,
+                                                      const std::stop_token& stop);
+
+  std::mutex& mutex_;
+  Dispatcher& dispatcher_;
+  JobDesk& desk_;
+  BlobStore& blobs_;
+  Journal& journal_;
+  const Clock& clock_;
+  std::condition_variable_any woken_;
+  std::jthread thread_;  ///< last: ends before what it uses
+};
+
+}  // namespace orbweave

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Leases across a coordinator that is started again, and across a journal that fails.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "coordinator/coordinator.h"
+#include "core/pipeline/build_version.h"
+#include "tests/support/command.h"
+#include "tests/support/toy_job.h"
+#include "tests/support/wait_for_end.h"
+
+namespace orbweave {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::FindToyPlan;
+using testing::PrepareToyJob;
+using testing::TemporaryFolder;
+using testing::ToyAnswer;
+using testing::ToyStages;
+using testing::WaitForEnd;
+using testing::WaitUntil;
+
+/// A journal whose disk fills up and whose server goes away, when told to.
+class FailingJournal final : public Journal {
+ public:
+  struct Switch {
+    std::atomic<bool> starts_fail{false};
+    std::atomic<bool> results_fail{false};
+    std::atomic<bool> lookups_fail{false};
+    Digest held_lookup{};  ///< who asks for this task is answered late, with what was known before
+    std::atomic<bool> is_holding{false};
+    std::atomic<bool> may_answer{false};
+  };
+
+  FailingJournal(std::unique_ptr<Journal> journal, Switch& fails)
+      : journal_(std::move(journal)), fails_(fails) {}
+
+  uint64_t generation() const override { return journal_->generation(); }
+  absl::Status SaveJob(const JobEntry& job) override { return journal_->SaveJob(job); }
+  absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
+  absl::Status SaveStart(const Attempt& attempt) override {
+    if (fails_.starts_fail) return absl::ResourceExhaustedError("disk full");
+    return journal_->SaveStart(attempt);
+  }
+  absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
+    if (fails_.results_fail) return absl::UnavailableError("away");
+    return journal_->SaveResult(epoch, task, result);
+  }
+  absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override {
+    return journal_->SaveEnds(ends);
+  }
+  absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
+      const std::vector<Digest>& tasks) override {
+    if (fails_.lookups_fail) return absl::UnavailableError("away");
+    auto found = journal_->LoadResults(tasks);
+    if (std::find(tasks.begin(), tasks.end(), fails_.held_lookup) != tasks.end()) {
+      fails_.is_holding = true;
+      WaitUntil([this] { return fails_.may_answer.load(); }, 20.0);
+    }
+    return found;
+  }
+  absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override {
+    return journal_->LoadOpenAttempts();
+  }
+  absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(const Digest& task) override {
+    return journal_->LoadAttempts(task);
+  }
+
+ private:
+  std::unique_ptr<Journal> journal_;
+  Switch& fails_;
+};
+
+/// A coordinator on a clock turned by hand, and toy workers that are driven call by call.
+class RestartTest : public ::testing::Test {
+ protected:
+  void SetUp() override { Restart(); }
+
+  void Restart(bool leases_survive = true) {
+    coordinator_.reset();
+    CoordinatorOptions options{
+        .state_dir = folder_.Path(), .leases_survive = leases_survive, .find_plan = FindToyPlan};
+    options.open_journal =
+        [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
+      ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(state_dir));
+      return std::make_unique<FailingJournal>(std::move(journal), fails_);
+    };
+    auto opened = Coordinator::Open(options, clock_);
+    ASSERT_TRUE(opened.ok()) << opened.status();
+    coordinator_ = *std::move(opened);
+  }
+
+  uint64_t Join(const std::string& name, const std::vector<LeaseProgress>& held = {}) {
+    return coordinator_->Join({.name = name, .version = std::string(BuildVersion()), .held = held})
+        ->session;
+  }
+  static LeaseProgress Held(const Lease& lease) { return {lease.task, lease.epoch, {}}; }
+
+  Digest Submit(const std::string& numbers) {
+    return *coordinator_->SubmitJob(*PrepareToyJob(*coordinator_, numbers));
+  }
+
+  Lease MustLease(uint64_t session) {
+    auto lease = coordinator_->LeaseTask(session, 0, 5.0);
+    ORBWEAVE_CHECK(lease.ok() && lease->has_value());
+    return **lease;
+  }
+
+  bool GetsNothing(uint64_t session) {
+    const auto lease = coordinator_->LeaseTask(session, 0, 0.3);
+    return lease.ok() && !lease->has_value();
+  }
+
+  absl::Status Do(uint64_t session, const Lease& lease) {
+    const auto result = stages_.at(lease.spec.stage)(lease.spec, *coordinator_, {});
+    ORBWEAVE_CHECK(result.ok());
+    return coordinator_->CompleteTask(session, lease, *result);
+  }
+
+  bool IsStagePlanned(const Digest& job, size_t stage) {
+    return WaitUntil([&] { return coordinator_->GetJob(job)->stages[stage].tasks_total > 0; },
+                     20.0);
+  }
+
+  FailingJournal::Switch fails_;
+  TemporaryFolder folder_;
+  ManualClock clock_;
+  testing::StageMap stages_ = ToyStages();
+  std::unique_ptr<Coordinator> coordinator_;
+};
+
+TEST_F(RestartTest, AHolderThatComesBackGoesOnAndHandsItsResultIn) {
+  const Digest job = Submit("3 4");
+  uint64_t session = Join("w");
+  ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const Lease lease = MustLease(session);
+  Restart();
+  session = Join("w", {Held(lease)});
+  ASSERT_TRUE(IsStagePlanned(job, 1));
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[1].tasks_running, 1U);
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].tasks_reused, 1U);
+  const Lease other = MustLease(session);
+  EXPECT_NE(other.task, lease.task) << "the task was given out twice";
+  EXPECT_GT(other.epoch >> 32, lease.epoch >> 32);
+  EXPECT_TRUE(coordinator_->Heartbeat(session, {Held(lease), Held(other)})->cancelled.empty());
+  EXPECT_TRUE(Do(session, lease).ok());
+  EXPECT_TRUE(Do(session, lease).ok()) << "handed in twice";
+  EXPECT_TRUE(Do(session, other).ok());
+  EXPECT_TRUE(Do(session, MustLease(session)).ok());
+  EXPECT_EQ(WaitForEnd(*coordinator_, job)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator_, job), "25");
+}
+
+TEST_F(RestartTest, AResultMayComeBeforeItsStageIsPlanned) {
+  const Digest job = Submit("3");
+  uint64_t session = Join("w");
+  ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const Lease lease = MustLease(session);
+  fails_.lookups_fail = true;  // nothing can be planned
+  Restart();
+  session = Join("w", {Held(lease)});
+  EXPECT_TRUE(coordinator_->Heartbeat(session, {Held(lease)})->cancelled.empty());
+  EXPECT_TRUE(Do(session, lease).ok());
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].tasks_total, 0U);
+  fails_.lookups_fail = false;
+  const Lease sum = MustLease(session);
+  EXPECT_EQ(sum.spec.stage, "sum") << "the square was computed and is known";
+  EXPECT_TRUE(Do(session, sum).ok());
+  EXPECT_EQ(WaitForEnd(*coordinator_, job)->state, JobState::kDone);
+}
+
+TEST_F(RestartTest, AResultThatComesWhileItsStageIsPlannedIsNotMissed) {
+  const Digest job = Submit("3");
+  uint64_t session = Join("w");
+  ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const Lease lease = MustLease(session);
+  fails_.held_lookup = lease.task;
+  Restart();
+  ASSERT_TRUE(WaitUntil([this] { return fails_.is_holding.load(); }, 20.0));
+  session = Join("w", {Held(lease)});
+  EXPECT_TRUE(Do(session, lease).ok());
+  fails_.may_answer = true;
+  EXPECT_EQ(MustLease(session).spec.stage, "sum");
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[1].tasks_reused, 1U);
+}
+
+TEST_F(RestartTest, OthersGetTheTaskOnlyWhenItsHolderDidNotComeInTime) {
+  const Digest job = Submit("3");
+  const Lease lease = MustLease(Join("lost"));
+  Restart();
+  const uint64_t other = Join("other");
+  ASSERT_TRUE(IsStagePlanned(job, 0));
+  clock_.Advance(19.0);
+  EXPECT_TRUE(GetsNothing(other));
+  clock_.Advance(2.0);
+  const Lease again = MustLease(other);
+  EXPECT_EQ(again.task, lease.task);
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].retries, 0U) << "nobody failed";
+  const uint64_t late = Join("lost", {Held(lease)});
+  EXPECT_THAT(coordinator_->Heartbeat(late, {Held(lease)})->cancelled, ElementsAre(lease.task));
+  EXPECT_TRUE(absl::IsFailedPrecondition(Do(late, lease)));
+  EXPECT_TRUE(Do(other, again).ok());
+}
+
+TEST_F(RestartTest, AWorkerWhoseProcessStartedAnewFreesItsTasksAtOnce) {
+  Submit("3");
+  const Lease lease = MustLease(Join("w"));
+  Restart();
+  const uint64_t session = Join("w");
+  clock_.Advance(1.0);
+  EXPECT_EQ(MustLease(session).task, lease.task);
+}
+
+TEST_F(RestartTest, WorkersThatDiedWithTheCoordinatorAreNotWaitedFor) {
+  Submit("3");
+  const Lease lease = MustLease(Join("w"));
+  Restart(/*leases_survive=*/false);
+  EXPECT_EQ(MustLease(Join("other")).task, lease.task);
+  coordinator_.reset();
+  const auto attempts = (*OpenJournal(folder_.Path()))->LoadAttempts(lease.task);
+  ASSERT_EQ(attempts->size(), 2U);
+  EXPECT_EQ(attempts->at(0).reason, "the coordinator was started again");
+}
+
+TEST_F(RestartTest, SeveralRestartsLoseNoLease) {
+  const Digest job = Submit("3");
+  const Lease lease = MustLease(Join("w"));
+  for (int i = 0; i < 3; ++i) Restart();
+  EXPECT_TRUE(Do(Join("w", {Held(lease)}), lease).ok());
+  ASSERT_TRUE(IsStagePlanned(job, 1));
+  coordinator_.reset();
+  const auto attempts = (*OpenJournal(folder_.Path()))->LoadAttempts(lease.task);
+  EXPECT_EQ(attempts->size(), 1U) << "computed once";
+}
+
+TEST_F(RestartTest, OfTwoLeasesOfOneTaskTheLaterCounts) {
+  Submit("3");
+  const Lease slow = MustLease(Join("slow"));
+  clock_.Advance(21.0);
+  (void)coordinator_->ListJobs();
+  clock_.Advance(2.0);
+  const Lease quick = MustLease(Join("quick"));
+  ASSERT_EQ(quick.task, slow.task);
+  Restart();
+  const uint64_t zombie = Join("slow", {Held(slow)});
+  EXPECT_THAT(coordinator_->Heartbeat(zombie, {Held(slow)})->cancelled, ElementsAre(slow.task));
+  EXPECT_TRUE(absl::IsFailedPrecondition(Do(zombie, slow)));
+  EXPECT_TRUE(Do(Join("quick", {Held(quick)}), quick).ok());
+}
+
+TEST_F(RestartTest, ALeaseThatCannotBeWrittenDownIsNotHandedOut) {
+  Submit("3");
+  const uint64_t session = Join("w");
+  fails_.starts_fail = true;
+  EXPECT_TRUE(absl::IsResourceExhausted(coordinator_->LeaseTask(session, 0, 5.0).status()));
+  fails_.starts_fail = false;
+  EXPECT_EQ(MustLease(session).spec.stage, "split");
+}
+
+TEST_F(RestartTest, AResultThatCannotBeSavedIsHandedInAgain) {
+  const Digest job = Submit("3");
+  const uint64_t session = Join("w");
+  const Lease lease = MustLease(session);
+  fails_.results_fail = true;
+  EXPECT_TRUE(absl::IsUnavailable(Do(session, lease)));
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].tasks_running, 1U);
+  fails_.results_fail = false;
+  EXPECT_TRUE(Do(session, lease).ok());
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].tasks_done, 1U);
+}
+
+TEST_F(RestartTest, AttemptsAreKeptWithTheirReasons) {
+  Submit("3");
+  const uint64_t session = Join("w");
+  const Lease first = MustLease(session);
+  ASSERT_TRUE(
+      coordinator_->FailTask(session, first, absl::ResourceExhaustedError("out of memory")).ok());
+  clock_.Advance(1.0);
+  ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  coordinator_.reset();
+  const auto attempts = (*OpenJournal(folder_.Path()))->LoadAttempts(first.task);
+  ASSERT_TRUE(attempts.ok()) << attempts.status();
+  ASSERT_EQ(attempts->size(), 2U);
+  EXPECT_EQ(attempts->at(0).reason, "out of memory");
+  EXPECT_EQ(attempts->at(0).attempt.worker, "w");
+  EXPECT_EQ(attempts->at(0).attempt.stage, "split");
+  EXPECT_EQ(attempts->at(1).reason, "");
+  EXPECT_TRUE(attempts->at(1).ended_s.has_value());
+}
+
+}  // namespace
+}  // namespace orbweave
