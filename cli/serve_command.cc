@@ -14,12 +14,14 @@
 #include "cli/stop_signals.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
+#include "coordinator/postgres_journal.h"
 
 namespace orbweave {
 namespace {
 
 struct ServeOptions {
   std::string listen{};
+  std::string journal{};  ///< of a PostgreSQL database; empty: in the state folder
   CoordinatorOptions coordinator{};
 };
 
@@ -33,7 +35,13 @@ void WaitForStop(const std::stop_token& stop) {
 absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
   const SteadyClock clock;
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(options.coordinator, clock));
+  CoordinatorOptions with_journal = options.coordinator;
+  if (!options.journal.empty()) {
+    with_journal.open_journal = [&options](const std::string&) {
+      return OpenPostgresJournal(options.journal);
+    };
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(with_journal, clock));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server, GrpcServer::Start(*coordinator, options.listen));
   LogLine(absl::StrCat(
       "coordinator ready address=", server->address(), " state=", options.coordinator.state_dir));
@@ -55,8 +63,14 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
           "--listen", options->listen, "unix:/path or 127.0.0.1:port (port 0: any free one)")
       ->required();
   command
-      ->add_option("--state", options->coordinator.state_dir, "Folder of blobs, results and jobs")
+      ->add_option("--state",
+                   options->coordinator.state_dir,
+                   "Folder of blobs and of the journal of jobs and results")
       ->required();
+  command->add_option("--journal",
+                      options->journal,
+                      "Address of a PostgreSQL database to keep the journal in, without password "
+                      "(that is for ~/.pgpass, PGPASSFILE or a service file)");
   command
       ->add_option("--lease",
                    options->coordinator.lease_s,
@@ -67,6 +81,7 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       "Examples:\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state\n"
       "  orbweave serve --listen unix:/tmp/orbweave.sock --state state --lease 60\n"
+      "  orbweave serve --listen 127.0.0.1:7000 --state state --journal postgresql://db/orbweave\n"
       "Started again on the same state it goes on where it was.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Serve(*options)); }; });

@@ -10,14 +10,17 @@
 
 #include <thread>
 
+#include "coordinator/postgres_journal.h"
 #include "coordinator/sqlite_journal.h"
 #include "tests/support/command.h"
+#include "tests/support/postgres_server.h"
 
 namespace orbweave {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::TemporaryFolder;
 
 const Digest kTask = DigestOf("task");
@@ -48,6 +51,24 @@ class SqliteStore final : public Store {
 
  private:
   TemporaryFolder folder_;
+};
+
+/// The server of this test program, started when it is first asked for; nullptr: not installed.
+testing::PostgresServer* Server() {
+  static const std::unique_ptr<testing::PostgresServer> server = testing::PostgresServer::Start();
+  return server.get();
+}
+
+class PostgresStore final : public Store {
+ public:
+  PostgresStore() : url_(Server()->MakeDatabase("test" + std::to_string(++count_))) {}
+  [[nodiscard]] absl::StatusOr<std::unique_ptr<Journal>> Open() override {
+    return OpenPostgresJournal(url_);
+  }
+
+ private:
+  static inline int count_ = 0;
+  std::string url_;
 };
 
 using MakeStore = std::unique_ptr<Store> (*)();
@@ -220,9 +241,78 @@ TEST_P(JournalContract, TakesWritesOfManyThreads) {
   }
 }
 
+TEST_P(JournalContract, ALaterOneIsRefusedOrPutsTheEarlierOutOfOffice) {
+  const auto second = store_->Open();
+  if (second.ok()) {  // a file, which StateLock guards
+    EXPECT_TRUE(absl::IsFailedPrecondition(journal_->SaveStart(MakeAttempt(1))));
+    EXPECT_TRUE((*second)->SaveStart(MakeAttempt(1)).ok());
+  } else {
+    EXPECT_TRUE(absl::IsFailedPrecondition(second.status())) << second.status();
+    EXPECT_THAT(std::string(second.status().message()), HasSubstr("another coordinator"));
+    EXPECT_TRUE(journal_->SaveStart(MakeAttempt(1)).ok());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sqlite, JournalContract, ::testing::Values([]() -> std::unique_ptr<Store> {
                            return std::make_unique<SqliteStore>();
                          }));
+
+INSTANTIATE_TEST_SUITE_P(Postgres,
+                         JournalContract,
+                         ::testing::Values([]() -> std::unique_ptr<Store> {
+                           if (Server() == nullptr) return nullptr;
+                           return std::make_unique<PostgresStore>();
+                         }));
+
+TEST(PostgresJournal, GoesOnWhenItsServerWasStartedAgain) {
+  if (Server() == nullptr) GTEST_SKIP() << "PostgreSQL's server is not installed";
+  const auto journal = OpenPostgresJournal(Server()->MakeDatabase("restarted"));
+  ASSERT_TRUE(journal.ok()) << journal.status();
+  ASSERT_TRUE((*journal)->SaveResult(1, kTask, {.report_json = "first"}).ok());
+  Server()->Stop();
+  EXPECT_TRUE(absl::IsUnavailable((*journal)->SaveResult(2, kTask, {})));
+  EXPECT_TRUE(absl::IsUnavailable((*journal)->LoadResults({kTask}).status()));
+  ASSERT_TRUE(Server()->Resume());
+  const auto found = (*journal)->LoadResults({kTask});
+  ASSERT_TRUE(found.ok()) << found.status();
+  EXPECT_EQ(found->at(0)->report_json, "first");
+  EXPECT_TRUE((*journal)->SaveResult(2, kTask, {.report_json = "second"}).ok());
+  EXPECT_EQ((*journal)->LoadResults({kTask})->at(0)->report_json, "second");
+}
+
+TEST(PostgresJournal, WhoLostTheServerAndWasSucceededWritesNoMore) {
+  if (Server() == nullptr) GTEST_SKIP() << "PostgreSQL's server is not installed";
+  const std::string url = Server()->MakeDatabase("succeeded");
+  const auto deposed = OpenPostgresJournal(url);
+  ASSERT_TRUE(deposed.ok()) << deposed.status();
+  Server()->Stop();
+  ASSERT_TRUE(Server()->Resume());
+  {
+    const auto successor = OpenPostgresJournal(url);
+    ASSERT_TRUE(successor.ok()) << successor.status();
+    EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, kTask, {})));
+    EXPECT_TRUE((*successor)->SaveResult(2, kTask, {}).ok());
+  }
+  EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, kTask, {})))
+      << "the lock is free, but the generation is another's";
+}
+
+TEST(PostgresJournal, RefusesAPasswordOnTheCommandLine) {
+  for (const char* url : {"postgresql://me:geheim@host/db", "host=h password=geheim dbname=db"}) {
+    const auto journal = OpenPostgresJournal(url);
+    EXPECT_TRUE(absl::IsInvalidArgument(journal.status()));
+    EXPECT_THAT(std::string(journal.status().message()), HasSubstr("PGPASSFILE"));
+    EXPECT_THAT(std::string(journal.status().message()), Not(HasSubstr("geheim")));
+  }
+}
+
+TEST(PostgresJournal, SaysThatItCannotReachTheServer) {
+  const TemporaryFolder folder;
+  const auto journal = OpenPostgresJournal("host=" + folder.Path() + " dbname=db");
+  EXPECT_TRUE(absl::IsUnavailable(journal.status()));
+  EXPECT_THAT(std::string(journal.status().message()), HasSubstr("cannot reach"));
+  EXPECT_TRUE(absl::IsInvalidArgument(OpenPostgresJournal("journal.db").status()));
+}
 
 }  // namespace
 }  // namespace orbweave

@@ -83,12 +83,5 @@ TEST_F(SqliteJournal, RefusesAnotherFormat) {
   EXPECT_THAT(std::string(journal.status().message()), HasSubstr("format 99"));
 }
 
-TEST_F(SqliteJournal, ALaterGenerationPutsTheEarlierOutOfOffice) {
-  auto deposed = OpenSqliteJournal(path_);
-  auto successor = OpenSqliteJournal(path_);
-  EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, kTask, {})));
-  EXPECT_TRUE((*successor)->SaveResult(2, kTask, {}).ok());
-}
-
 }  // namespace
 }  // namespace orbweave

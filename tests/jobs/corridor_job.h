@@ -43,9 +43,8 @@ inline std::vector<std::string> ReconstructCorridor(const std::string& output, i
           "partition.cluster_size=16"};
 }
 
-/// Results in the journal of a job that may be running.
-inline size_t FinishedTasks(const std::string& output) {
-  const std::string journal = output + "/.orbweave/journal.db";
+/// Results in a journal that may be written to.
+inline size_t FinishedTasksIn(const std::string& journal) {
   if (!std::filesystem::exists(journal)) return 0;
   const auto database = SqliteConnection::OpenToRead(journal);
   if (!database.ok()) return 0;
@@ -54,23 +53,40 @@ inline size_t FinishedTasks(const std::string& output) {
   return static_cast<size_t>(count->Integer(0));
 }
 
+/// Results of a job that may be running.
+inline size_t FinishedTasks(const std::string& output) {
+  return FinishedTasksIn(output + "/.orbweave/journal.db");
+}
+
 inline nlohmann::json ReportOf(const std::string& output) {
   return nlohmann::json::parse(ReadAll(output + "/report.json"), nullptr, false);
 }
 
-/// The files that must be the same whoever computed them.
-inline void ExpectSameModel(const std::string& a, const std::string& b) {
-  for (const char* name : {"sparse/0/cameras.bin",
-                           "sparse/0/images.bin",
-                           "sparse/0/points3D.bin",
-                           "points.ply",
-                           "cameras.csv",
-                           "trajectory.geojson",
-                           "georeference.json"}) {
+inline void ExpectSameFiles(const std::string& a,
+                            const std::string& b,
+                            const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
     const std::string bytes = ReadAll(a + "/" + name);
     EXPECT_FALSE(bytes.empty()) << name;
     EXPECT_TRUE(bytes == ReadAll(b + "/" + name)) << name << " differs";
   }
+}
+
+/// The files of a model without georeference that must be the same whoever computed them.
+inline void ExpectSameLocalModel(const std::string& a, const std::string& b) {
+  ExpectSameFiles(a,
+                  b,
+                  {"sparse/0/cameras.bin",
+                   "sparse/0/images.bin",
+                   "sparse/0/points3D.bin",
+                   "points.ply",
+                   "cameras.csv"});
+}
+
+/// The same of a model with one.
+inline void ExpectSameModel(const std::string& a, const std::string& b) {
+  ExpectSameLocalModel(a, b);
+  ExpectSameFiles(a, b, {"trajectory.geojson", "georeference.json"});
 }
 
 }  // namespace orbweave::testing
