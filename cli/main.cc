@@ -11,6 +11,7 @@
 #include "cli/evaluate_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
+#include "cli/keys_command.h"
 #include "cli/options_command.h"
 #include "cli/reconstruct_command.h"
 #include "cli/run_command.h"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   orbweave::AddBenchCommand(app, selected);
   orbweave::AddOptionsCommand(app, selected);
   orbweave::AddSynthCommand(app, selected);
+  orbweave::AddKeysCommand(app, selected);
   orbweave::AddServeCommand(app, selected);
   orbweave::AddWorkCommand(app, selected, stages);
   orbweave::AddSubmitCommand(app, selected);
