@@ -9,6 +9,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/log_line.h"
 #include "cli/stop_signals.h"
@@ -20,6 +21,7 @@ namespace {
 
 struct ServeOptions {
   std::string listen{};
+  ServerOptions server{};
   CoordinatorOptions coordinator{};
 };
 
@@ -34,7 +36,8 @@ absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
   const SteadyClock clock;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(options.coordinator, clock));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto server, GrpcServer::Start(*coordinator, options.listen));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
+                            GrpcServer::Start(*coordinator, options.listen, options.server));
   LogLine(absl::StrCat(
       "coordinator ready address=", server->address(), " state=", options.coordinator.state_dir));
   WaitForStop(signals.token());
@@ -50,13 +53,15 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       app.add_subcommand("serve", "Run a coordinator: give the tasks of jobs to workers that join");
   const auto options = std::make_shared<ServeOptions>();
   options->coordinator.log = LogLine;
-  command
-      ->add_option(
-          "--listen", options->listen, "unix:/path or 127.0.0.1:port (port 0: any free one)")
+  command->add_option("--listen", options->listen, "unix:/path or host:port (port 0: any free one)")
       ->required();
   command
       ->add_option("--state", options->coordinator.state_dir, "Folder of blobs, results and jobs")
       ->required();
+  AddTlsArgument(*command, options->server.tls_folder)
+      ->description(
+          "Folder with ca.crt, own.crt and own.key of a coordinator (see orbweave keys); "
+          "without it only this machine can be served");
   command
       ->add_option("--lease",
                    options->coordinator.lease_s,
@@ -67,6 +72,7 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       "Examples:\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state\n"
       "  orbweave serve --listen unix:/tmp/orbweave.sock --state state --lease 60\n"
+      "  orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state\n"
       "Started again on the same state it goes on where it was.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Serve(*options)); }; });

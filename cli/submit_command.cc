@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/format_summary.h"
 #include "cli/image_arguments.h"
@@ -22,7 +23,7 @@ namespace orbweave {
 namespace {
 
 struct SubmitArguments {
-  std::string coordinator{};
+  CoordinatorArgument coordinator{};
   ScanRequest scan{};
   std::string clusters{};
   std::string output{};
@@ -48,7 +49,9 @@ absl::Status Submit(const SubmitArguments& arguments) {
   const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
-  GrpcCoordinatorClient coordinator(arguments.coordinator);
+  ORBWEAVE_RETURN_IF_ERROR(arguments.coordinator.Check());
+  GrpcCoordinatorClient coordinator(
+      arguments.coordinator.address, {}, arguments.coordinator.tls_folder);
   ORBWEAVE_ASSIGN_OR_RETURN(
       const JobSpec spec,
       PrepareImageJob(
@@ -66,8 +69,7 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command =
       app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
   const auto arguments = std::make_shared<SubmitArguments>();
-  command->add_option("--coordinator", arguments->coordinator, "Address of the coordinator")
-      ->required();
+  AddCoordinatorArgument(*command, arguments->coordinator);
   AddImageArguments(*command, arguments->scan);
   AddClustersArgument(*command, arguments->clusters);
   command->add_option(

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/coordinator_argument.h"
 #include "worker/worker_loop.h"
 
 namespace orbweave {
 
 struct WorkOptions {
-  std::string join{};  ///< address of the coordinator
+  CoordinatorArgument join{};
   WorkerOptions worker{};
   int parent_pid = 0;  ///< when given, the worker dies with that process
 };

@@ -10,6 +10,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "coordinator/grpc_tls.h"
 #include "coordinator/listen_address.h"
 
 namespace orbweave {
@@ -25,18 +26,35 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 5'000);
 }
 
+/// A connection ends in time, so that none outlives for long the certificate it began with; calls
+/// that run then have their time to end.
+void SetConnectionAge(grpc::ServerBuilder& builder) {
+  constexpr int kHour_ms = 3'600'000;
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, kHour_ms);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kHour_ms);
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& api,
-                                                              const std::string& address) {
-  ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address));
-  std::unique_ptr<GrpcServer> server(new GrpcServer(api));
+                                                              const std::string& address,
+                                                              const ServerOptions& options) {
+  const bool has_tls = !options.tls_folder.empty();
+  ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address, has_tls ? Wire::kEncrypted : Wire::kPlain));
+  std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
+  if (has_tls) {
+    ORBWEAVE_ASSIGN_OR_RETURN(credentials,
+                              MakeTlsCredentials({options.tls_folder}, Strangers::kRefused));
+  }
+  std::unique_ptr<GrpcServer> server(
+      new GrpcServer(api, has_tls ? Peers::kCertified : Peers::kTrusted));
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
+  SetConnectionAge(builder);
   builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   int port = 0;
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
+  builder.AddListeningPort(address, credentials, &port);
   builder.RegisterService(&server->service_);
   server->server_ = builder.BuildAndStart();
   if (server->server_ == nullptr || port == 0) {

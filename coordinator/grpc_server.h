@@ -11,21 +11,25 @@
 
 namespace orbweave {
 
+struct ServerOptions {
+  std::string tls_folder{};  ///< a TlsFolder; empty: no TLS
+};
+
 /// Serves a CoordinatorApi on an address until destroyed. Before that, whatever keeps calls waiting
 /// in `api` has to let go (Coordinator::BeginShutdown).
 class GrpcServer {
  public:
   /// `address`: see CheckListenAddress; port 0 lets the system choose. InvalidArgument: not
-  /// allowed. Unavailable: taken, or not ours to use.
+  /// allowed. Unavailable: taken, or not ours to use. Also those of MakeTlsCredentials.
   [[nodiscard]] static absl::StatusOr<std::unique_ptr<GrpcServer>> Start(
-      CoordinatorApi& api, const std::string& address);
+      CoordinatorApi& api, const std::string& address, const ServerOptions& options = {});
   ~GrpcServer();
 
   /// Where workers and clients find it.
   [[nodiscard]] const std::string& address() const { return address_; }
 
  private:
-  explicit GrpcServer(CoordinatorApi& api) : service_(api) {}
+  GrpcServer(CoordinatorApi& api, Peers peers) : service_(api, peers) {}
 
   GrpcService service_;
   std::string address_;

@@ -3,15 +3,13 @@
 
 #include "worker/grpc_coordinator_client.h"
 
-#include <grpcpp/create_channel.h>
-#include <grpcpp/security/credentials.h>
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "proto/codec/coordinator_codec.h"
+#include "worker/grpc_channel.h"
 
 namespace orbweave {
 namespace {
@@ -19,7 +17,6 @@ namespace {
 using Stub = v1::Coordinator::Stub;
 
 constexpr size_t kChunkBytes = size_t{512} << 10;
-constexpr int kMaxMessageBytes = 8 << 20;
 /// Digests per StatBlobs message.
 constexpr size_t kMaxDigests = 65536;
 
@@ -27,17 +24,6 @@ constexpr size_t kMaxDigests = 65536;
 constexpr double kQuick_s = 30.0;
 constexpr double kFile_s = 300.0;
 constexpr double kBlob_s = 1800.0;
-
-grpc::ChannelArguments ChannelArguments() {
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 10'000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 5'000);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5'000);
-  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  return arguments;
-}
 
 /// The codes are the same numbers; a deadline that passed is a connection that broke.
 absl::Status FromWire(const grpc::Status& status) {
@@ -77,10 +63,10 @@ v1::JobRequest RequestFor(const Digest& job) {
 
 }  // namespace
 
-GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address, std::stop_token stop)
-    : stub_(v1::Coordinator::NewStub(grpc::CreateCustomChannel(
-          address, grpc::InsecureChannelCredentials(), ChannelArguments()))),
-      stop_(std::move(stop)) {}
+GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
+                                             std::stop_token stop,
+                                             const std::string& tls_folder)
+    : stub_(v1::Coordinator::NewStub(OpenChannel(address, tls_folder))), stop_(std::move(stop)) {}
 
 absl::StatusOr<std::string> GrpcCoordinatorClient::Get(const Digest& digest) {
   grpc::ClientContext context;

@@ -11,13 +11,14 @@
 
 namespace orbweave {
 
-/// CoordinatorApi at the other end of a gRPC channel. The channel connects when it is needed and
-/// again when it broke; until then calls are Unavailable, as is a blob that was damaged on its way.
-/// Thread-safe.
+/// CoordinatorApi at the other end of a gRPC channel (see OpenChannel). While it is not connected
+/// calls are Unavailable, as is a blob that was damaged on its way. Thread-safe.
 class GrpcCoordinatorClient final : public CoordinatorApi {
  public:
   /// `address` as the server prints it. `stop` ends a waiting LeaseTask with Cancelled.
-  explicit GrpcCoordinatorClient(const std::string& address, std::stop_token stop = {});
+  explicit GrpcCoordinatorClient(const std::string& address,
+                                 std::stop_token stop = {},
+                                 const std::string& tls_folder = {});
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
