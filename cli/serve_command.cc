@@ -34,10 +34,12 @@ void WaitForStop(const std::stop_token& stop) {
 
 absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
+  ServerOptions server_options = options.server;
+  server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
   const SteadyClock clock;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(options.coordinator, clock));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
-                            GrpcServer::Start(*coordinator, options.listen, options.server));
+                            GrpcServer::Start(*coordinator, options.listen, server_options));
   LogLine(absl::StrCat(
       "coordinator ready address=", server->address(), " state=", options.coordinator.state_dir));
   WaitForStop(signals.token());

@@ -12,6 +12,7 @@ namespace orbweave {
 
 struct WorkOptions {
   CoordinatorArgument join{};
+  std::string token_path{};  ///< file of a join token; empty: none, or in the environment
   WorkerOptions worker{};
   int parent_pid = 0;  ///< when given, the worker dies with that process
 };

@@ -26,4 +26,10 @@ absl::StatusOr<std::optional<Identity>> PeerOf(const grpc::AuthContext& connecti
       "orbweave://FLEET/ROLE/NAME");
 }
 
+absl::StatusOr<Identity> CertifiedPeerOf(const grpc::AuthContext& connection) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Identity> peer, PeerOf(connection));
+  if (peer) return *peer;
+  return absl::UnauthenticatedError("this call needs a certificate");
+}
+
 }  // namespace orbweave

@@ -15,4 +15,7 @@ namespace orbweave {
 /// the certificate does not name exactly one identity.
 [[nodiscard]] absl::StatusOr<std::optional<Identity>> PeerOf(const grpc::AuthContext& connection);
 
+/// The same where there has to be one. Unauthenticated: there is none.
+[[nodiscard]] absl::StatusOr<Identity> CertifiedPeerOf(const grpc::AuthContext& connection);
+
 }  // namespace orbweave

@@ -7,6 +7,7 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -26,6 +27,18 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 5'000);
 }
 
+/// Null where the TLS folder is not made for it.
+absl::StatusOr<std::unique_ptr<EnrollmentDesk>> OpenDesk(const ServerOptions& options) {
+  const TlsFolder folder{options.tls_folder};
+  std::error_code error;
+  if (options.used_tokens_folder.empty() ||
+      !std::filesystem::exists(folder.AuthorityKeyPath(), error) ||
+      !std::filesystem::exists(folder.TokenKeyPath(), error)) {
+    return nullptr;
+  }
+  return EnrollmentDesk::Open({.tls = folder, .used_folder = options.used_tokens_folder});
+}
+
 /// A connection ends in time, so that none outlives for long the certificate it began with; calls
 /// that run then have their time to end.
 void SetConnectionAge(grpc::ServerBuilder& builder) {
@@ -42,12 +55,14 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   const bool has_tls = !options.tls_folder.empty();
   ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address, has_tls ? Wire::kEncrypted : Wire::kPlain));
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
+  std::unique_ptr<EnrollmentDesk> desk;
   if (has_tls) {
-    ORBWEAVE_ASSIGN_OR_RETURN(credentials,
-                              MakeTlsCredentials({options.tls_folder}, Strangers::kRefused));
+    ORBWEAVE_ASSIGN_OR_RETURN(desk, OpenDesk(options));
+    const Strangers strangers = desk ? Strangers::kLetToEnrol : Strangers::kRefused;
+    ORBWEAVE_ASSIGN_OR_RETURN(credentials, MakeTlsCredentials({options.tls_folder}, strangers));
   }
   std::unique_ptr<GrpcServer> server(
-      new GrpcServer(api, has_tls ? Peers::kCertified : Peers::kTrusted));
+      new GrpcServer(api, has_tls ? Peers::kCertified : Peers::kTrusted, std::move(desk)));
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
   SetConnectionAge(builder);
@@ -56,6 +71,7 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   int port = 0;
   builder.AddListeningPort(address, credentials, &port);
   builder.RegisterService(&server->service_);
+  if (has_tls) builder.RegisterService(&server->enrollment_);
   server->server_ = builder.BuildAndStart();
   if (server->server_ == nullptr || port == 0) {
     return absl::UnavailableError(

@@ -7,12 +7,16 @@
 #include <memory>
 #include <string>
 
+#include "coordinator/grpc_enrollment.h"
 #include "coordinator/grpc_service.h"
 
 namespace orbweave {
 
 struct ServerOptions {
   std::string tls_folder{};  ///< a TlsFolder; empty: no TLS
+  /// Where join tokens that were used are remembered. Tokens are taken when the TLS folder has
+  /// ca.key and token.key.
+  std::string used_tokens_folder{};
 };
 
 /// Serves a CoordinatorApi on an address until destroyed. Before that, whatever keeps calls waiting
@@ -29,9 +33,11 @@ class GrpcServer {
   [[nodiscard]] const std::string& address() const { return address_; }
 
  private:
-  GrpcServer(CoordinatorApi& api, Peers peers) : service_(api, peers) {}
+  GrpcServer(CoordinatorApi& api, Peers peers, std::unique_ptr<EnrollmentDesk> desk)
+      : service_(api, peers), enrollment_(std::move(desk)) {}
 
   GrpcService service_;
+  GrpcEnrollment enrollment_;
   std::string address_;
   std::unique_ptr<grpc::Server> server_;
 };

@@ -20,21 +20,15 @@ grpc::Status ReaderLeft() { return {grpc::StatusCode::CANCELLED, "the reader lef
 
 }  // namespace
 
-absl::StatusOr<Identity> GrpcService::CertifiedPeer(const Context& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Identity> peer, PeerOf(*context.auth_context()));
-  if (peer) return *peer;
-  return absl::UnauthenticatedError("this call needs a certificate");
-}
-
 absl::Status GrpcService::CheckSession(const Context& context, uint64_t session) const {
   if (peers_ == Peers::kTrusted) return absl::OkStatus();
-  ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeer(context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeerOf(*context.auth_context()));
   return owners_.Check(session, peer);
 }
 
 absl::StatusOr<JoinReply> GrpcService::JoinAs(const Context& context, const WorkerInfo& worker) {
   if (peers_ == Peers::kTrusted) return api_.Join(worker);
-  ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeer(context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeerOf(*context.auth_context()));
   ORBWEAVE_RETURN_IF_ERROR(SessionOwners::CheckName(peer, worker.name));
   ORBWEAVE_ASSIGN_OR_RETURN(const JoinReply joined, api_.Join(worker));
   owners_.Begin(joined.session, worker.name, peer);

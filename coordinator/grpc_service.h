@@ -51,7 +51,6 @@ class GrpcService final : public v1::Coordinator::Service {
   grpc::Status PutBlob(Context*, grpc::ServerReader<v1::BlobChunk>*, v1::PutBlobReply*) override;
 
  private:
-  [[nodiscard]] static absl::StatusOr<Identity> CertifiedPeer(const Context& context);
   [[nodiscard]] absl::StatusOr<JoinReply> JoinAs(const Context& context, const WorkerInfo& worker);
   /// See SessionOwners::Check.
   [[nodiscard]] absl::Status CheckSession(const Context& context, uint64_t session) const;

@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "proto/codec/coordinator_codec.h"
 #include "worker/grpc_channel.h"
+#include "worker/grpc_status.h"
 
 namespace orbweave {
 namespace {
@@ -24,16 +25,6 @@ constexpr size_t kMaxDigests = 65536;
 constexpr double kQuick_s = 30.0;
 constexpr double kFile_s = 300.0;
 constexpr double kBlob_s = 1800.0;
-
-/// The codes are the same numbers; a deadline that passed is a connection that broke.
-absl::Status FromWire(const grpc::Status& status) {
-  if (status.ok()) return absl::OkStatus();
-  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
-    return absl::UnavailableError(
-        absl::StrCat("the coordinator did not answer: ", status.error_message()));
-  }
-  return {static_cast<absl::StatusCode>(status.error_code()), status.error_message()};
-}
 
 void SetDeadline(grpc::ClientContext& context, double seconds) {
   context.set_deadline(std::chrono::system_clock::now() +

@@ -34,6 +34,7 @@ class TlsServer {
     coordinator.find_plan = FindToyPlan;
     coordinator_options_ = coordinator;
     options_.tls_folder = keys_ + "/coordinator";
+    options_.used_tokens_folder = folder_ / "state/used_tokens";
     Start("127.0.0.1:0");
   }
   ~TlsServer() { Stop(); }
