@@ -23,7 +23,7 @@ struct CancelOptions {
 absl::Status Cancel(const CancelOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
   GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, options.coordinator.tls_folder);
+      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
   const absl::StatusOr<JobStatus> job = FindJob(coordinator, options.job);
   if (absl::IsUnavailable(job.status())) {
     return Annotate(job.status(), "no coordinator answers at " + options.coordinator.address);

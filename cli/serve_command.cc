@@ -12,6 +12,7 @@
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/log_line.h"
+#include "cli/root_argument.h"
 #include "cli/stop_signals.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
@@ -64,6 +65,10 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       ->description(
           "Folder with ca.crt, own.crt and own.key of a coordinator (see orbweave keys); "
           "without it only this machine can be served");
+  AddRootArgument(*command,
+                  options->server.roots,
+                  "Folder beneath which clients may name images, instead of sending them "
+                  "(repeatable)");
   command
       ->add_option("--lease",
                    options->coordinator.lease_s,

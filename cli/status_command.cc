@@ -55,7 +55,7 @@ absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job) {
 absl::Status ShowStatus(const StatusOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
   GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, options.coordinator.tls_folder);
+      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
   absl::StatusOr<std::vector<JobStatus>> jobs = WantedJobs(coordinator, options.job);
   if (absl::IsUnavailable(jobs.status())) {
     return Annotate(jobs.status(), "no coordinator answers at " + options.coordinator.address);

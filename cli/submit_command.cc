@@ -3,6 +3,7 @@
 #include "cli/submit_command.h"
 
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "cli/option_arguments.h"
 #include "cli/prepare_job.h"
 #include "cli/progress_bar.h"
+#include "cli/root_argument.h"
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
 #include "cli/write_outputs.h"
@@ -24,6 +26,7 @@ namespace {
 
 struct SubmitArguments {
   CoordinatorArgument coordinator{};
+  std::map<std::string, std::string> roots{};
   ScanRequest scan{};
   std::string clusters{};
   std::string output{};
@@ -51,7 +54,9 @@ absl::Status Submit(const SubmitArguments& arguments) {
   if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
   ORBWEAVE_RETURN_IF_ERROR(arguments.coordinator.Check());
   GrpcCoordinatorClient coordinator(
-      arguments.coordinator.address, {}, arguments.coordinator.tls_folder);
+      arguments.coordinator.address,
+      {},
+      {.tls_folder = arguments.coordinator.tls_folder, .roots = arguments.roots});
   ORBWEAVE_ASSIGN_OR_RETURN(
       const JobSpec spec,
       PrepareImageJob(
@@ -70,6 +75,10 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
       app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
   const auto arguments = std::make_shared<SubmitArguments>();
   AddCoordinatorArgument(*command, arguments->coordinator);
+  AddRootArgument(*command,
+                  arguments->roots,
+                  "Where a root of the coordinator is on this machine: images beneath it are not "
+                  "sent, the coordinator reads them itself (repeatable)");
   AddImageArguments(*command, arguments->scan);
   AddClustersArgument(*command, arguments->clusters);
   command->add_option(

@@ -65,7 +65,8 @@ absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
   if (worker.name.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(worker.name, DefaultName(options.join));
   }
-  GrpcCoordinatorClient coordinator(options.join.address, signals.token(), options.join.tls_folder);
+  GrpcCoordinatorClient coordinator(
+      options.join.address, signals.token(), {.tls_folder = options.join.tls_folder});
   LogLine(absl::StrCat("worker started name=", worker.name, " coordinator=", options.join.address));
   const absl::Status status = RunWorker(coordinator, stages, worker, clock, signals.token());
   LogLine(absl::StrCat("worker ended name=", worker.name));

@@ -61,8 +61,7 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
     const Strangers strangers = desk ? Strangers::kLetToEnrol : Strangers::kRefused;
     ORBWEAVE_ASSIGN_OR_RETURN(credentials, MakeTlsCredentials({options.tls_folder}, strangers));
   }
-  std::unique_ptr<GrpcServer> server(
-      new GrpcServer(api, has_tls ? Peers::kCertified : Peers::kTrusted, std::move(desk)));
+  std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(desk)));
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
   SetConnectionAge(builder);
@@ -82,6 +81,13 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
       is_socket ? address : absl::StrCat(address.substr(0, address.rfind(':')), ":", port);
   return server;
 }
+
+GrpcServer::GrpcServer(CoordinatorApi& api,
+                       const ServerOptions& options,
+                       std::unique_ptr<EnrollmentDesk> desk)
+    : service_(
+          api, options.tls_folder.empty() ? Peers::kTrusted : Peers::kCertified, options.roots),
+      enrollment_(std::move(desk)) {}
 
 GrpcServer::~GrpcServer() {
   if (server_ == nullptr) return;

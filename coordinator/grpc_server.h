@@ -17,6 +17,7 @@ struct ServerOptions {
   /// Where join tokens that were used are remembered. Tokens are taken when the TLS folder has
   /// ca.key and token.key.
   std::string used_tokens_folder{};
+  FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
 };
 
 /// Serves a CoordinatorApi on an address until destroyed. Before that, whatever keeps calls waiting
@@ -33,8 +34,9 @@ class GrpcServer {
   [[nodiscard]] const std::string& address() const { return address_; }
 
  private:
-  GrpcServer(CoordinatorApi& api, Peers peers, std::unique_ptr<EnrollmentDesk> desk)
-      : service_(api, peers), enrollment_(std::move(desk)) {}
+  GrpcServer(CoordinatorApi& api,
+             const ServerOptions& options,
+             std::unique_ptr<EnrollmentDesk> desk);
 
   GrpcService service_;
   GrpcEnrollment enrollment_;

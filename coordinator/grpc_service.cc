@@ -166,7 +166,9 @@ grpc::Status GrpcService::StatBlobs(Context*,
 
 grpc::Status GrpcService::LinkFile(Context*, const v1::LinkFileRequest* request, v1::Empty*) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
-  return OnWire(api_.LinkFile(digest, request->path()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::string path,
+                                 ResolveBeneath(roots_, request->root(), request->path()));
+  return OnWire(api_.LinkFile(digest, path));
 }
 
 grpc::Status GrpcService::GetBlob(Context*,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coordinator/file_roots.h"
 #include "coordinator/session_owners.h"
 #include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
@@ -18,7 +19,9 @@ enum class Peers {
 /// CoordinatorApi on the wire: each handler decodes, calls and encodes.
 class GrpcService final : public v1::Coordinator::Service {
  public:
-  GrpcService(CoordinatorApi& api, Peers peers) : api_(api), peers_(peers) {}
+  /// Files are named to it beneath `roots` alone.
+  GrpcService(CoordinatorApi& api, Peers peers, FileRoots roots)
+      : api_(api), peers_(peers), roots_(std::move(roots)) {}
 
   using Context = grpc::ServerContext;
 
@@ -57,6 +60,7 @@ class GrpcService final : public v1::Coordinator::Service {
 
   CoordinatorApi& api_;
   Peers peers_;
+  FileRoots roots_;
   SessionOwners owners_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -56,8 +57,10 @@ v1::JobRequest RequestFor(const Digest& job) {
 
 GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
                                              std::stop_token stop,
-                                             const std::string& tls_folder)
-    : stub_(v1::Coordinator::NewStub(OpenChannel(address, tls_folder))), stop_(std::move(stop)) {}
+                                             const ClientOptions& options)
+    : stub_(v1::Coordinator::NewStub(OpenChannel(address, options.tls_folder))),
+      stop_(std::move(stop)),
+      roots_(options.roots) {}
 
 absl::StatusOr<std::string> GrpcCoordinatorClient::Get(const Digest& digest) {
   grpc::ClientContext context;
@@ -234,10 +237,17 @@ absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(
 }
 
 absl::Status GrpcCoordinatorClient::LinkFile(const Digest& digest, const std::string& path) {
-  v1::LinkFileRequest request;
-  request.set_digest(ToProto(digest));
-  request.set_path(path);
-  return Call(*stub_, &Stub::LinkFile, request, kFile_s).status();
+  const std::string file = std::filesystem::path(path).lexically_normal().string();
+  for (const auto& [name, folder] : roots_) {
+    const std::string top = folder.ends_with('/') ? folder : folder + "/";
+    if (!file.starts_with(top)) continue;
+    v1::LinkFileRequest request;
+    request.set_digest(ToProto(digest));
+    request.set_root(name);
+    request.set_path(file.substr(top.size()));
+    return Call(*stub_, &Stub::LinkFile, request, kFile_s).status();
+  }
+  return absl::NotFoundError(absl::StrCat(path, " is beneath no root of the coordinator"));
 }
 
 }  // namespace orbweave

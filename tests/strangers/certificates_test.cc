@@ -48,7 +48,7 @@ TEST(Certificates, ThoseOfAnotherAuthorityAreWorthNothing) {
   // The stranger knows the right authority, so that it is the server who refuses.
   const std::string ca = *ReadSecretFile(server.keys() + "/client/ca.crt");
   ASSERT_TRUE(WriteSecretFile(foreign + "/admin/ca.crt", ca).ok());
-  GrpcCoordinatorClient stranger(server.address(), {}, foreign + "/admin");
+  GrpcCoordinatorClient stranger(server.address(), {}, {.tls_folder = foreign + "/admin"});
   EXPECT_TRUE(absl::IsUnavailable(stranger.ListJobs().status()));
   EXPECT_TRUE(server.As("admin")->ListJobs().ok());
 }
@@ -62,7 +62,7 @@ TEST(Certificates, AreAskedOfEverybody) {
 TEST(Certificates, OfAServerOfAnotherAuthorityAreRefusedByTheCaller) {
   TlsServer server;
   const std::string foreign = testing::MakeKeys(server.folder() / "foreign");
-  GrpcCoordinatorClient deceived(server.address(), {}, foreign + "/client");
+  GrpcCoordinatorClient deceived(server.address(), {}, {.tls_folder = foreign + "/client"});
   EXPECT_TRUE(absl::IsUnavailable(deceived.ListJobs().status()));
 }
 

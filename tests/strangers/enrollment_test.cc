@@ -35,7 +35,7 @@ TEST(Enroll, GivesACertificateWithWhichAWorkerJoins) {
   EXPECT_EQ(own->identity.role, Role::kWorker);
   EXPECT_THAT(own->identity.name, StartsWith("host-"));
   EXPECT_NEAR(static_cast<double>(own->ends_unix_s - UnixNow()), 86400.0, 60.0);
-  GrpcCoordinatorClient worker(server.address(), {}, fresh.path);
+  GrpcCoordinatorClient worker(server.address(), {}, {.tls_folder = fresh.path});
   EXPECT_TRUE(
       worker.Join({.name = own->identity.name, .version = std::string(BuildVersion())}).ok());
   EXPECT_TRUE(absl::IsPermissionDenied(worker.ListJobs().status()));

@@ -52,7 +52,7 @@ class TlsServer {
   [[nodiscard]] Coordinator& coordinator() { return *coordinator_; }
   [[nodiscard]] std::unique_ptr<GrpcCoordinatorClient> As(const std::string& name) const {
     return std::make_unique<GrpcCoordinatorClient>(
-        address(), std::stop_token(), keys_ + "/" + name);
+        address(), std::stop_token(), ClientOptions{.tls_folder = keys_ + "/" + name});
   }
 
  private:
