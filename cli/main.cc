@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
   orbweave::RunLibrariesOnOneThread(argv);
   CLI::App app("Orbweave: structure from motion for 360-degree panoramas, on one machine or many");
   app.name("orbweave");
-  app.set_version_flag("--version", "orbweave " + std::string(orbweave::BuildVersion()));
+  app.set_version_flag("--version",
+                       [] { return "orbweave " + std::string(orbweave::BuildVersion()); });
   app.require_subcommand(1);
   const orbweave::StageLookup stages = orbweave::FindStage;
   orbweave::SelectedCommand selected;
