@@ -65,6 +65,12 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       ->description(
           "Folder with ca.crt, own.crt and own.key of a coordinator (see orbweave keys); "
           "without it only this machine can be served");
+  command
+      ->add_option("--max-jobs",
+                   options->coordinator.max_running_jobs,
+                   "Running jobs beyond which no more are taken")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
   AddRootArgument(*command,
                   options->server.roots,
                   "Folder beneath which clients may name images, instead of sending them "

@@ -284,6 +284,10 @@ absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
   Job* known = FindJob(id);
   const bool is_running = known != nullptr && known->machine->state() == JobState::kRunning;
   if (is_running && known->verify) return id;
+  if (!is_running && NumRunningJobs() >= options_.max_running_jobs) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat(options_.max_running_jobs, " jobs are running; wait for one, or cancel one"));
+  }
   const uint64_t next_number = order_.empty() ? 1 : order_.rbegin()->first + 1;
   const uint64_t number = known != nullptr ? known->number : next_number;
   lock.unlock();
@@ -374,6 +378,12 @@ void Coordinator::BeginShutdown() {
 Coordinator::Job* Coordinator::FindJob(const Digest& id) {
   const auto it = jobs_.find(id);
   return it == jobs_.end() ? nullptr : &it->second;
+}
+
+size_t Coordinator::NumRunningJobs() const {
+  return static_cast<size_t>(std::count_if(jobs_.begin(), jobs_.end(), [](const auto& item) {
+    return item.second.machine->state() == JobState::kRunning;
+  }));
 }
 
 void Coordinator::Log(const std::string& line) const {

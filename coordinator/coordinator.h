@@ -25,6 +25,7 @@ struct CoordinatorOptions {
   std::string state_dir{};
   double lease_s =
       20.0;  ///< a worker silent for so long loses its tasks; it beats ten times as often
+  uint32_t max_running_jobs = 1000;  ///< more are not taken
   RetryPolicy retry{};
   std::function<absl::StatusOr<JobPlan>(std::string_view kind)> find_plan = FindJobPlan;
   /// Told one line per event ("task failed stage=... part=... worker=..."); may be empty. Must be
@@ -98,6 +99,7 @@ class Coordinator final : public CoordinatorApi {
 
   // All of these with mutex_ held.
   [[nodiscard]] Job* FindJob(const Digest& id);
+  [[nodiscard]] size_t NumRunningJobs() const;
   void StartRun(Job& job, const JobSpec& spec, JobPlan plan);
   [[nodiscard]] std::optional<Lease> GrantNext(uint64_t session, uint32_t slot);
   [[nodiscard]] bool WasDoneBy(const Lease& lease) const;

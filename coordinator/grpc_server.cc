@@ -3,6 +3,7 @@
 
 #include "coordinator/grpc_server.h"
 
+#include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
@@ -17,14 +18,20 @@
 namespace orbweave {
 namespace {
 
-constexpr int kMaxMessageBytes = 8 << 20;
-
 /// Pings tell a cut line from a quiet one; clients are allowed to send theirs.
 void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 10'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 5'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 5'000);
+}
+
+void SetLimits(grpc::ServerBuilder& builder, const ServerLimits& limits) {
+  builder.SetMaxReceiveMessageSize(limits.message_bytes);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_connection);
+  grpc::ResourceQuota quota("calls");
+  quota.SetMaxThreads(limits.threads);
+  builder.SetResourceQuota(quota);
 }
 
 /// Null where the TLS folder is not made for it.
@@ -65,7 +72,7 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
   SetConnectionAge(builder);
-  builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  SetLimits(builder, options.limits);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   int port = 0;
   builder.AddListeningPort(address, credentials, &port);

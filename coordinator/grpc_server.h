@@ -12,11 +12,19 @@
 
 namespace orbweave {
 
+/// What a caller may ask of a server at most; beyond, calls end with ResourceExhausted.
+struct ServerLimits {
+  int message_bytes = 8 << 20;
+  int streams_per_connection = 256;  ///< further ones wait
+  int threads = 4096;                ///< one per call; waiting for a task is a call too
+};
+
 struct ServerOptions {
   std::string tls_folder{};  ///< a TlsFolder; empty: no TLS
   /// Where join tokens that were used are remembered. Tokens are taken when the TLS folder has
   /// ca.key and token.key.
   std::string used_tokens_folder{};
+  ServerLimits limits{};
   FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
 };
 
