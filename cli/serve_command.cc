@@ -56,6 +56,7 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       app.add_subcommand("serve", "Run a coordinator: give the tasks of jobs to workers that join");
   const auto options = std::make_shared<ServeOptions>();
   options->coordinator.log = LogLine;
+  options->server.log = LogLine;
   command->add_option("--listen", options->listen, "unix:/path or host:port (port 0: any free one)")
       ->required();
   command

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,7 @@ struct EnrollmentOptions {
   std::string used_folder{};    ///< where used tokens are remembered
   int64_t valid_s = 24 * 3600;  ///< of the certificates it gives
   UnixClock now_unix_s = UnixNow;
+  std::function<void(const std::string& line)> log{};  ///< told of every certificate; may be empty
 };
 
 /// Gives certificates to workers: the first for a join token, the next ones for the one before.

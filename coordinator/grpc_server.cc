@@ -43,7 +43,8 @@ absl::StatusOr<std::unique_ptr<EnrollmentDesk>> OpenDesk(const ServerOptions& op
       !std::filesystem::exists(folder.TokenKeyPath(), error)) {
     return nullptr;
   }
-  return EnrollmentDesk::Open({.tls = folder, .used_folder = options.used_tokens_folder});
+  return EnrollmentDesk::Open(
+      {.tls = folder, .used_folder = options.used_tokens_folder, .log = options.log});
 }
 
 /// A connection ends in time, so that none outlives for long the certificate it began with; calls
@@ -71,7 +72,7 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(desk)));
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
-  SetConnectionAge(builder);
+  if (has_tls) SetConnectionAge(builder);
   SetLimits(builder, options.limits);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   int port = 0;

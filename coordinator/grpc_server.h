@@ -4,6 +4,7 @@
 
 #include <grpcpp/server.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -25,6 +26,8 @@ struct ServerOptions {
   /// ca.key and token.key.
   std::string used_tokens_folder{};
   ServerLimits limits{};
+  /// Told one line per event ("certificate given worker=..."); may be empty.
+  std::function<void(const std::string& line)> log{};
   FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
 };
 

@@ -67,7 +67,7 @@ bool MaySpeakFor(const Identity& identity, std::string_view worker_name) {
   if (identity.role == Role::kAdmin) return true;
   if (identity.role != Role::kWorker || !worker_name.starts_with(identity.name)) return false;
   const std::string_view rest = worker_name.substr(identity.name.size());
-  return rest.empty() || rest[0] == '/';
+  return rest.empty() || (rest[0] == '/' && CheckName(rest.substr(1)).ok());
 }
 
 }  // namespace orbweave

@@ -37,7 +37,7 @@ inline constexpr std::string_view kIdentityScheme = "orbweave://";
 [[nodiscard]] absl::Status CheckName(std::string_view name);
 
 /// Whether the holder of this identity may call a worker `worker_name`: its own name, or its own
-/// name followed by '/' and more (several workers with one certificate). An admin may take any.
+/// name, '/' and another name (several workers with one certificate). An admin may take any.
 [[nodiscard]] bool MaySpeakFor(const Identity& identity, std::string_view worker_name);
 
 }  // namespace orbweave

@@ -90,6 +90,7 @@ TEST_F(SecuredCommands, AWorkerJoinsWithNothingButATokenAndLaterWithoutIt) {
   {
     Command worker(Work("worker", token));
     EXPECT_TRUE(CoordinatorSays("worker joined")) << worker.ErrSoFar();
+    EXPECT_TRUE(CoordinatorSays("certificate given worker="));
     worker.Signal(SIGTERM);
     EXPECT_EQ(worker.Wait().exit_code, kExitOk);
     EXPECT_TRUE(CoordinatorSays("worker left"));

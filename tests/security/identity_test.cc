@@ -54,6 +54,8 @@ TEST(MaySpeakFor, ItsOwnNameAndThoseBelowIt) {
   const Identity node{.fleet = "city", .role = Role::kWorker, .name = "node"};
   EXPECT_TRUE(MaySpeakFor(node, "node"));
   EXPECT_TRUE(MaySpeakFor(node, "node/host-17"));
+  EXPECT_FALSE(MaySpeakFor(node, "node/"));
+  EXPECT_FALSE(MaySpeakFor(node, "node/a\nworker joined worker=b")) << "names go to the log";
   EXPECT_FALSE(MaySpeakFor(node, "node2"));
   EXPECT_FALSE(MaySpeakFor(node, "other"));
   EXPECT_FALSE(MaySpeakFor(node, ""));
