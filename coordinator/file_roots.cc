@@ -13,23 +13,10 @@
 #include <filesystem>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/file_descriptor.h"
 
 namespace orbweave {
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(long fd) : fd_(static_cast<int>(fd)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 absl::Status OpenError(int error, const std::string& root, const std::string& relative) {
   const std::string file = absl::StrCat(relative, " beneath root ", root);
@@ -52,13 +39,14 @@ absl::StatusOr<std::string> ResolveBeneath(const FileRoots& roots,
     return absl::NotFoundError(absl::StrCat("this coordinator has no root '", root, "'"));
   if (relative.empty() || relative.find('\0') != std::string::npos)
     return absl::InvalidArgumentError("this is no path");
-  const Descriptor top(::open(folder->second.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-  if (top.get() < 0) return OpenError(errno, root, ".");
+  const FileDescriptor top(::open(folder->second.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (!top.IsOpen()) return OpenError(errno, root, ".");
   open_how how{};
   how.flags = O_RDONLY | O_NONBLOCK | O_CLOEXEC;  // a pipe must not block us
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
-  const Descriptor file(::syscall(SYS_openat2, top.get(), relative.c_str(), &how, sizeof(how)));
-  if (file.get() < 0) return OpenError(errno, root, relative);
+  const FileDescriptor file(
+      static_cast<int>(::syscall(SYS_openat2, top.get(), relative.c_str(), &how, sizeof(how))));
+  if (!file.IsOpen()) return OpenError(errno, root, relative);
   struct stat info {};
   if (::fstat(file.get(), &info) != 0 || !S_ISREG(info.st_mode)) {
     return absl::InvalidArgumentError(

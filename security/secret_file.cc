@@ -12,6 +12,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/file_descriptor.h"
 
 namespace orbweave {
 namespace {
@@ -22,32 +23,16 @@ absl::Status SystemError(const char* action, const std::string& path) {
   return absl::ErrnoToStatus(errno, absl::StrCat("cannot ", action, " ", path));
 }
 
-class OpenedFile {
- public:
-  OpenedFile(const std::string& path, int flags)
-      : fd_(::open(path.c_str(), flags | O_CLOEXEC, S_IRUSR | S_IWUSR)) {}
-  ~OpenedFile() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  OpenedFile(const OpenedFile&) = delete;
-  OpenedFile& operator=(const OpenedFile&) = delete;
-  [[nodiscard]] bool ok() const { return fd_ >= 0; }
-  [[nodiscard]] int fd() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 bool WriteWhole(const std::string& path, std::string_view bytes) {
-  const OpenedFile file(path, O_WRONLY | O_CREAT | O_EXCL);
-  if (!file.ok()) return false;
+  const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (!file.IsOpen()) return false;
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file.fd(), bytes.data(), bytes.size());
+    const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return false;
     bytes.remove_prefix(static_cast<size_t>(written));
   }
-  return ::fsync(file.fd()) == 0;
+  return ::fsync(file.get()) == 0;
 }
 
 }  // namespace
@@ -63,9 +48,10 @@ absl::Status WriteSecretFile(const std::string& path, std::string_view bytes) {
 }
 
 absl::StatusOr<std::string> ReadSecretFile(const std::string& path) {
-  const OpenedFile file(path, O_RDONLY | O_NONBLOCK);  // a pipe must not block us
+  // A pipe must not block us.
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat info {};
-  if (!file.ok() || ::fstat(file.fd(), &info) != 0) return SystemError("read", path);
+  if (!file.IsOpen() || ::fstat(file.get(), &info) != 0) return SystemError("read", path);
   if (!S_ISREG(info.st_mode) || info.st_size > kLargest_bytes)
     return absl::InvalidArgumentError(absl::StrCat(path, " is no file of keys"));
   if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
@@ -73,7 +59,7 @@ absl::StatusOr<std::string> ReadSecretFile(const std::string& path) {
         absl::StrCat(path, " is open to others: chmod 600 it, and think about who has read it"));
   }
   std::string bytes(static_cast<size_t>(info.st_size), '\0');
-  const ssize_t got = ::read(file.fd(), bytes.data(), bytes.size());
+  const ssize_t got = ::read(file.get(), bytes.data(), bytes.size());
   if (got < 0) return SystemError("read", path);
   bytes.resize(static_cast<size_t>(got));
   return bytes;
