@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
 #include "worker/grpc_coordinator_client.h"
@@ -15,15 +16,17 @@ namespace orbweave {
 namespace {
 
 struct CancelOptions {
-  std::string coordinator{};
+  CoordinatorArgument coordinator{};
   std::string job{};
 };
 
 absl::Status Cancel(const CancelOptions& options) {
-  GrpcCoordinatorClient coordinator(options.coordinator);
+  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
+  GrpcCoordinatorClient coordinator(
+      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
   const absl::StatusOr<JobStatus> job = FindJob(coordinator, options.job);
   if (absl::IsUnavailable(job.status())) {
-    return Annotate(job.status(), "no coordinator answers at " + options.coordinator);
+    return Annotate(job.status(), "no coordinator answers at " + options.coordinator.address);
   }
   ORBWEAVE_RETURN_IF_ERROR(job.status());
   if (job->state != JobState::kRunning) {
@@ -39,8 +42,7 @@ absl::Status Cancel(const CancelOptions& options) {
 void AddCancelCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("cancel", "End a job; what it finished is kept");
   const auto options = std::make_shared<CancelOptions>();
-  command->add_option("--coordinator", options->coordinator, "Address of the coordinator")
-      ->required();
+  AddCoordinatorArgument(*command, options->coordinator);
   command->add_option("job", options->job, "First digits of the job's id")->required();
   command->footer(
       "Example:\n"

@@ -56,7 +56,7 @@ absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
   std::error_code error;
   const std::string in_state =
       fs::absolute(options_.coordinator.state_dir, error).string() + "/coordinator.sock";
-  if (CheckListenAddress("unix:" + in_state).ok()) return "unix:" + in_state;
+  if (CheckListenAddress("unix:" + in_state, Wire::kPlain).ok()) return "unix:" + in_state;
   std::string folder = (fs::temp_directory_path(error) / "orbweave-XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr) {
     return absl::PermissionDeniedError(absl::StrCat("cannot create a folder like ", folder));

@@ -11,6 +11,7 @@
 #include "cli/evaluate_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
+#include "cli/keys_command.h"
 #include "cli/options_command.h"
 #include "cli/reconstruct_command.h"
 #include "cli/run_command.h"
@@ -28,7 +29,8 @@ int main(int argc, char** argv) {
   orbweave::RunLibrariesOnOneThread(argv);
   CLI::App app("Orbweave: structure from motion for 360-degree panoramas, on one machine or many");
   app.name("orbweave");
-  app.set_version_flag("--version", "orbweave " + std::string(orbweave::BuildVersion()));
+  app.set_version_flag("--version",
+                       [] { return "orbweave " + std::string(orbweave::BuildVersion()); });
   app.require_subcommand(1);
   const orbweave::StageLookup stages = orbweave::FindStage;
   orbweave::SelectedCommand selected;
@@ -39,6 +41,7 @@ int main(int argc, char** argv) {
   orbweave::AddBenchCommand(app, selected);
   orbweave::AddOptionsCommand(app, selected);
   orbweave::AddSynthCommand(app, selected);
+  orbweave::AddKeysCommand(app, selected);
   orbweave::AddServeCommand(app, selected);
   orbweave::AddWorkCommand(app, selected, stages);
   orbweave::AddSubmitCommand(app, selected);

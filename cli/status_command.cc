@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
 #include "cli/format_status.h"
@@ -19,7 +20,7 @@ namespace orbweave {
 namespace {
 
 struct StatusOptions {
-  std::string coordinator{};
+  CoordinatorArgument coordinator{};
   std::string job{};
   bool json = false;
   bool watch = false;
@@ -52,10 +53,12 @@ absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job) {
 }
 
 absl::Status ShowStatus(const StatusOptions& options) {
-  GrpcCoordinatorClient coordinator(options.coordinator);
+  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
+  GrpcCoordinatorClient coordinator(
+      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
   absl::StatusOr<std::vector<JobStatus>> jobs = WantedJobs(coordinator, options.job);
   if (absl::IsUnavailable(jobs.status())) {
-    return Annotate(jobs.status(), "no coordinator answers at " + options.coordinator);
+    return Annotate(jobs.status(), "no coordinator answers at " + options.coordinator.address);
   }
   ORBWEAVE_RETURN_IF_ERROR(jobs.status());
   if (options.watch && !jobs->empty()) return Watch(coordinator, jobs->back());
@@ -68,8 +71,7 @@ absl::Status ShowStatus(const StatusOptions& options) {
 void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("status", "Show the jobs of a coordinator");
   const auto options = std::make_shared<StatusOptions>();
-  command->add_option("--coordinator", options->coordinator, "Address of the coordinator")
-      ->required();
+  AddCoordinatorArgument(*command, options->coordinator);
   command->add_option("job", options->job, "First digits of a job's id (default: all jobs)");
   CLI::Option* json =
       command->add_flag("--json", options->json, "One JSON object per job and line");

@@ -3,15 +3,18 @@
 #include "cli/submit_command.h"
 
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 
+#include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/format_summary.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/prepare_job.h"
 #include "cli/progress_bar.h"
+#include "cli/root_argument.h"
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
 #include "cli/write_outputs.h"
@@ -22,7 +25,8 @@ namespace orbweave {
 namespace {
 
 struct SubmitArguments {
-  std::string coordinator{};
+  CoordinatorArgument coordinator{};
+  std::map<std::string, std::string> roots{};
   ScanRequest scan{};
   std::string clusters{};
   std::string output{};
@@ -48,7 +52,11 @@ absl::Status Submit(const SubmitArguments& arguments) {
   const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
-  GrpcCoordinatorClient coordinator(arguments.coordinator);
+  ORBWEAVE_RETURN_IF_ERROR(arguments.coordinator.Check());
+  GrpcCoordinatorClient coordinator(
+      arguments.coordinator.address,
+      {},
+      {.tls_folder = arguments.coordinator.tls_folder, .roots = arguments.roots});
   ORBWEAVE_ASSIGN_OR_RETURN(
       const JobSpec spec,
       PrepareImageJob(
@@ -66,8 +74,11 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command =
       app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
   const auto arguments = std::make_shared<SubmitArguments>();
-  command->add_option("--coordinator", arguments->coordinator, "Address of the coordinator")
-      ->required();
+  AddCoordinatorArgument(*command, arguments->coordinator);
+  AddRootArgument(*command,
+                  arguments->roots,
+                  "Where a root of the coordinator is on this machine: images beneath it are not "
+                  "sent, the coordinator reads them itself (repeatable)");
   AddImageArguments(*command, arguments->scan);
   AddClustersArgument(*command, arguments->clusters);
   command->add_option(

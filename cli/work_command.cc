@@ -12,17 +12,39 @@
 
 #include "absl/strings/str_cat.h"
 #include "cli/exit_code.h"
+#include "cli/join_token_argument.h"
 #include "cli/log_line.h"
 #include "cli/stop_signals.h"
+#include "security/tls_folder.h"
+#include "worker/certificate_keeper.h"
 #include "worker/grpc_coordinator_client.h"
+#include "worker/grpc_enrollment_client.h"
 
 namespace orbweave {
 namespace {
 
-std::string DefaultName() {
+std::string HostName() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  return absl::StrCat(host.data(), "-", ::getpid());
+  return host.data();
+}
+
+/// Renews the certificate as long as the worker works; null without one.
+std::unique_ptr<CertificateKeeper> KeepCertificate(const CoordinatorArgument& join) {
+  if (join.tls_folder.empty()) return nullptr;
+  const TlsFolder folder{join.tls_folder};
+  return std::make_unique<CertificateKeeper>(CertificateKeeperOptions{
+      .folder = folder,
+      .renew = [address = join.address, folder] { return RenewCertificate(address, folder); },
+      .log = LogLine});
+}
+
+/// The host and the process; where there is a certificate its name goes before (see MaySpeakFor).
+absl::StatusOr<std::string> DefaultName(const CoordinatorArgument& coordinator) {
+  const std::string process = absl::StrCat(HostName(), "-", ::getpid());
+  if (coordinator.tls_folder.empty()) return process;
+  ORBWEAVE_ASSIGN_OR_RETURN(const CertificateFacts own, CheckTlsFolder({coordinator.tls_folder}));
+  return absl::StrCat(own.identity.name, "/", process);
 }
 
 /// False when the parent is dead already.
@@ -35,11 +57,19 @@ absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
   if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
   const StopSignals signals;
   const SteadyClock clock;
-  GrpcCoordinatorClient coordinator(options.join, signals.token());
-  LogLine(absl::StrCat("worker started name=", options.worker.name, " coordinator=", options.join));
-  const absl::Status status =
-      RunWorker(coordinator, stages, options.worker, clock, signals.token());
-  LogLine(absl::StrCat("worker ended name=", options.worker.name));
+  ORBWEAVE_RETURN_IF_ERROR(
+      EnrolWhereNeeded(options.join, options.token_path, HostName(), signals.token()));
+  ORBWEAVE_RETURN_IF_ERROR(options.join.Check());
+  const auto keeper = KeepCertificate(options.join);
+  WorkerOptions worker = options.worker;
+  if (worker.name.empty()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(worker.name, DefaultName(options.join));
+  }
+  GrpcCoordinatorClient coordinator(
+      options.join.address, signals.token(), {.tls_folder = options.join.tls_folder});
+  LogLine(absl::StrCat("worker started name=", worker.name, " coordinator=", options.join.address));
+  const absl::Status status = RunWorker(coordinator, stages, worker, clock, signals.token());
+  LogLine(absl::StrCat("worker ended name=", worker.name));
   return status;
 }
 
@@ -48,18 +78,19 @@ absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
 void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup& stages) {
   CLI::App* command = app.add_subcommand("work", "Run a worker: do tasks for a coordinator");
   const auto options = std::make_shared<WorkOptions>();
-  options->worker.name = DefaultName();
   options->worker.log = LogLine;
-  command->add_option("--join", options->join, "Address of the coordinator")->required();
+  AddCoordinatorArgument(*command, options->join, "--join");
+  AddJoinTokenArgument(*command, options->token_path);
   command->add_option("--slots", options->worker.slots, "Tasks at a time")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--threads", options->worker.threads_per_task, "Threads of one task")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command
-      ->add_option("--name", options->worker.name, "Name, unique among the coordinator's workers")
-      ->capture_default_str();
+  command->add_option("--name",
+                      options->worker.name,
+                      "Name, unique among the coordinator's workers (default: certificate's name, "
+                      "host and process); with --tls the certificate's, or that and /more");
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
       ->group("");
@@ -67,6 +98,8 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup&
       "Examples:\n"
       "  orbweave work --join 127.0.0.1:7000 --slots 2\n"
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
+      "  orbweave work --join coordinator.example:7000 --tls keys/node7\n"
+      "  orbweave work --join coordinator.example:7000 --tls node-keys --token-file join.token\n"
       "SIGTERM gives running tasks back and leaves.");
   command->callback([options, &selected, &stages] {
     selected.run = [options, &stages] { return ReportStatus(Work(*options, stages)); };

@@ -5,12 +5,14 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/coordinator_argument.h"
 #include "worker/worker_loop.h"
 
 namespace orbweave {
 
 struct WorkOptions {
-  std::string join{};  ///< address of the coordinator
+  CoordinatorArgument join{};
+  std::string token_path{};  ///< file of a join token; empty: none, or in the environment
   WorkerOptions worker{};
   int parent_pid = 0;  ///< when given, the worker dies with that process
 };

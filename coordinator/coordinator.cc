@@ -59,7 +59,7 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
                    .log = options.log,
                    .changed = [this] { WakeAll(); }},
                   journal_->generation()),
-      desk_(mutex_, dispatcher_, *journal_, options.find_plan, clock),
+      desk_(mutex_, dispatcher_, *journal_, options.find_plan, options.max_running_jobs, clock),
       planner_(mutex_, dispatcher_, desk_, blobs_, *journal_, clock) {}
 
 Coordinator::~Coordinator() { BeginShutdown(); }

@@ -26,6 +26,7 @@ struct CoordinatorOptions {
   bool leases_survive = true;
   double lease_s =
       20.0;  ///< a worker silent for so long loses its tasks; it beats ten times as often
+  uint32_t max_running_jobs = 1000;  ///< more are not taken
   RetryPolicy retry{};
   JobDesk::FindPlan find_plan = FindJobPlan;
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>

@@ -3,19 +3,20 @@
 
 #include "coordinator/grpc_server.h"
 
+#include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "coordinator/grpc_tls.h"
 #include "coordinator/listen_address.h"
 
 namespace orbweave {
 namespace {
-
-constexpr int kMaxMessageBytes = 8 << 20;
 
 /// Pings tell a cut line from a quiet one; clients are allowed to send theirs.
 void SetKeepalive(grpc::ServerBuilder& builder) {
@@ -25,19 +26,59 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 5'000);
 }
 
+void SetLimits(grpc::ServerBuilder& builder, const ServerLimits& limits) {
+  builder.SetMaxReceiveMessageSize(limits.message_bytes);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_connection);
+  grpc::ResourceQuota quota("calls");
+  quota.SetMaxThreads(limits.threads);
+  builder.SetResourceQuota(quota);
+}
+
+/// Null where the TLS folder is not made for it.
+absl::StatusOr<std::unique_ptr<EnrollmentDesk>> OpenDesk(const ServerOptions& options) {
+  const TlsFolder folder{options.tls_folder};
+  std::error_code error;
+  if (options.used_tokens_folder.empty() ||
+      !std::filesystem::exists(folder.AuthorityKeyPath(), error) ||
+      !std::filesystem::exists(folder.TokenKeyPath(), error)) {
+    return nullptr;
+  }
+  return EnrollmentDesk::Open(
+      {.tls = folder, .used_folder = options.used_tokens_folder, .log = options.log});
+}
+
+/// A connection ends in time, so that none outlives for long the certificate it began with; calls
+/// that run then have their time to end.
+void SetConnectionAge(grpc::ServerBuilder& builder) {
+  constexpr int kHour_ms = 3'600'000;
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, kHour_ms);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kHour_ms);
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& api,
-                                                              const std::string& address) {
-  ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address));
-  std::unique_ptr<GrpcServer> server(new GrpcServer(api));
+                                                              const std::string& address,
+                                                              const ServerOptions& options) {
+  const bool has_tls = !options.tls_folder.empty();
+  ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address, has_tls ? Wire::kEncrypted : Wire::kPlain));
+  std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
+  std::unique_ptr<EnrollmentDesk> desk;
+  if (has_tls) {
+    ORBWEAVE_ASSIGN_OR_RETURN(desk, OpenDesk(options));
+    const Strangers strangers = desk ? Strangers::kLetToEnrol : Strangers::kRefused;
+    ORBWEAVE_ASSIGN_OR_RETURN(credentials, MakeTlsCredentials({options.tls_folder}, strangers));
+  }
+  std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(desk)));
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
-  builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  if (has_tls) SetConnectionAge(builder);
+  SetLimits(builder, options.limits);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   int port = 0;
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
+  builder.AddListeningPort(address, credentials, &port);
   builder.RegisterService(&server->service_);
+  if (has_tls) builder.RegisterService(&server->enrollment_);
   server->server_ = builder.BuildAndStart();
   if (server->server_ == nullptr || port == 0) {
     return absl::UnavailableError(
@@ -48,6 +89,13 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
       is_socket ? address : absl::StrCat(address.substr(0, address.rfind(':')), ":", port);
   return server;
 }
+
+GrpcServer::GrpcServer(CoordinatorApi& api,
+                       const ServerOptions& options,
+                       std::unique_ptr<EnrollmentDesk> desk)
+    : service_(
+          api, options.tls_folder.empty() ? Peers::kTrusted : Peers::kCertified, options.roots),
+      enrollment_(std::move(desk)) {}
 
 GrpcServer::~GrpcServer() {
   if (server_ == nullptr) return;

@@ -4,30 +4,53 @@
 
 #include <grpcpp/server.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "coordinator/grpc_enrollment.h"
 #include "coordinator/grpc_service.h"
 
 namespace orbweave {
+
+/// What a caller may ask of a server at most; beyond, calls end with ResourceExhausted.
+struct ServerLimits {
+  int message_bytes = 8 << 20;
+  int streams_per_connection = 256;  ///< further ones wait
+  int threads = 4096;                ///< one per call; waiting for a task is a call too
+};
+
+struct ServerOptions {
+  std::string tls_folder{};  ///< a TlsFolder; empty: no TLS
+  /// Where join tokens that were used are remembered. Tokens are taken when the TLS folder has
+  /// ca.key and token.key.
+  std::string used_tokens_folder{};
+  ServerLimits limits{};
+  /// Told one line per event ("certificate given worker=..."); may be empty.
+  std::function<void(const std::string& line)> log{};
+  FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
+};
 
 /// Serves a CoordinatorApi on an address until destroyed. Before that, whatever keeps calls waiting
 /// in `api` has to let go (Coordinator::BeginShutdown).
 class GrpcServer {
  public:
   /// `address`: see CheckListenAddress; port 0 lets the system choose. InvalidArgument: not
-  /// allowed. Unavailable: taken, or not ours to use.
+  /// allowed. Unavailable: taken, or not ours to use. Also those of MakeTlsCredentials.
   [[nodiscard]] static absl::StatusOr<std::unique_ptr<GrpcServer>> Start(
-      CoordinatorApi& api, const std::string& address);
+      CoordinatorApi& api, const std::string& address, const ServerOptions& options = {});
   ~GrpcServer();
 
   /// Where workers and clients find it.
   [[nodiscard]] const std::string& address() const { return address_; }
 
  private:
-  explicit GrpcServer(CoordinatorApi& api) : service_(api) {}
+  GrpcServer(CoordinatorApi& api,
+             const ServerOptions& options,
+             std::unique_ptr<EnrollmentDesk> desk);
 
   GrpcService service_;
+  GrpcEnrollment enrollment_;
   std::string address_;
   std::unique_ptr<grpc::Server> server_;
 };

@@ -7,39 +7,39 @@
 #include <string>
 #include <utility>
 
+#include "coordinator/grpc_peer.h"
+#include "coordinator/grpc_status.h"
 #include "proto/codec/coordinator_codec.h"
-
-/// Leaves a handler with the status of `expression` unless it is OK.
-#define ORBWEAVE_GRPC_ASSIGN_OR_RETURN(declaration, expression) \
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN_INNER(                         \
-      ORBWEAVE_CONCAT(orbweave_value_, __LINE__), declaration, expression)
-#define ORBWEAVE_GRPC_ASSIGN_OR_RETURN_INNER(temporary, declaration, expression) \
-  auto temporary = (expression);                                                 \
-  if (!temporary.ok()) return OnWire(temporary.status());                        \
-  declaration = std::move(temporary).value()
 
 namespace orbweave {
 namespace {
 
 constexpr size_t kChunkBytes = size_t{512} << 10;
 constexpr size_t kMaxBlobBytes = size_t{8} << 30;
-/// Error texts travel in a header, which gRPC limits to 8 KiB.
-constexpr size_t kMaxErrorBytes = 4000;
-
-/// The codes of absl::Status and gRPC are the same numbers.
-grpc::Status OnWire(const absl::Status& status) {
-  if (status.ok()) return grpc::Status::OK;
-  return {static_cast<grpc::StatusCode>(status.code()),
-          std::string(status.message().substr(0, kMaxErrorBytes))};
-}
-
 grpc::Status ReaderLeft() { return {grpc::StatusCode::CANCELLED, "the reader left"}; }
 
 }  // namespace
 
-grpc::Status GrpcService::Join(Context*, const v1::JoinRequest* request, v1::JoinReply* reply) {
+absl::Status GrpcService::CheckSession(const Context& context, uint64_t session) const {
+  if (peers_ == Peers::kTrusted) return absl::OkStatus();
+  ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeerOf(*context.auth_context()));
+  return owners_.Check(session, peer);
+}
+
+absl::StatusOr<JoinReply> GrpcService::JoinAs(const Context& context, const WorkerInfo& worker) {
+  if (peers_ == Peers::kTrusted) return api_.Join(worker);
+  ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeerOf(*context.auth_context()));
+  ORBWEAVE_RETURN_IF_ERROR(SessionOwners::CheckName(peer, worker.name));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JoinReply joined, api_.Join(worker));
+  owners_.Begin(joined.session, worker.name, peer);
+  return joined;
+}
+
+grpc::Status GrpcService::Join(Context* context,
+                               const v1::JoinRequest* request,
+                               v1::JoinReply* reply) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const WorkerInfo worker, FromProto(*request));
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JoinReply joined, api_.Join(worker));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const JoinReply joined, JoinAs(*context, worker));
   *reply = ToProto(joined);
   return grpc::Status::OK;
 }
@@ -47,6 +47,7 @@ grpc::Status GrpcService::Join(Context*, const v1::JoinRequest* request, v1::Joi
 grpc::Status GrpcService::LeaseTask(Context* context,
                                     const v1::LeaseTaskRequest* request,
                                     v1::LeaseTaskReply* reply) {
+  ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(
       const std::optional<Lease> lease,
       api_.LeaseTask(request->session(), request->slot(), request->wait_s()));
@@ -59,9 +60,10 @@ grpc::Status GrpcService::LeaseTask(Context* context,
   return grpc::Status::OK;
 }
 
-grpc::Status GrpcService::Heartbeat(Context*,
+grpc::Status GrpcService::Heartbeat(Context* context,
                                     const v1::HeartbeatRequest* request,
                                     v1::HeartbeatReply* reply) {
+  ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   std::vector<LeaseProgress> leases;
   for (const v1::LeaseProgress& held : request->leases()) {
     ORBWEAVE_GRPC_ASSIGN_OR_RETURN(leases.emplace_back(), FromProto(held));
@@ -72,21 +74,26 @@ grpc::Status GrpcService::Heartbeat(Context*,
   return grpc::Status::OK;
 }
 
-grpc::Status GrpcService::CompleteTask(Context*,
+grpc::Status GrpcService::CompleteTask(Context* context,
                                        const v1::CompleteTaskRequest* request,
                                        v1::Empty*) {
+  ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Lease lease, FromProto(request->lease()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const TaskResult result, FromProto(request->result()));
   return OnWire(api_.CompleteTask(request->session(), lease, result));
 }
 
-grpc::Status GrpcService::FailTask(Context*, const v1::FailTaskRequest* request, v1::Empty*) {
+grpc::Status GrpcService::FailTask(Context* context,
+                                   const v1::FailTaskRequest* request,
+                                   v1::Empty*) {
+  ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Lease lease, FromProto(request->lease()));
   const absl::Status error(static_cast<absl::StatusCode>(request->code()), request->message());
   return OnWire(api_.FailTask(request->session(), lease, error));
 }
 
-grpc::Status GrpcService::Leave(Context*, const v1::LeaveRequest* request, v1::Empty*) {
+grpc::Status GrpcService::Leave(Context* context, const v1::LeaveRequest* request, v1::Empty*) {
+  ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   return OnWire(api_.Leave(request->session()));
 }
 
@@ -160,7 +167,9 @@ grpc::Status GrpcService::StatBlobs(Context*,
 
 grpc::Status GrpcService::LinkFile(Context*, const v1::LinkFileRequest* request, v1::Empty*) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
-  return OnWire(api_.LinkFile(digest, request->path()));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::string path,
+                                 ResolveBeneath(roots_, request->root(), request->path()));
+  return OnWire(api_.LinkFile(digest, path));
 }
 
 grpc::Status GrpcService::GetBlob(Context*,

@@ -2,15 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coordinator/file_roots.h"
+#include "coordinator/session_owners.h"
 #include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 
 namespace orbweave {
 
+/// Who is at the other end.
+enum class Peers {
+  kTrusted,    ///< whoever can reach a socket or the loopback: this machine's own people
+  kCertified,  ///< holders of certificates, let in by GrpcGate; a worker session is its peer's
+               ///< alone
+};
+
 /// CoordinatorApi on the wire: each handler decodes, calls and encodes.
 class GrpcService final : public v1::Coordinator::Service {
  public:
-  explicit GrpcService(CoordinatorApi& api) : api_(api) {}
+  /// Files are named to it beneath `roots` alone.
+  GrpcService(CoordinatorApi& api, Peers peers, FileRoots roots)
+      : api_(api), peers_(peers), roots_(std::move(roots)) {}
 
   using Context = grpc::ServerContext;
 
@@ -43,7 +54,14 @@ class GrpcService final : public v1::Coordinator::Service {
   grpc::Status PutBlob(Context*, grpc::ServerReader<v1::BlobChunk>*, v1::PutBlobReply*) override;
 
  private:
+  [[nodiscard]] absl::StatusOr<JoinReply> JoinAs(const Context& context, const WorkerInfo& worker);
+  /// See SessionOwners::Check.
+  [[nodiscard]] absl::Status CheckSession(const Context& context, uint64_t session) const;
+
   CoordinatorApi& api_;
+  Peers peers_;
+  FileRoots roots_;
+  SessionOwners owners_;
 };
 
 }  // namespace orbweave

@@ -57,7 +57,12 @@ absl::StatusOr<Digest> JobDesk::Submit(const JobSpec& spec) {
   std::unique_lock lock(mutex_);
   JobTable& jobs = dispatcher_.jobs();
   const Job* known = jobs.Find(id);
-  if (known != nullptr && known->IsRunning() && known->verify) return id;
+  const bool is_running = known != nullptr && known->IsRunning();
+  if (is_running && known->verify) return id;
+  if (!is_running && jobs.NumRunning() >= max_running_jobs_) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat(max_running_jobs_, " jobs are running; wait for one, or cancel one"));
+  }
   const uint64_t number = known != nullptr ? known->number : jobs.NextNumber();
   lock.unlock();
   ORBWEAVE_RETURN_IF_ERROR(journal_.SaveJob({spec, JobState::kRunning, "", number}));

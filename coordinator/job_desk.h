@@ -19,16 +19,18 @@ class JobDesk {
  public:
   using FindPlan = std::function<absl::StatusOr<JobPlan>(std::string_view kind)>;
 
-  /// `mutex` guards `dispatcher`.
+  /// `mutex` guards `dispatcher`. While `max_running_jobs` run, no more are taken.
   JobDesk(std::mutex& mutex,
           Dispatcher& dispatcher,
           Journal& journal,
           FindPlan find_plan,
+          uint32_t max_running_jobs,
           const Clock& clock)
       : mutex_(mutex),
         dispatcher_(dispatcher),
         journal_(journal),
         find_plan_(std::move(find_plan)),
+        max_running_jobs_(max_running_jobs),
         clock_(clock) {}
 
   /// Takes up the jobs of the journal where they were. With `leases_survive` the attempts that were
@@ -47,6 +49,7 @@ class JobDesk {
   Dispatcher& dispatcher_;
   Journal& journal_;
   FindPlan find_plan_;
+  uint32_t max_running_jobs_;
   const Clock& clock_;
   std::mutex saving_mutex_;  ///< one writer of jobs at a time; taken before mutex_
 };

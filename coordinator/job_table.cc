@@ -25,6 +25,11 @@ Job* JobTable::Find(const Digest& id) {
   return it == jobs_.end() ? nullptr : &it->second;
 }
 
+size_t JobTable::NumRunning() const {
+  return static_cast<size_t>(std::ranges::count_if(
+      jobs_, [](const auto& item) { return item.second.IsRunning(); }));
+}
+
 std::optional<Digest> JobTable::ToPlan() const {
   for (const auto& [number, id] : order_) {
     if (jobs_.at(id).machine->StageToPlan()) return id;

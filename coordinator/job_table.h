@@ -40,6 +40,8 @@ class JobTable {
     return order_.empty() ? 1 : order_.rbegin()->first + 1;
   }
 
+  [[nodiscard]] size_t NumRunning() const;
+
   /// The oldest job with a stage to plan; with an end to save.
   [[nodiscard]] std::optional<Digest> ToPlan() const;
   [[nodiscard]] std::optional<Digest> ToSave() const;

@@ -37,8 +37,12 @@ absl::Status CheckSocketPath(const std::string& path) {
 
 }  // namespace
 
-absl::Status CheckListenAddress(const std::string& address) {
-  if (absl::StartsWith(address, "unix:")) return CheckSocketPath(address.substr(5));
+absl::Status CheckListenAddress(const std::string& address, Wire wire) {
+  const bool is_encrypted = wire == Wire::kEncrypted;
+  if (absl::StartsWith(address, "unix:")) {
+    if (!is_encrypted) return CheckSocketPath(address.substr(5));
+    return absl::InvalidArgumentError("a unix socket is guarded by its folder: it has no TLS");
+  }
   const size_t colon = address.rfind(':');
   int port = -1;
   if (colon == std::string::npos || !absl::SimpleAtoi(address.substr(colon + 1), &port) ||
@@ -46,12 +50,12 @@ absl::Status CheckListenAddress(const std::string& address) {
     return absl::InvalidArgumentError(
         absl::StrCat("'", address, "' is no address: give unix:/path or 127.0.0.1:port"));
   }
-  if (IsLoopback(address.substr(0, colon))) return absl::OkStatus();
+  if (is_encrypted || IsLoopback(address.substr(0, colon))) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(
       "refusing to listen on ",
       address,
       ": without TLS only a unix socket or a loopback address (127.0.0.1:port) is allowed; "
-      "to reach other machines, forward it through ssh"));
+      "for other machines make keys (orbweave keys init) and give them with --tls"));
 }
 
 }  // namespace orbweave

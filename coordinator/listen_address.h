@@ -8,9 +8,12 @@
 
 namespace orbweave {
 
-/// OK for "unix:/path" and for "host:port" on a loopback host (127.x.x.x, localhost, [::1]).
-/// InvalidArgument for another form, and for every other host: what would be sent there is neither
-/// encrypted nor authenticated.
-[[nodiscard]] absl::Status CheckListenAddress(const std::string& address);
+/// What protects the bytes between a listener and its callers.
+enum class Wire { kPlain, kEncrypted };
+
+/// OK for "host:port", and for "unix:/path" on a plain wire. InvalidArgument for another form; for
+/// any but a loopback host (127.x.x.x, localhost, [::1]) on a plain wire: what would be sent there
+/// is neither encrypted nor authenticated; and for a socket that is to be encrypted.
+[[nodiscard]] absl::Status CheckListenAddress(const std::string& address, Wire wire);
 
 }  // namespace orbweave

@@ -3,15 +3,15 @@
 
 #include "worker/grpc_coordinator_client.h"
 
-#include <grpcpp/create_channel.h>
-#include <grpcpp/security/credentials.h>
-
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "proto/codec/coordinator_codec.h"
+#include "worker/grpc_channel.h"
+#include "worker/grpc_status.h"
 
 namespace orbweave {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using Stub = v1::Coordinator::Stub;
 
 constexpr size_t kChunkBytes = size_t{512} << 10;
-constexpr int kMaxMessageBytes = 8 << 20;
 /// Digests per StatBlobs message.
 constexpr size_t kMaxDigests = 65536;
 
@@ -27,27 +26,6 @@ constexpr size_t kMaxDigests = 65536;
 constexpr double kQuick_s = 30.0;
 constexpr double kFile_s = 300.0;
 constexpr double kBlob_s = 1800.0;
-
-grpc::ChannelArguments ChannelArguments() {
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 10'000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 5'000);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5'000);
-  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  return arguments;
-}
-
-/// The codes are the same numbers; a deadline that passed is a connection that broke.
-absl::Status FromWire(const grpc::Status& status) {
-  if (status.ok()) return absl::OkStatus();
-  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) {
-    return absl::UnavailableError(
-        absl::StrCat("the coordinator did not answer: ", status.error_message()));
-  }
-  return {static_cast<absl::StatusCode>(status.error_code()), status.error_message()};
-}
 
 void SetDeadline(grpc::ClientContext& context, double seconds) {
   context.set_deadline(std::chrono::system_clock::now() +
@@ -77,10 +55,12 @@ v1::JobRequest RequestFor(const Digest& job) {
 
 }  // namespace
 
-GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address, std::stop_token stop)
-    : stub_(v1::Coordinator::NewStub(grpc::CreateCustomChannel(
-          address, grpc::InsecureChannelCredentials(), ChannelArguments()))),
-      stop_(std::move(stop)) {}
+GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
+                                             std::stop_token stop,
+                                             const ClientOptions& options)
+    : stub_(v1::Coordinator::NewStub(OpenChannel(address, options.tls_folder))),
+      stop_(std::move(stop)),
+      roots_(options.roots) {}
 
 absl::StatusOr<std::string> GrpcCoordinatorClient::Get(const Digest& digest) {
   grpc::ClientContext context;
@@ -257,10 +237,17 @@ absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(
 }
 
 absl::Status GrpcCoordinatorClient::LinkFile(const Digest& digest, const std::string& path) {
-  v1::LinkFileRequest request;
-  request.set_digest(ToProto(digest));
-  request.set_path(path);
-  return Call(*stub_, &Stub::LinkFile, request, kFile_s).status();
+  const std::string file = std::filesystem::path(path).lexically_normal().string();
+  for (const auto& [name, folder] : roots_) {
+    const std::string top = folder.ends_with('/') ? folder : folder + "/";
+    if (!file.starts_with(top)) continue;
+    v1::LinkFileRequest request;
+    request.set_digest(ToProto(digest));
+    request.set_root(name);
+    request.set_path(file.substr(top.size()));
+    return Call(*stub_, &Stub::LinkFile, request, kFile_s).status();
+  }
+  return absl::NotFoundError(absl::StrCat(path, " is beneath no root of the coordinator"));
 }
 
 }  // namespace orbweave

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -11,13 +12,20 @@
 
 namespace orbweave {
 
-/// CoordinatorApi at the other end of a gRPC channel. The channel connects when it is needed and
-/// again when it broke; until then calls are Unavailable, as is a blob that was damaged on its way.
-/// Thread-safe.
+struct ClientOptions {
+  std::string tls_folder{};  ///< a TlsFolder; empty: no TLS
+  /// Where the coordinator's roots are on this machine: name and absolute folder.
+  std::map<std::string, std::string> roots{};
+};
+
+/// CoordinatorApi at the other end of a gRPC channel (see OpenChannel). While it is not connected
+/// calls are Unavailable, as is a blob that was damaged on its way. Thread-safe.
 class GrpcCoordinatorClient final : public CoordinatorApi {
  public:
   /// `address` as the server prints it. `stop` ends a waiting LeaseTask with Cancelled.
-  explicit GrpcCoordinatorClient(const std::string& address, std::stop_token stop = {});
+  explicit GrpcCoordinatorClient(const std::string& address,
+                                 std::stop_token stop = {},
+                                 const ClientOptions& options = {});
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
@@ -46,11 +54,13 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
 
   [[nodiscard]] absl::StatusOr<std::vector<bool>> StatBlobs(
       const std::vector<Digest>& digests) override;
+  /// Also NotFound: `path` is beneath none of the roots, and nobody was asked.
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
 
  private:
   std::unique_ptr<v1::Coordinator::Stub> stub_;
   std::stop_token stop_;
+  std::map<std::string, std::string> roots_;
 };
 
 }  // namespace orbweave

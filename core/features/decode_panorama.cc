@@ -39,16 +39,17 @@ absl::StatusOr<cv::Mat> Decode(std::string_view encoded, int flags) {
   return image;
 }
 
+absl::Status CheckWidth(const ImageHeader& header, int max_width_px) {
+  if (header.width_px <= max_width_px) return absl::OkStatus();
+  return absl::InvalidArgumentError("too large: " + SizeText(header.width_px, header.height_px) +
+                                    ", at most " + std::to_string(max_width_px) + " wide");
+}
+
 absl::Status CheckPanoramaSize(const ImageHeader& header, int max_width_px) {
-  const std::string size = SizeText(header.width_px, header.height_px);
   if (std::abs(header.width_px - 2L * header.height_px) > 1) {
-    return absl::InvalidArgumentError("not 2:1: " + size);
+    return absl::InvalidArgumentError("not 2:1: " + SizeText(header.width_px, header.height_px));
   }
-  if (header.width_px > max_width_px) {
-    return absl::InvalidArgumentError("too large: " + size + ", at most " +
-                                      std::to_string(max_width_px) + " wide");
-  }
-  return absl::OkStatus();
+  return CheckWidth(header, max_width_px);
 }
 
 /// Whether scaling the mask to the image's width gives the image's height within a pixel.
@@ -68,7 +69,10 @@ absl::StatusOr<cv::Mat> DecodePanorama(std::string_view encoded, int max_width_p
   return image;
 }
 
-absl::StatusOr<cv::Mat> DecodeMask(std::string_view encoded, cv::Size size, bool ignores_white) {
+absl::StatusOr<cv::Mat> DecodeMask(std::string_view encoded,
+                                   cv::Size size,
+                                   int max_width_px,
+                                   bool ignores_white) {
   const absl::StatusOr<ImageHeader> header = ReadImageHeader(encoded);
   if (!header.ok()) return Annotate(header.status(), "cannot decode the mask");
   if (!HaveSameProportions(*header, size)) {
@@ -76,6 +80,8 @@ absl::StatusOr<cv::Mat> DecodeMask(std::string_view encoded, cv::Size size, bool
         "the mask is " + SizeText(header->width_px, header->height_px) +
         ", which does not cover an image of " + SizeText(size.width, size.height));
   }
+  if (const absl::Status size_status = CheckWidth(*header, max_width_px); !size_status.ok())
+    return Annotate(size_status, "the mask is");
   absl::StatusOr<cv::Mat> mask = Decode(encoded, cv::IMREAD_GRAYSCALE);
   if (!mask.ok()) return Annotate(mask.status(), "cannot decode the mask");
   if (mask->size() != size) cv::resize(*mask, *mask, size, 0, 0, cv::INTER_NEAREST);

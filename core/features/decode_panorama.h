@@ -17,9 +17,11 @@ namespace orbweave {
 
 /// The mask of a panorama of `size`: H x W, 255 where pixels are to be ignored, else 0. A pixel of
 /// the encoded mask counts as white above mid-grey. A mask of the same proportions in another
-/// resolution is scaled; InvalidArgument when it has other proportions or cannot be decoded.
+/// resolution is scaled; InvalidArgument when it has other proportions, is wider than
+/// `max_width_px` (refused before decoding) or cannot be decoded.
 [[nodiscard]] absl::StatusOr<cv::Mat> DecodeMask(std::string_view encoded,
                                                  cv::Size size,
+                                                 int max_width_px,
                                                  bool ignores_white);
 
 }  // namespace orbweave

@@ -148,8 +148,8 @@ absl::StatusOr<Features> ExtractFeatures(const ExtractInput& input,
   if (!panorama.ok()) return WithoutFeatures(input.name, panorama.status());
   cv::Mat ignored;
   if (!input.encoded_mask.empty()) {
-    const absl::StatusOr<cv::Mat> mask =
-        DecodeMask(input.encoded_mask, panorama->size(), input.mask_ignores_white);
+    const absl::StatusOr<cv::Mat> mask = DecodeMask(
+        input.encoded_mask, panorama->size(), options.max_image_width_px, input.mask_ignores_white);
     if (!mask.ok()) return WithoutFeatures(input.name, mask.status());
     ignored = *mask;
   }

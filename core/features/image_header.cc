@@ -93,8 +93,9 @@ ImageHeader ReadTiff(std::string_view data, Endian endian) {
     const uint32_t tag = bytes.U16(entry);
     const bool is_short = bytes.U16(entry + 2) == 3;
     const uint32_t value = is_short ? bytes.U16(entry + 8) : bytes.U32(entry + 8);
-    if (tag == 256) header.width_px = Dimension(value);
-    if (tag == 257) header.height_px = Dimension(value);
+    // Of a tag that is there twice the larger counts, whichever the decoder takes.
+    if (tag == 256) header.width_px = std::max(header.width_px, Dimension(value));
+    if (tag == 257) header.height_px = std::max(header.height_px, Dimension(value));
   }
   return header;
 }

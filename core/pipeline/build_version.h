@@ -6,7 +6,9 @@
 
 namespace orbweave {
 
-/// The version of this build, e.g. "0.1.0". A coordinator takes workers of its own version alone.
+/// The version and the build, e.g. "0.1.0+3f2a90c1b7de": the digits are the digest of this
+/// executable. A coordinator takes workers of its own build alone, since only those are sure to
+/// compute the same bytes.
 [[nodiscard]] std::string_view BuildVersion();
 
 }  // namespace orbweave

@@ -136,7 +136,7 @@ class CoordinatorApi : public BlobAccess {
   [[nodiscard]] virtual absl::Status Leave(uint64_t session) = 0;
 
   /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is
-  /// missing.
+  /// missing. ResourceExhausted: too many jobs are running.
   [[nodiscard]] virtual absl::StatusOr<Digest> SubmitJob(const JobSpec& job) = 0;
   /// NotFound: no such job.
   [[nodiscard]] virtual absl::StatusOr<JobStatus> GetJob(const Digest& job) = 0;

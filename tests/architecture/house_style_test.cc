@@ -14,11 +14,12 @@ namespace orbweave::architecture {
 namespace {
 
 const std::vector<std::string> kSourceRoots = {
-    "core", "proto", "coordinator", "worker", "cli", "tests", "bench"};
+    "core", "proto", "security", "coordinator", "worker", "cli", "tests", "bench"};
 
 // All that is under version control, apart from hidden folders.
 const std::vector<std::string> kAllRoots = {"core",
                                             "proto",
+                                            "security",
                                             "coordinator",
                                             "worker",
                                             "cli",

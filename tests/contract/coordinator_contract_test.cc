@@ -43,10 +43,12 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
     if (GetParam() == Way::kDirect) return;
     const std::string address =
         GetParam() == Way::kUnixSocket ? "unix:" + (folder_ / "s") : "127.0.0.1:0";
-    auto server = GrpcServer::Start(*coordinator_, address);
+    const FileRoots roots = {{"data", folder_.Path()}};
+    auto server = GrpcServer::Start(*coordinator_, address, {.roots = roots});
     ASSERT_TRUE(server.ok()) << server.status();
     server_ = *std::move(server);
-    client_ = std::make_unique<GrpcCoordinatorClient>(server_->address());
+    client_ = std::make_unique<GrpcCoordinatorClient>(
+        server_->address(), std::stop_token(), ClientOptions{.roots = roots});
   }
 
   void TearDown() override {

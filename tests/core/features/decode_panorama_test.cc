@@ -69,6 +69,32 @@ TEST(DecodePanorama, RefusesAWideImageByItsHeaderAlone) {
   EXPECT_THAT(ProblemOf(png), HasSubstr("too large: 65536x32768"));
 }
 
+TEST(DecodePanorama, RefusesAJpegBombByItsHeaderAlone) {
+  std::string jpeg = Encoded(cv::Mat(100, 200, CV_8UC3, cv::Scalar(0)), ".jpg");
+  const size_t frame = jpeg.find("\xFF\xC0");
+  ASSERT_NE(frame, std::string::npos);
+  jpeg.replace(frame + 5, 4, std::string("\x7F\xFE\xFF\xFC", 4));  // 65532 x 32766: 6 GB of pixels
+  EXPECT_THAT(ProblemOf(jpeg), HasSubstr("too large: 65532x32766"));
+}
+
+TEST(DecodeMask, RefusesABombByItsHeaderAlone) {
+  std::string png = Encoded(cv::Mat(100, 200, CV_8UC1, cv::Scalar(0)), ".png");
+  png.replace(16, 8, std::string("\0\1\0\0\0\0\x80\0", 8));  // 65536 x 32768
+  EXPECT_THAT(std::string(DecodeMask(png, {8, 4}, 4096, true).status().message()),
+              HasSubstr("the mask is: too large: 65536x32768"));
+}
+
+TEST(ReadImageHeader, TakesTheLargerOfTwoWidthsInATiff) {
+  std::string tiff = Encoded(TexturedPanorama(256, 1), ".tiff");
+  const auto byte = [&tiff](size_t i) { return static_cast<uint8_t>(tiff[i]); };
+  const size_t directory = byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24;
+  const size_t width = directory + 2;
+  ASSERT_EQ(byte(width) | byte(width + 1) << 8, 256) << "the first tag is the width";
+  const size_t third = width + 24;  // whatever it says, now it says the width again
+  tiff.replace(third, 12, tiff.substr(width, 8) + std::string("\xFF\xFF\0\0", 4));
+  EXPECT_EQ(ReadImageHeader(tiff)->width_px, 65535);
+}
+
 TEST(DecodePanorama, IgnoresThumbnailsWhenLookingForTheEnd) {
   const std::string jpeg = Encoded(TexturedPanorama(256, 1), ".jpg");
   const std::string thumbnail = Encoded(TexturedPanorama(64, 1), ".jpg");
@@ -90,13 +116,13 @@ TEST(DecodeMask, MarksIgnoredPixels) {
   cv::Mat mask(4, 8, CV_8UC1, cv::Scalar(0));
   mask.at<uint8_t>(1, 2) = 255;
   const std::string encoded = Encoded(mask, ".png");
-  EXPECT_EQ(cv::countNonZero(*DecodeMask(encoded, {8, 4}, true)), 1);
-  EXPECT_EQ(cv::countNonZero(*DecodeMask(encoded, {8, 4}, false)), 31);
-  EXPECT_EQ(DecodeMask(encoded, {8, 4}, true)->at<uint8_t>(1, 2), 255);
+  EXPECT_EQ(cv::countNonZero(*DecodeMask(encoded, {8, 4}, 4096, true)), 1);
+  EXPECT_EQ(cv::countNonZero(*DecodeMask(encoded, {8, 4}, 4096, false)), 31);
+  EXPECT_EQ(DecodeMask(encoded, {8, 4}, 4096, true)->at<uint8_t>(1, 2), 255);
 }
 
 TEST(DecodeMask, RefusesAnUnreadableMask) {
-  EXPECT_THAT(std::string(DecodeMask("x", {8, 4}, true).status().message()),
+  EXPECT_THAT(std::string(DecodeMask("x", {8, 4}, 4096, true).status().message()),
               HasSubstr("cannot decode the mask"));
 }
 

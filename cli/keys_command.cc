@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/keys_command.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.h"
+#include "security/key_store.h"
+#include "security/unix_time.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int64_t kMinute_s = 60;
+constexpr int64_t kDay_s = 86400;
+
+struct KeysOptions {
+  std::string store{};
+  std::string fleet{};
+  std::string role{};
+  std::string name{};
+  std::vector<std::string> hosts{};
+  std::string token_path{};
+  int64_t days = 365;
+  double minutes = 60.0;
+};
+
+/// What is always said of a coordinator's machine, and what the command line adds.
+std::vector<std::string> HostsOf(const KeysOptions& options) {
+  std::array<char, 256> own{};
+  ::gethostname(own.data(), own.size() - 1);
+  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "::1", own.data()};
+  hosts.insert(hosts.end(), options.hosts.begin(), options.hosts.end());
+  return hosts;
+}
+
+absl::Status Init(const KeysOptions& options) {
+  ORBWEAVE_RETURN_IF_ERROR(MakeKeyStore(options.store, options.fleet, HostsOf(options), UnixNow()));
+  std::printf(
+      "keys of fleet %s made in %s: coordinator, client, admin; keep authority to yourself\n",
+      options.fleet.c_str(),
+      options.store.c_str());
+  return absl::OkStatus();
+}
+
+absl::Status Add(const KeysOptions& options) {
+  NewKeys keys{.name = options.name, .valid_s = options.days * kDay_s};
+  ORBWEAVE_ASSIGN_OR_RETURN(keys.role, RoleFromName(options.role));
+  if (keys.role == Role::kCoordinator) keys.hosts = HostsOf(options);
+  ORBWEAVE_RETURN_IF_ERROR(AddKeys(options.store, keys, UnixNow()));
+  std::printf("%s %s: %s/%s\n",
+              options.role.c_str(),
+              keys.name.c_str(),
+              options.store.c_str(),
+              keys.name.c_str());
+  return absl::OkStatus();
+}
+
+absl::Status Token(const KeysOptions& options) {
+  const auto valid_s = static_cast<int64_t>(options.minutes * static_cast<double>(kMinute_s));
+  ORBWEAVE_RETURN_IF_ERROR(WriteJoinToken(options.store, options.token_path, UnixNow() + valid_s));
+  std::printf("join token written to %s: good for one worker and %g minutes\n",
+              options.token_path.c_str(),
+              options.minutes);
+  return absl::OkStatus();
+}
+
+using Action = absl::Status (*)(const KeysOptions&);
+
+CLI::App* AddAction(CLI::App& keys,
+                    SelectedCommand& selected,
+                    const std::shared_ptr<KeysOptions>& options,
+                    const std::string& name,
+                    const std::string& help,
+                    Action action) {
+  CLI::App* command = keys.add_subcommand(name, help);
+  command->add_option("KEYS", options->store, "Folder of the fleet's keys")->required();
+  command->callback([options, &selected, action] {
+    selected.run = [options, action] { return ReportStatus(action(*options)); };
+  });
+  return command;
+}
+
+void AddHosts(CLI::App& command, KeysOptions& options) {
+  command
+      .add_option("--host",
+                  options.hosts,
+                  "Name or address by which others reach the coordinator (repeatable); this "
+                  "machine's name and the loopback addresses are always in")
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+void AddKeysCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* keys = app.add_subcommand("keys", "Make the certificates and tokens of a fleet");
+  keys->require_subcommand(1);
+  const auto options = std::make_shared<KeysOptions>();
+  CLI::App* init = AddAction(*keys,
+                             selected,
+                             options,
+                             "init",
+                             "Make an authority, and keys of coordinator, client, admin",
+                             Init);
+  init->add_option("--fleet", options->fleet, "Name of the fleet")->required();
+  AddHosts(*init, *options);
+  CLI::App* add =
+      AddAction(*keys, selected, options, "add", "Make the keys of one more participant", Add);
+  add->add_option("ROLE", options->role, "coordinator, worker, client or admin")->required();
+  add->add_option("NAME", options->name, "Its name, and that of its folder in KEYS")->required();
+  add->add_option("--days", options->days, "How long its certificate is valid")
+      ->check(CLI::Range(1, 3650))
+      ->capture_default_str();
+  AddHosts(*add, *options);
+  CLI::App* token = AddAction(
+      *keys, selected, options, "token", "Make a token by which one new worker may join", Token);
+  token->add_option("--output", options->token_path, "File to write it to (mode 0600)")->required();
+  token->add_option("--minutes", options->minutes, "How long it is valid")
+      ->check(CLI::Range(0.01, 43200.0))
+      ->capture_default_str();
+  keys->footer(
+      "Examples:\n"
+      "  orbweave keys init keys --fleet city --host coordinator.example\n"
+      "  orbweave keys add keys worker node7\n"
+      "  orbweave keys token keys --output join.token");
+}
+
+}  // namespace orbweave

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "coordinator/enrollment_desk.h"
+#include "orbweave/v1/enrollment.grpc.pb.h"
+
+namespace orbweave {
+
+/// EnrollmentDesk on the wire. Without a desk every call is FailedPrecondition.
+class GrpcEnrollment final : public v1::Enrollment::Service {
+ public:
+  explicit GrpcEnrollment(std::unique_ptr<EnrollmentDesk> desk) : desk_(std::move(desk)) {}
+
+  grpc::Status Enroll(grpc::ServerContext*,
+                      const v1::EnrollRequest*,
+                      v1::CertificateReply*) override;
+  grpc::Status Renew(grpc::ServerContext*, const v1::RenewRequest*, v1::CertificateReply*) override;
+
+ private:
+  std::unique_ptr<EnrollmentDesk> desk_;
+};
+
+}  // namespace orbweave

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/grpc_gate.h"
+
+#include "coordinator/grpc_peer.h"
+#include "coordinator/grpc_status.h"
+#include "coordinator/method_rights.h"
+
+namespace orbweave {
+
+grpc::Status GrpcGate::Process(const InputMetadata& metadata,
+                               grpc::AuthContext* connection,
+                               OutputMetadata*,
+                               OutputMetadata*) {
+  const absl::StatusOr<std::optional<Identity>> peer = PeerOf(*connection);
+  if (!peer.ok()) return OnWire(peer.status());
+  const auto path = metadata.find(":path");
+  const std::string_view method = path == metadata.end()
+                                      ? std::string_view()
+                                      : std::string_view(path->second.data(), path->second.size());
+  return OnWire(CheckRight(method, *peer, fleet_));
+}
+
+}  // namespace orbweave

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <grpcpp/security/auth_context.h>
+
+#include <optional>
+
+#include "core/base/status.h"
+#include "security/identity.h"
+
+namespace orbweave {
+
+/// Who the certificate of a connection speaks for; nullopt when it showed none. PermissionDenied:
+/// the certificate does not name exactly one identity.
+[[nodiscard]] absl::StatusOr<std::optional<Identity>> PeerOf(const grpc::AuthContext& connection);
+
+/// The same where there has to be one. Unauthenticated: there is none.
+[[nodiscard]] absl::StatusOr<Identity> CertifiedPeerOf(const grpc::AuthContext& connection);
+
+}  // namespace orbweave

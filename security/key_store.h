@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "security/identity.h"
+
+namespace orbweave {
+
+/// The folder that `orbweave keys` keeps: `authority/` (ca.crt, ca.key, token.key) and one
+/// TlsFolder per name. All files have mode 0600, all folders 0700. Nothing is ever overwritten.
+
+/// A new fleet: its authority, and folders `coordinator`, `client` and `admin`. The coordinator's
+/// gets ca.key and token.key too, so that it can take join tokens. AlreadyExists: there are keys.
+[[nodiscard]] absl::Status MakeKeyStore(const std::string& store,
+                                        const std::string& fleet,
+                                        const std::vector<std::string>& hosts,
+                                        int64_t now_unix_s);
+
+struct NewKeys {
+  Role role = Role::kWorker;
+  std::string name{};
+  std::vector<std::string> hosts{};  ///< of a coordinator: where it is reached
+  int64_t valid_s = 365 * 86400;
+};
+
+/// A new key and certificate in the TlsFolder `store/name`. AlreadyExists: the name is taken.
+[[nodiscard]] absl::Status AddKeys(const std::string& store,
+                                   const NewKeys& keys,
+                                   int64_t now_unix_s);
+
+/// A join token for a worker, written to `path`. NotFound: no key store.
+[[nodiscard]] absl::Status WriteJoinToken(const std::string& store,
+                                          const std::string& path,
+                                          int64_t expires_unix_s);
+
+}  // namespace orbweave

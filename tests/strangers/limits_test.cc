@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What one caller may ask for at most.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "core/pipeline/build_version.h"
+#include "orbweave/v1/coordinator.grpc.pb.h"
+#include "tests/support/tls_server.h"
+#include "worker/grpc_channel.h"
+
+namespace orbweave {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::PrepareToyJob;
+using testing::TlsServer;
+
+WorkerInfo Worker(const std::string& name) {
+  return {.name = name, .version = std::string(BuildVersion()), .slots = 1};
+}
+
+TEST(Limits, AMessageHasItsSize) {
+  TlsServer server({.limits = {.message_bytes = 100'000}});
+  const auto client = server.As("client");
+  JobSpec large = *PrepareToyJob(*client, "1");
+  large.label = std::string(100'001, 'x');
+  EXPECT_TRUE(absl::IsResourceExhausted(client->SubmitJob(large).status()));
+  large.label.resize(1000);
+  EXPECT_TRUE(client->SubmitJob(large).ok());
+}
+
+TEST(Limits, AChunkOfABlobIsAMessageToo) {
+  TlsServer server;
+  const auto stub =
+      v1::Coordinator::NewStub(OpenChannel(server.address(), server.keys() + "/client"));
+  grpc::ClientContext context;
+  v1::PutBlobReply reply;
+  const auto writer = stub->PutBlob(&context, &reply);
+  v1::BlobChunk chunk;
+  chunk.set_data(std::string((8 << 20) + 1, 'x'));
+  writer->Write(chunk);
+  writer->WritesDone();
+  EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+}
+
+TEST(Limits, RunningJobsAreCounted) {
+  TlsServer server({}, {.max_running_jobs = 2});
+  const auto client = server.As("client");
+  const auto submit = [&client](const std::string& numbers) {
+    return client->SubmitJob(*PrepareToyJob(*client, numbers));
+  };
+  const auto first = submit("1");
+  ASSERT_TRUE(first.ok());
+  ASSERT_TRUE(submit("2").ok());
+  const absl::Status third = submit("3").status();
+  EXPECT_TRUE(absl::IsResourceExhausted(third));
+  EXPECT_THAT(std::string(third.message()), HasSubstr("2 jobs are running"));
+  EXPECT_TRUE(submit("2").ok()) << "joins the one that runs";
+  ASSERT_TRUE(client->CancelJob(*first).ok());
+  EXPECT_TRUE(submit("3").ok());
+}
+
+TEST(Limits, CallsBeyondTheThreadsAreTurnedAway) {
+  constexpr int kThreads = 12;
+  TlsServer server({.limits = {.threads = kThreads}});
+  const auto node = server.As("node");
+  const uint64_t session = node->Join(Worker("node"))->session;
+  std::atomic<int> turned_away{0};
+  {
+    std::vector<std::jthread> waiting;
+    for (uint32_t slot = 0; slot < 2 * kThreads; ++slot) {
+      waiting.emplace_back([&, slot] {
+        if (absl::IsResourceExhausted(node->LeaseTask(session, slot, 2.0).status())) ++turned_away;
+      });
+    }
+  }
+  EXPECT_GT(turned_away, 0);
+  EXPECT_LT(turned_away, 2 * kThreads);
+  EXPECT_TRUE(node->Heartbeat(session, {}).ok()) << "it serves on";
+}
+
+TEST(Limits, StreamsBeyondThoseOfAConnectionWait) {
+  TlsServer server({.limits = {.streams_per_connection = 2}});
+  const auto node = server.As("node");
+  const uint64_t session = node->Join(Worker("node"))->session;
+  std::atomic<int> answered{0};
+  {
+    std::vector<std::jthread> waiting;
+    for (uint32_t slot = 0; slot < 6; ++slot) {
+      waiting.emplace_back([&, slot] {
+        if (node->LeaseTask(session, slot, 0.1).ok()) ++answered;
+      });
+    }
+  }
+  EXPECT_EQ(answered, 6);
+}
+
+}  // namespace
+}  // namespace orbweave
