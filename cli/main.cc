@@ -9,6 +9,7 @@
 #include "cli/cancel_command.h"
 #include "cli/command.h"
 #include "cli/evaluate_command.h"
+#include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
 #include "cli/options_command.h"
@@ -40,7 +41,8 @@ int main(int argc, char** argv) {
   orbweave::AddOptionsCommand(app, selected);
   orbweave::AddSynthCommand(app, selected);
   orbweave::AddServeCommand(app, selected);
-  orbweave::AddWorkCommand(app, selected, stages);
+  orbweave::AddWorkCommand(app, selected);
+  orbweave::AddExecTasksCommand(app, selected, stages);
   orbweave::AddSubmitCommand(app, selected);
   orbweave::AddStatusCommand(app, selected);
   orbweave::AddCancelCommand(app, selected);

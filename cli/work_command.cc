@@ -15,6 +15,7 @@
 #include "cli/log_line.h"
 #include "cli/stop_signals.h"
 #include "worker/grpc_coordinator_client.h"
+#include "worker/task_process.h"
 
 namespace orbweave {
 namespace {
@@ -31,21 +32,39 @@ bool DieWithParent(int parent_pid) {
   return ::getppid() == parent_pid;
 }
 
-absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
+void AddTaskLimits(CLI::App& command, TaskLimits& limits) {
+  command
+      .add_option("--task-stall",
+                  limits.stall_s,
+                  "Seconds without progress or processor time after which a task hangs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--task-limit", limits.total_s, "Longest time of a task in seconds")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--task-memory", limits.memory_bytes, "Memory of a task in bytes, as in 16GiB")
+      ->transform(CLI::AsSizeValue(false));
+}
+
+absl::Status Work(const WorkOptions& options) {
   if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
   const StopSignals signals;
   const SteadyClock clock;
   GrpcCoordinatorClient coordinator(options.join, signals.token());
   LogLine(absl::StrCat("worker started name=", options.worker.name, " coordinator=", options.join));
+  const auto make_executor = [&options, &clock] {
+    return std::make_unique<TaskProcess>(options.task_limits, clock);
+  };
   const absl::Status status =
-      RunWorker(coordinator, stages, options.worker, clock, signals.token());
+      RunWorker(coordinator, make_executor, options.worker, signals.token());
   LogLine(absl::StrCat("worker ended name=", options.worker.name));
   return status;
 }
 
 }  // namespace
 
-void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup& stages) {
+void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("work", "Run a worker: do tasks for a coordinator");
   const auto options = std::make_shared<WorkOptions>();
   options->worker.name = DefaultName();
@@ -60,6 +79,7 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup&
   command
       ->add_option("--name", options->worker.name, "Name, unique among the coordinator's workers")
       ->capture_default_str();
+  AddTaskLimits(*command, options->task_limits);
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
       ->group("");
@@ -68,9 +88,8 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup&
       "  orbweave work --join 127.0.0.1:7000 --slots 2\n"
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
       "SIGTERM gives running tasks back and leaves.");
-  command->callback([options, &selected, &stages] {
-    selected.run = [options, &stages] { return ReportStatus(Work(*options, stages)); };
-  });
+  command->callback(
+      [options, &selected] { selected.run = [options] { return ReportStatus(Work(*options)); }; });
 }
 
 }  // namespace orbweave

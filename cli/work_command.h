@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/command.h"
+#include "worker/task_watch.h"
 #include "worker/worker_loop.h"
 
 namespace orbweave {
@@ -12,11 +13,11 @@ namespace orbweave {
 struct WorkOptions {
   std::string join{};  ///< address of the coordinator
   WorkerOptions worker{};
+  TaskLimits task_limits{};
   int parent_pid = 0;  ///< when given, the worker dies with that process
 };
 
-/// Declares the options of `orbweave work`; `stages` is what the worker can do and outlives the
-/// command.
-void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup& stages);
+/// Declares the options of `orbweave work`. What the worker can do is up to `exec-tasks`.
+void AddWorkCommand(CLI::App& app, SelectedCommand& selected);
 
 }  // namespace orbweave

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/file_descriptor.h"
 
 namespace orbweave {
 namespace {
@@ -33,21 +34,6 @@ absl::Status SystemError(int error, std::string_view doing, const std::string& p
       return absl::UnavailableError(message);
   }
 }
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] bool IsOpen() const { return fd_ >= 0; }
-
- private:
-  int fd_;
-};
 
 absl::Status WriteAndSync(const std::string& path, std::string_view bytes) {
   const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));

@@ -14,7 +14,6 @@
 #include "worker/blob_cache.h"
 #include "worker/held_leases.h"
 #include "worker/retry.h"
-#include "worker/task_runner.h"
 #include "worker/worker_session.h"
 
 namespace orbweave {
@@ -27,14 +26,10 @@ std::string DescribeLease(const Lease& lease) {
 
 class Worker {
  public:
-  Worker(CoordinatorApi& api,
-         const StageLookup& stages,
-         const WorkerOptions& options,
-         const Clock& clock)
+  Worker(CoordinatorApi& api, const MakeTaskExecutor& make_executor, const WorkerOptions& options)
       : api_(api),
-        stages_(stages),
+        make_executor_(make_executor),
         options_(options),
-        clock_(clock),
         session_(api, {options.name, std::string(BuildVersion()), options.slots}, leases_),
         blobs_(api, options.cache_bytes, ending_.get_token()) {}
 
@@ -79,6 +74,7 @@ class Worker {
   }
 
   void WorkUntilEnd(uint32_t slot) {
+    const std::unique_ptr<TaskExecutor> executor = make_executor_();
     Backoff backoff;
     while (!ending_.stop_requested()) {
       const std::optional<JoinReply> session = Session();
@@ -87,7 +83,7 @@ class Worker {
           api_.LeaseTask(session->session, slot, options_.poll_s);
       if (lease.ok()) {
         backoff = {};
-        if (*lease) Work(session->session, **lease);
+        if (*lease) Work(session->session, **lease, *executor);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
       } else if (!ending_.stop_requested()) {
@@ -97,7 +93,7 @@ class Worker {
     }
   }
 
-  void Work(uint64_t session, const Lease& lease) {
+  void Work(uint64_t session, const Lease& lease, TaskExecutor& executor) {
     StageContext context;
     context.stop = leases_.Add(session, lease);
     context.num_threads = options_.threads_per_task;
@@ -108,9 +104,7 @@ class Worker {
     if (ending_.stop_requested())
       leases_.StopAll();  // the end may have come between leasing and adding
     Log("task leased " + DescribeLease(lease));
-    const CpuClock cpu_clock = options_.slots == 1 ? CpuClock::kProcess : CpuClock::kThread;
-    const absl::StatusOr<TaskResult> result =
-        RunTask(stages_, lease.spec, blobs_, context, clock_, cpu_clock);
+    const absl::StatusOr<TaskResult> result = executor.Run(lease.spec, blobs_, context);
     const absl::Status handed_in = result.ok() ? HandIn(session, lease, *result) : result.status();
     if (!handed_in.ok()) {
       const bool given_up = context.stop.stop_requested();
@@ -164,9 +158,8 @@ class Worker {
   }
 
   CoordinatorApi& api_;
-  const StageLookup& stages_;
+  const MakeTaskExecutor& make_executor_;
   const WorkerOptions& options_;
-  const Clock& clock_;
   std::mutex mutex_;
   absl::Status reason_;
   std::stop_source ending_;   ///< take no more, hand in or give back what runs
@@ -181,11 +174,10 @@ class Worker {
 }  // namespace
 
 absl::Status RunWorker(CoordinatorApi& api,
-                       const StageLookup& stages,
+                       const MakeTaskExecutor& make_executor,
                        const WorkerOptions& options,
-                       const Clock& clock,
                        const std::stop_token& stop) {
-  return Worker(api, stages, options, clock).Run(stop);
+  return Worker(api, make_executor, options).Run(stop);
 }
 
 }  // namespace orbweave

@@ -6,9 +6,8 @@
 #include <stop_token>
 #include <string>
 
-#include "core/base/clock.h"
 #include "core/pipeline/coordinator_api.h"
-#include "worker/task_runner.h"
+#include "worker/task_executor.h"
 
 namespace orbweave {
 
@@ -23,14 +22,13 @@ struct WorkerOptions {
   std::function<void(const std::string& line)> log{};
 };
 
-/// Works for the coordinator until `stop` or until it says to leave: asks for tasks, runs them,
-/// hands in what came out, and beats. Outlasts a coordinator that is away for a while. Returns OK
-/// after leaving; FailedPrecondition when the coordinator does not take this worker (another
-/// version). When stopped, running tasks are given back.
+/// Works for the coordinator until `stop` or until it says to leave: asks for tasks, has them run
+/// by one executor per slot, hands in what came out, and beats. Outlasts a coordinator that is away
+/// for a while. Returns OK after leaving; FailedPrecondition when the coordinator does not take
+/// this worker (another version). When stopped, running tasks are given back.
 [[nodiscard]] absl::Status RunWorker(CoordinatorApi& api,
-                                     const StageLookup& stages,
+                                     const MakeTaskExecutor& make_executor,
                                      const WorkerOptions& options,
-                                     const Clock& clock,
                                      const std::stop_token& stop);
 
 }  // namespace orbweave

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
@@ -31,8 +32,8 @@ using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 
-/// The toy stages; squaring 13 for the first time kills the process that does it. A file next to
-/// the worker's socket remembers that it happened.
+/// The toy stages; squaring 13 for the first time kills the process that does it, or its worker. A
+/// file remembers that it happened.
 testing::StageMap DeadlyStages() {
   testing::StageMap stages = ToyStages();
   stages["square"] = [](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
@@ -40,7 +41,9 @@ testing::StageMap DeadlyStages() {
     const auto number = blobs.Get(spec.inputs.at(0));
     if (marker != nullptr && number.ok() && *number == "13" && !std::filesystem::exists(marker)) {
       std::ofstream(marker) << "killed";
-      ::kill(::getpid(), SIGKILL);
+      const bool is_worker = std::string_view(std::getenv("ORBWEAVE_TEST_VICTIM")) == "worker";
+      ::kill(is_worker ? ::getppid() : ::getpid(), SIGKILL);
+      std::this_thread::sleep_for(std::chrono::seconds(60));
     }
     return Square(spec, blobs, context);
   };
@@ -71,21 +74,35 @@ TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
   EXPECT_EQ((*fleet)->restarts(), 0U);
 }
 
-TEST(LocalFleet, AWorkerKilledInTheMiddleOfATaskCostsNothingButTime) {
-  const TemporaryFolder folder;
-  ::setenv("ORBWEAVE_TEST_MARKER", (folder / "killed").c_str(), 1);
-  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
+/// Squares 12, 13 and 14 on a fleet where 13 brings death the first time.
+class Deadly : public ::testing::TestWithParam<const char*> {
+ protected:
+  Deadly() {
+    ::setenv("ORBWEAVE_TEST_MARKER", (folder_ / "killed").c_str(), 1);
+    ::setenv("ORBWEAVE_TEST_VICTIM", GetParam(), 1);
+  }
+  ~Deadly() override {
+    ::unsetenv("ORBWEAVE_TEST_MARKER");
+    ::unsetenv("ORBWEAVE_TEST_VICTIM");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(Deadly, CostsNothingButTime) {
+  const auto fleet = LocalFleet::Start(FleetOptions(folder_ / "state", 2));
   ASSERT_TRUE(fleet.ok()) << fleet.status();
   const auto job = PrepareToyJob((*fleet)->coordinator(), "12 13 14");
   const auto status = (*fleet)->RunJob(*job, {}, {});
-  ::unsetenv("ORBWEAVE_TEST_MARKER");
   ASSERT_TRUE(status.ok()) << status.status();
   EXPECT_EQ(status->state, JobState::kDone) << status->error;
-  EXPECT_TRUE(std::filesystem::exists(folder / "killed"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "killed"));
   EXPECT_EQ(status->stages[1].retries, 1U);
-  EXPECT_EQ((*fleet)->restarts(), 1U);
+  EXPECT_EQ((*fleet)->restarts(), std::string_view(GetParam()) == "worker" ? 1U : 0U);
   EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "509");
 }
+
+INSTANTIATE_TEST_SUITE_P(LocalFleet, Deadly, ::testing::Values("worker", "task"));
 
 TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
   const TemporaryFolder folder;
@@ -137,7 +154,8 @@ int BeAWorker(int argc, char** argv) {
   const StageLookup lookup = testing::LookupIn(stages);
   CLI::App app;
   SelectedCommand selected;
-  AddWorkCommand(app, selected, lookup);
+  AddWorkCommand(app, selected);
+  AddExecTasksCommand(app, selected, lookup);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError&) {
@@ -150,7 +168,8 @@ int BeAWorker(int argc, char** argv) {
 }  // namespace orbweave
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "work") return orbweave::BeAWorker(argc, argv);
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first[0] != '-') return orbweave::BeAWorker(argc, argv);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -14,6 +14,7 @@
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
 #include "tests/support/command.h"
+#include "tests/support/in_process_executor.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
@@ -51,7 +52,8 @@ class RunningWorker {
                 uint32_t slots = 1)
       : stages_(std::move(stages)), options_{.name = name, .slots = slots, .poll_s = 0.1} {
     thread_ = std::thread([this, &api] {
-      end_ = RunWorker(api, LookupIn(stages_), options_, clock_, stop_.get_token());
+      const StageLookup lookup = LookupIn(stages_);
+      end_ = RunWorker(api, testing::RunInProcess(lookup, clock_), options_, stop_.get_token());
     });
   }
   ~RunningWorker() { (void)Stop(); }
