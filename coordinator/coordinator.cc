@@ -148,20 +148,33 @@ absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
   }
 }
 
+std::optional<Coordinator::JobTask> Coordinator::NextTask(const std::string& worker,
+                                                          double now_s) const {
+  const std::vector<std::string> serving = roster_.Serving(now_s);
+  if (!std::binary_search(serving.begin(), serving.end(), worker)) return std::nullopt;
+  for (const auto& [number, id] : order_) {
+    const auto ref = jobs_.at(id).machine->NextReady(worker, serving, now_s);
+    if (ref) return JobTask{id, *ref};
+  }
+  const uint32_t slots = roster_.Slots(now_s);
+  for (const auto& [number, id] : order_) {
+    const auto ref = jobs_.at(id).machine->NextStraggler(worker, slots, now_s);
+    if (ref) return JobTask{id, *ref};
+  }
+  return std::nullopt;
+}
+
 std::optional<Lease> Coordinator::GrantNext(uint64_t session, uint32_t slot) {
   const double now_s = clock_.NowSeconds();
   const std::string worker = roster_.NameOf(session);
-  const std::vector<std::string> alive = roster_.Alive(now_s);
-  for (const auto& [number, id] : order_) {
-    JobMachine& machine = *jobs_.at(id).machine;
-    const std::optional<TaskRef> ref = machine.NextReady(worker, alive, now_s);
-    if (!ref) continue;
-    const Lease lease{machine.TaskId(*ref), ++last_epoch_, machine.Spec(*ref), slot};
-    machine.TaskLeased(*ref, {lease.epoch, worker, slot}, now_s);
-    book_.Grant({lease.epoch, lease.task, id, *ref, session, now_s + options_.lease_s});
-    return lease;
-  }
-  return std::nullopt;
+  const std::optional<JobTask> next = NextTask(worker, now_s);
+  if (!next) return std::nullopt;
+  JobMachine& machine = *jobs_.at(next->job).machine;
+  const TaskRef ref = next->task;
+  const Lease lease{machine.TaskId(ref), ++last_epoch_, machine.Spec(ref), slot};
+  machine.TaskLeased(ref, {lease.epoch, worker, slot}, now_s);
+  book_.Grant({lease.epoch, lease.task, next->job, ref, session, now_s + options_.lease_s});
+  return lease;
 }
 
 absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
@@ -176,7 +189,7 @@ absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
     if (entry == nullptr) {
       reply.cancelled.push_back(held.task);
     } else {
-      jobs_.at(entry->job).machine->TaskProgressed(entry->ref, held.progress);
+      jobs_.at(entry->job).machine->TaskProgressed({entry->ref, entry->epoch}, held.progress);
     }
   }
   return reply;
@@ -199,17 +212,21 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
   if (WasDoneBy(lease)) return absl::OkStatus();
   ExpireLeases();
   ORBWEAVE_ASSIGN_OR_RETURN(const LeaseEntry entry, book_.Take(lease.epoch, lease.task, session));
+  const std::vector<LeaseEntry> others = book_.TakeTask(entry.job, entry.ref);
   const uint64_t run = jobs_.at(entry.job).run;
   lock.unlock();
   const absl::Status saved = journal_.SaveResult(lease.task, result);  // before it is acknowledged
   lock.lock();
   if (jobs_.at(entry.job).run != run) return saved;
   if (!saved.ok()) {
+    for (const LeaseEntry& other : others)
+      EndAttempt(other, absl::CancelledError("its result would not have been taken"));
     EndAttempt(entry, saved);
     return saved;
   }
-  jobs_.at(entry.job).machine->TaskDone(entry.ref, result, clock_.NowSeconds());
-  roster_.CountTask(session);
+  JobMachine& machine = *jobs_.at(entry.job).machine;
+  machine.TaskDone({entry.ref, entry.epoch}, result, clock_.NowSeconds());
+  roster_.CountTask(session, machine.FailedOn(entry.ref));
   WakeAll();
   return absl::OkStatus();
 }
@@ -246,7 +263,7 @@ void Coordinator::EndAttempt(const LeaseEntry& entry, const absl::Status& error)
     job.verify = true;
     StartRun(job, JobSpec(job.machine->spec()), JobPlan(job.machine->plan()));
   } else {
-    job.machine->TaskFailed(entry.ref, error, clock_.NowSeconds());
+    job.machine->TaskFailed({entry.ref, entry.epoch}, error, clock_.NowSeconds());
   }
   if (job.machine->state() != JobState::kRunning) book_.DropJob(entry.job);
   WakeAll();

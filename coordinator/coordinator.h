@@ -88,6 +88,10 @@ class Coordinator final : public CoordinatorApi {
     uint32_t reruns = 0;
     std::unique_ptr<JobMachine> machine{};
   };
+  struct JobTask {
+    Digest job{};
+    TaskRef task{};
+  };
 
   Coordinator(const CoordinatorOptions& options,
               const Clock& clock,
@@ -99,6 +103,8 @@ class Coordinator final : public CoordinatorApi {
   // All of these with mutex_ held.
   [[nodiscard]] Job* FindJob(const Digest& id);
   void StartRun(Job& job, const JobSpec& spec, JobPlan plan);
+  /// What `worker` is to do now: what is ready in the oldest job, or else a straggler.
+  [[nodiscard]] std::optional<JobTask> NextTask(const std::string& worker, double now_s) const;
   [[nodiscard]] std::optional<Lease> GrantNext(uint64_t session, uint32_t slot);
   [[nodiscard]] bool WasDoneBy(const Lease& lease) const;
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error);

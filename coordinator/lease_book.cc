@@ -48,6 +48,10 @@ std::vector<LeaseEntry> LeaseBook::TakeSession(uint64_t session) {
   return TakeIf([session](const LeaseEntry& entry) { return entry.session == session; });
 }
 
+std::vector<LeaseEntry> LeaseBook::TakeTask(const Digest& job, TaskRef ref) {
+  return TakeIf([&](const LeaseEntry& entry) { return entry.job == job && entry.ref == ref; });
+}
+
 void LeaseBook::DropJob(const Digest& job) {
   std::erase_if(entries_, [&job](const auto& item) { return item.second.job == job; });
 }

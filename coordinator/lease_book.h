@@ -36,6 +36,7 @@ class LeaseBook {
                                                 uint64_t session);
 
   /// Strike out and return, in order of epoch.
+  [[nodiscard]] std::vector<LeaseEntry> TakeTask(const Digest& job, TaskRef ref);
   [[nodiscard]] std::vector<LeaseEntry> TakeExpired(double now_s);
   [[nodiscard]] std::vector<LeaseEntry> TakeSession(uint64_t session);
   void DropJob(const Digest& job);

@@ -16,6 +16,7 @@ std::optional<uint64_t> WorkerRoster::Join(const WorkerInfo& worker,
   record.session = session;
   record.heard_s = now_s;
   record.slots = worker.slots;
+  record.blames = 0;
   names_[session] = worker.name;
   return replaced != 0 ? std::optional(replaced) : std::nullopt;
 }
@@ -36,9 +37,14 @@ void WorkerRoster::End(uint64_t session) {
   names_.erase(it);
 }
 
-void WorkerRoster::CountTask(uint64_t session) {
-  const auto it = names_.find(session);
-  if (it != names_.end()) ++records_[it->second].tasks_done;
+void WorkerRoster::CountTask(uint64_t session, const std::set<std::string>& failed_on) {
+  const std::string name = NameOf(session);
+  for (const std::string& other : failed_on) {
+    if (other != name) ++records_[other].blames;
+  }
+  if (name.empty()) return;
+  ++records_[name].tasks_done;
+  records_[name].blames = 0;
 }
 
 std::string WorkerRoster::NameOf(uint64_t session) const {
@@ -56,12 +62,26 @@ bool WorkerRoster::IsAlive(const Record& record, double now_s) const {
   return record.session != 0 && now_s - record.heard_s <= silence_s_;
 }
 
-std::vector<std::string> WorkerRoster::Alive(double now_s) const {
-  std::vector<std::string> names;
+bool WorkerRoster::IsSetAside(const Record& record) {
+  constexpr uint32_t kMaxBlames = 3;
+  return record.blames >= kMaxBlames;
+}
+
+std::vector<std::string> WorkerRoster::Serving(double now_s) const {
+  std::vector<std::string> serving;
+  std::vector<std::string> set_aside;
   for (const auto& [name, record] : records_) {
-    if (IsAlive(record, now_s)) names.push_back(name);
+    if (IsAlive(record, now_s)) (IsSetAside(record) ? set_aside : serving).push_back(name);
   }
-  return names;
+  return serving.empty() ? set_aside : serving;
+}
+
+uint32_t WorkerRoster::Slots(double now_s) const {
+  uint32_t slots = 0;
+  for (const auto& [name, record] : records_) {
+    if (IsAlive(record, now_s)) slots += record.slots;
+  }
+  return slots;
 }
 
 std::vector<WorkerStatus> WorkerRoster::Status(double now_s) const {
@@ -70,7 +90,8 @@ std::vector<WorkerStatus> WorkerRoster::Status(double now_s) const {
     workers.push_back({.name = name,
                        .slots = record.slots,
                        .tasks_done = record.tasks_done,
-                       .alive = IsAlive(record, now_s)});
+                       .alive = IsAlive(record, now_s),
+                       .set_aside = IsSetAside(record)});
   }
   return workers;
 }

@@ -62,6 +62,7 @@ struct WorkerStatus {
   uint32_t slots = 1;
   uint32_t tasks_done = 0;
   bool alive = true;
+  bool set_aside = false;  ///< it failed tasks that others then did, and gets no more
 };
 
 struct JobStatus {
@@ -124,8 +125,9 @@ class CoordinatorApi : public BlobAccess {
   [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session,
                                                   const Lease& lease,
                                                   const TaskResult& result) = 0;
-  /// InvalidArgument and FailedPrecondition errors are permanent and fail the job; Cancelled gives
-  /// the task back; others are retried.
+  /// The error's code decides what becomes of the task (coordinator/retry_policy.cc has the table):
+  /// InvalidArgument and its like are permanent and fail the job; Cancelled gives the task back;
+  /// others are tried again, so often.
   [[nodiscard]] virtual absl::Status FailTask(uint64_t session,
                                               const Lease& lease,
                                               const absl::Status& error) = 0;

@@ -26,19 +26,21 @@ namespace orbweave {
 namespace {
 
 using testing::FindToyPlan;
+using ::testing::HasSubstr;
 using testing::PrepareToyJob;
 using testing::Square;
 using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 
-/// The toy stages; squaring 13 for the first time kills the process that does it, or its worker. A
-/// file remembers that it happened.
+/// The toy stages; squaring 666 aborts the process that does it, and squaring 13 for the first time
+/// kills that process or its worker. A file remembers that it happened.
 testing::StageMap DeadlyStages() {
   testing::StageMap stages = ToyStages();
   stages["square"] = [](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
     const char* marker = std::getenv("ORBWEAVE_TEST_MARKER");
     const auto number = blobs.Get(spec.inputs.at(0));
+    if (number.ok() && *number == "666") std::abort();
     if (marker != nullptr && number.ok() && *number == "13" && !std::filesystem::exists(marker)) {
       std::ofstream(marker) << "killed";
       const bool is_worker = std::string_view(std::getenv("ORBWEAVE_TEST_VICTIM")) == "worker";
@@ -103,6 +105,21 @@ TEST_P(Deadly, CostsNothingButTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LocalFleet, Deadly, ::testing::Values("worker", "task"));
+
+TEST(LocalFleet, ATaskThatKillsWhoeverDoesItFailsTheJobAndIsNamed) {
+  const TemporaryFolder folder;
+  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), "1 666 2");
+  const auto status = (*fleet)->RunJob(*job, {}, {});
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(status->state, JobState::kFailed);
+  EXPECT_THAT(status->error, HasSubstr("stage square, part 1"));
+  EXPECT_THAT(status->error, HasSubstr("lost its process 3 times"));
+  EXPECT_THAT(status->error, HasSubstr("signal 6 (Aborted)"));
+  EXPECT_THAT(status->error, HasSubstr(DigestOf("666").ToShortHex()));
+  EXPECT_EQ((*fleet)->restarts(), 0U) << "the workers live on";
+}
 
 TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
   const TemporaryFolder folder;

@@ -74,8 +74,7 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
   }
 
   absl::Status Do(uint64_t session, const Lease& lease) {
-    const auto result =
-        RunTask(LookupIn(stages_), lease.spec, Api(), {}, clock_);
+    const auto result = RunTask(LookupIn(stages_), lease.spec, Api(), {}, clock_);
     ORBWEAVE_CHECK(result.ok());
     return Api().CompleteTask(session, lease, *result);
   }
