@@ -56,6 +56,8 @@ std::string FormatJobStatus(const JobStatus& status) {
     if (worker.alive && worker.set_aside)
       absl::StrAppend(
           &text, "  set aside: ", worker.name, ", which failed tasks that others did\n");
+    if (worker.alive && worker.draining)
+      absl::StrAppend(&text, "  leaving: ", worker.name, ", when its tasks are done\n");
   }
   return text;
 }
@@ -78,7 +80,8 @@ std::string JobStatusToJson(const JobStatus& status) {
                        {"slots", worker.slots},
                        {"tasks_done", worker.tasks_done},
                        {"alive", worker.alive},
-                       {"set_aside", worker.set_aside}});
+                       {"set_aside", worker.set_aside},
+                       {"draining", worker.draining}});
   }
   const nlohmann::json job = {{"id", status.id.ToHex()},
                               {"state", std::string(JobStateName(status.state))},

@@ -100,6 +100,8 @@ absl::Status LocalFleet::StartMember(Member& member) const {
                                               member.name,
                                               "--threads",
                                               absl::StrCat(options_.threads_per_worker),
+                                              "--grace",
+                                              "0",
                                               "--parent-pid",
                                               absl::StrCat(::getpid())};
   ORBWEAVE_ASSIGN_OR_RETURN(member.process,

@@ -8,6 +8,7 @@
 #include "cli/bench_command.h"
 #include "cli/cancel_command.h"
 #include "cli/command.h"
+#include "cli/drain_command.h"
 #include "cli/evaluate_command.h"
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   orbweave::AddSubmitCommand(app, selected);
   orbweave::AddStatusCommand(app, selected);
   orbweave::AddCancelCommand(app, selected);
+  orbweave::AddDrainCommand(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

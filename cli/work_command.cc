@@ -79,6 +79,9 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
   command
       ->add_option("--name", options->worker.name, "Name, unique among the coordinator's workers")
       ->capture_default_str();
+  command->add_option("--grace", options->worker.grace_s, "Seconds for running tasks after SIGTERM")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   AddTaskLimits(*command, options->task_limits);
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
@@ -87,7 +90,7 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       "Examples:\n"
       "  orbweave work --join 127.0.0.1:7000 --slots 2\n"
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
-      "SIGTERM gives running tasks back and leaves.");
+      "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Work(*options)); }; });
 }

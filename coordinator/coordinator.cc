@@ -123,6 +123,14 @@ absl::Status Coordinator::Leave(uint64_t session) {
   return absl::OkStatus();
 }
 
+absl::Status Coordinator::DrainWorker(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  ORBWEAVE_RETURN_IF_ERROR(roster_.Drain(name));
+  Log("worker drains worker=" + name);
+  WakeAll();
+  return absl::OkStatus();
+}
+
 void Coordinator::WorkerDied(std::string_view name) {
   const std::lock_guard lock(mutex_);
   const std::optional<uint64_t> session = roster_.SessionOf(name);
@@ -140,6 +148,7 @@ absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
   while (true) {
     if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
     ORBWEAVE_RETURN_IF_ERROR(roster_.Hear(session, clock_.NowSeconds()));
+    if (roster_.IsDraining(session)) return absl::CancelledError("the worker is to leave");
     ExpireLeases();
     if (std::optional<Lease> lease = GrantNext(session, slot)) return lease;
     const auto now = std::chrono::steady_clock::now();

@@ -16,6 +16,7 @@ std::optional<uint64_t> WorkerRoster::Join(const WorkerInfo& worker,
   record.session = session;
   record.heard_s = now_s;
   record.slots = worker.slots;
+  record.draining = false;
   record.blames = 0;
   names_[session] = worker.name;
   return replaced != 0 ? std::optional(replaced) : std::nullopt;
@@ -35,6 +36,19 @@ void WorkerRoster::End(uint64_t session) {
   if (it == names_.end()) return;
   records_[it->second].session = 0;
   names_.erase(it);
+}
+
+absl::Status WorkerRoster::Drain(std::string_view name) {
+  const auto it = records_.find(name);
+  if (it == records_.end() || it->second.session == 0)
+    return absl::NotFoundError(absl::StrCat("there is no worker ", std::string(name)));
+  it->second.draining = true;
+  return absl::OkStatus();
+}
+
+bool WorkerRoster::IsDraining(uint64_t session) const {
+  const auto it = names_.find(session);
+  return it != names_.end() && records_.at(it->second).draining;
 }
 
 void WorkerRoster::CountTask(uint64_t session, const std::set<std::string>& failed_on) {
@@ -71,7 +85,8 @@ std::vector<std::string> WorkerRoster::Serving(double now_s) const {
   std::vector<std::string> serving;
   std::vector<std::string> set_aside;
   for (const auto& [name, record] : records_) {
-    if (IsAlive(record, now_s)) (IsSetAside(record) ? set_aside : serving).push_back(name);
+    if (!IsAlive(record, now_s) || record.draining) continue;
+    (IsSetAside(record) ? set_aside : serving).push_back(name);
   }
   return serving.empty() ? set_aside : serving;
 }
@@ -91,7 +106,8 @@ std::vector<WorkerStatus> WorkerRoster::Status(double now_s) const {
                        .slots = record.slots,
                        .tasks_done = record.tasks_done,
                        .alive = IsAlive(record, now_s),
-                       .set_aside = IsSetAside(record)});
+                       .set_aside = IsSetAside(record),
+                       .draining = record.draining});
   }
   return workers;
 }

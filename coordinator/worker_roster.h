@@ -28,14 +28,17 @@ class WorkerRoster {
   [[nodiscard]] absl::Status Hear(uint64_t session, double now_s);
   /// Ends a session; the worker stays listed as not alive.
   void End(uint64_t session);
+  /// Gives a worker no more tasks until it joins anew. NotFound: it has no session.
+  [[nodiscard]] absl::Status Drain(std::string_view name);
+  [[nodiscard]] bool IsDraining(uint64_t session) const;
   /// A worker handed in a result of which others had failed: what counts against them, and that
   /// it works itself.
   void CountTask(uint64_t session, const std::set<std::string>& failed_on);
 
   [[nodiscard]] std::string NameOf(uint64_t session) const;
   [[nodiscard]] std::optional<uint64_t> SessionOf(std::string_view name) const;
-  /// Workers that are given tasks: alive and not set aside. When all that are alive are set aside,
-  /// they are given tasks all the same.
+  /// Workers that are given tasks: alive, not to leave, and not set aside. When all that remain are
+  /// set aside, they are given tasks all the same.
   [[nodiscard]] std::vector<std::string> Serving(double now_s) const;
   /// Slots of all workers that are alive.
   [[nodiscard]] uint32_t Slots(double now_s) const;
@@ -47,6 +50,7 @@ class WorkerRoster {
     double heard_s = 0.0;
     uint32_t slots = 1;
     uint32_t tasks_done = 0;
+    bool draining = false;
     uint32_t blames = 0;  ///< tasks it failed and others did, since it did one itself
   };
   [[nodiscard]] static bool IsSetAside(const Record& record);

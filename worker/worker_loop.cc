@@ -34,7 +34,7 @@ class Worker {
         blobs_(api, options.cache_bytes, ending_.get_token()) {}
 
   absl::Status Run(const std::stop_token& stop) {
-    const std::stop_callback on_stop(stop, [this] { End(absl::OkStatus()); });
+    const std::stop_callback on_stop(stop, [this] { Drain(); });
     {
       const std::jthread heartbeat([this] { BeatUntilEnd(); });
       std::vector<std::jthread> slots;
@@ -50,6 +50,15 @@ class Worker {
   }
 
  private:
+  /// Takes no more tasks; what runs has the grace.
+  void Drain() {
+    draining_.request_stop();
+    grace_ = std::jthread([this] {
+      WaitUntilAllIsIn(options_.grace_s);
+      End(absl::OkStatus());
+    });
+  }
+
   /// The first reason is kept: OK when told to stop or to leave.
   void End(const absl::Status& reason) {
     {
@@ -57,6 +66,7 @@ class Worker {
       if (ending_.stop_requested()) return;
       reason_ = reason;
     }
+    draining_.request_stop();
     ending_.request_stop();
     leases_.StopAll();
   }
@@ -67,7 +77,7 @@ class Worker {
 
   /// The session, or nothing when the work is over.
   std::optional<JoinReply> Session() {
-    const absl::StatusOr<JoinReply> reply = session_.Get(ending_.get_token());
+    const absl::StatusOr<JoinReply> reply = session_.Get(draining_.get_token());
     if (reply.ok()) return *reply;
     if (!absl::IsCancelled(reply.status())) End(reply.status());
     return std::nullopt;
@@ -76,7 +86,7 @@ class Worker {
   void WorkUntilEnd(uint32_t slot) {
     const std::unique_ptr<TaskExecutor> executor = make_executor_();
     Backoff backoff;
-    while (!ending_.stop_requested()) {
+    while (!draining_.stop_requested()) {
       const std::optional<JoinReply> session = Session();
       if (!session) return;
       const absl::StatusOr<std::optional<Lease>> lease =
@@ -86,9 +96,11 @@ class Worker {
         if (*lease) Work(session->session, **lease, *executor);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
-      } else if (!ending_.stop_requested()) {
+      } else if (absl::IsCancelled(lease.status())) {
+        draining_.request_stop();
+      } else if (!draining_.stop_requested()) {
         Log(absl::StrCat("coordinator away reason=\"", lease.status().message(), "\""));
-        backoff.Wait(ending_.get_token());
+        backoff.Wait(draining_.get_token());
       }
     }
   }
@@ -133,17 +145,20 @@ class Worker {
 
   void BeatUntilEnd() {
     while (!beating_.stop_requested()) {
-      const double wait_s = Beat();
-      std::unique_lock lock(beat_mutex_);
-      never_.wait_for(
-          lock, beating_.get_token(), std::chrono::duration<double>(wait_s), [] { return false; });
+      WaitUntilAllIsIn(Beat());
     }
+  }
+
+  void WaitUntilAllIsIn(double longest_s) {
+    std::unique_lock lock(wait_mutex_);
+    never_.wait_for(
+        lock, beating_.get_token(), std::chrono::duration<double>(longest_s), [] { return false; });
   }
 
   /// One heartbeat; returns the seconds until the next.
   double Beat() {
     constexpr double kSoon = 0.5;
-    if (ending_.stop_requested() && leases_.List().empty()) return kSoon;
+    if (draining_.stop_requested() && leases_.List().empty()) return kSoon;
     const absl::StatusOr<JoinReply> session = session_.Get(ending_.get_token());
     if (!session.ok()) {
       if (!absl::IsCancelled(session.status())) End(session.status());
@@ -162,13 +177,15 @@ class Worker {
   const WorkerOptions& options_;
   std::mutex mutex_;
   absl::Status reason_;
-  std::stop_source ending_;   ///< take no more, hand in or give back what runs
-  std::stop_source beating_;  ///< all is handed in
-  std::mutex beat_mutex_;
+  std::stop_source draining_;  ///< take no more
+  std::stop_source ending_;    ///< give back what runs
+  std::stop_source beating_;   ///< all is handed in
+  std::mutex wait_mutex_;
   std::condition_variable_any never_;
   HeldLeases leases_;
   WorkerSession session_;
   BlobCache blobs_;
+  std::jthread grace_;  ///< last: ends before what it uses
 };
 
 }  // namespace

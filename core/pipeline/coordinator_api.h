@@ -63,6 +63,7 @@ struct WorkerStatus {
   uint32_t tasks_done = 0;
   bool alive = true;
   bool set_aside = false;  ///< it failed tasks that others then did, and gets no more
+  bool draining = false;   ///< it finishes what it has
 };
 
 struct JobStatus {
@@ -114,7 +115,7 @@ class CoordinatorApi : public BlobAccess {
   /// leases.
   [[nodiscard]] virtual absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) = 0;
   /// A task to do, or nullopt when none became ready within wait_s. NotFound: unknown session (join
-  /// again).
+  /// again). Cancelled: the worker is to finish what it has, and to leave.
   [[nodiscard]] virtual absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
                                                                        uint32_t slot,
                                                                        double wait_s) = 0;
@@ -132,6 +133,10 @@ class CoordinatorApi : public BlobAccess {
                                               const Lease& lease,
                                               const absl::Status& error) = 0;
   [[nodiscard]] virtual absl::Status Leave(uint64_t session) = 0;
+
+  /// Gives a worker no more tasks: it finishes what it has and leaves. It may join anew. NotFound:
+  /// no such worker is there.
+  [[nodiscard]] virtual absl::Status DrainWorker(const std::string& name) = 0;
 
   /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is
   /// missing.

@@ -68,6 +68,7 @@ v1::WorkerStatus ToProto(const WorkerStatus& worker) {
   proto.set_tasks_done(worker.tasks_done);
   proto.set_alive(worker.alive);
   proto.set_set_aside(worker.set_aside);
+  proto.set_draining(worker.draining);
   return proto;
 }
 
@@ -76,7 +77,8 @@ WorkerStatus FromProto(const v1::WorkerStatus& proto) {
           .slots = proto.slots(),
           .tasks_done = proto.tasks_done(),
           .alive = proto.alive(),
-          .set_aside = proto.set_aside()};
+          .set_aside = proto.set_aside(),
+          .draining = proto.draining()};
 }
 
 }  // namespace

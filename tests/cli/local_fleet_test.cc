@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/drain_command.h"
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/work_command.h"
@@ -121,6 +122,55 @@ TEST(LocalFleet, ATaskThatKillsWhoeverDoesItFailsTheJobAndIsNamed) {
   EXPECT_EQ((*fleet)->restarts(), 0U) << "the workers live on";
 }
 
+/// A worker process beside a coordinator, in the middle of a job of twenty squares.
+class Leaver : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto started = LocalFleet::Start(FleetOptions(folder_ / "state", 0));
+    ASSERT_TRUE(started.ok()) << started.status();
+    fleet_ = *std::move(started);
+    job_ = *Api().SubmitJob(*PrepareToyJob(
+        Api(), "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20", "toy.pause=true\n"));
+    worker_ = std::make_unique<testing::Command>(std::vector<std::string>{
+        "/proc/self/exe", "work", "--join", fleet_->address(), "--name", "leaver"});
+    ASSERT_TRUE(testing::WaitUntil([this] { return Squares().tasks_running == 1; }, 60.0));
+  }
+
+  CoordinatorApi& Api() { return fleet_->coordinator(); }
+  StageStatus Squares() { return Api().GetJob(job_)->stages[1]; }
+
+  void ExpectThatItFinishedAndLeft() {
+    const testing::CommandOutcome outcome = worker_->Wait();
+    EXPECT_EQ(outcome.exit_code, kExitOk) << outcome.err;
+    EXPECT_GT(Squares().tasks_done, 0U) << "what ran";
+    EXPECT_LT(Squares().tasks_done, 20U) << "and no more";
+    EXPECT_EQ(Squares().tasks_running, 0U);
+    EXPECT_EQ(Squares().retries, 0U);
+    EXPECT_FALSE(Api().GetJob(job_)->workers.at(0).alive);
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<LocalFleet> fleet_;
+  Digest job_{};
+  std::unique_ptr<testing::Command> worker_;
+};
+
+TEST_F(Leaver, FinishesItsTaskAfterSigterm) {
+  worker_->Signal(SIGTERM);
+  ExpectThatItFinishedAndLeft();
+}
+
+TEST_F(Leaver, FinishesItsTaskWhenItIsDrained) {
+  const testing::CommandOutcome drained = testing::RunCommand(
+      {"/proc/self/exe", "drain", "--coordinator", fleet_->address(), "leaver"});
+  EXPECT_EQ(drained.exit_code, kExitOk) << drained.err;
+  ExpectThatItFinishedAndLeft();
+  const testing::CommandOutcome again = testing::RunCommand(
+      {"/proc/self/exe", "drain", "--coordinator", fleet_->address(), "leaver"});
+  EXPECT_EQ(again.exit_code, kExitUsage);
+  EXPECT_THAT(again.err, HasSubstr("there is no worker leaver"));
+}
+
 TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
   const TemporaryFolder folder;
   const std::string numbers = "1 2 3 4 5 6";
@@ -165,13 +215,14 @@ TEST(LocalFleet, RefusesAStateFolderInUse) {
       absl::IsFailedPrecondition(LocalFleet::Start(FleetOptions(folder / "state", 0)).status()));
 }
 
-/// What the fleet starts.
-int BeAWorker(int argc, char** argv) {
+/// What `orbweave` would do with these arguments.
+int BeTheCommand(int argc, char** argv) {
   const testing::StageMap stages = DeadlyStages();
   const StageLookup lookup = testing::LookupIn(stages);
   CLI::App app;
   SelectedCommand selected;
   AddWorkCommand(app, selected);
+  AddDrainCommand(app, selected);
   AddExecTasksCommand(app, selected, lookup);
   try {
     app.parse(argc, argv);
@@ -186,7 +237,7 @@ int BeAWorker(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-') return orbweave::BeAWorker(argc, argv);
+  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -87,6 +87,17 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
   std::unique_ptr<GrpcCoordinatorClient> client_;
 };
 
+TEST_P(CoordinatorContract, AWorkerThatIsDrainedGetsNoMoreTasks) {
+  Submit("1");
+  const auto joined = Api().Join(Worker("w"));
+  ASSERT_TRUE(joined.ok());
+  const Lease lease = MustLease(joined->session);
+  ASSERT_TRUE(Api().DrainWorker("w").ok());
+  EXPECT_TRUE(absl::IsCancelled(Api().LeaseTask(joined->session, 0, 10.0).status()));
+  EXPECT_TRUE(Do(joined->session, lease).ok()) << "it may finish what it has";
+  EXPECT_TRUE(absl::IsNotFound(Api().DrainWorker("stranger")));
+}
+
 TEST_P(CoordinatorContract, RunsAJobFromSubmissionToAnswer) {
   const Digest job = Submit("1 2 3");
   const auto joined = Api().Join(Worker("w"));

@@ -74,6 +74,19 @@ TEST(WorkerRoster, AWorkerThatJoinsAnewBeginsAnew) {
   EXPECT_THAT(roster.Serving(0.0), ElementsAre("bad", "good"));
 }
 
+TEST(WorkerRoster, WhoIsToLeaveServesNoMoreUntilItJoinsAnew) {
+  WorkerRoster roster(10.0);
+  roster.Join({.name = "w"}, 1, 0.0);
+  EXPECT_TRUE(absl::IsNotFound(roster.Drain("stranger")));
+  EXPECT_FALSE(roster.IsDraining(1));
+  ASSERT_TRUE(roster.Drain("w").ok());
+  EXPECT_TRUE(roster.IsDraining(1));
+  EXPECT_TRUE(roster.Status(0.0)[0].draining);
+  EXPECT_THAT(roster.Serving(0.0), IsEmpty());
+  roster.Join({.name = "w"}, 2, 0.0);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("w"));
+}
+
 TEST(WorkerRoster, WhoIsSetAsideServesWhenNobodyElseIsAlive) {
   WorkerRoster roster = RosterWithBlame(3);
   roster.End(2);

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/drain_command.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "cli/exit_code.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+struct DrainOptions {
+  std::string coordinator{};
+  std::string worker{};
+};
+
+absl::Status Drain(const DrainOptions& options) {
+  GrpcCoordinatorClient coordinator(options.coordinator);
+  const absl::Status status = coordinator.DrainWorker(options.worker);
+  if (absl::IsUnavailable(status))
+    return Annotate(status, "no coordinator answers at " + options.coordinator);
+  ORBWEAVE_RETURN_IF_ERROR(status);
+  std::printf("worker %s finishes what it has and leaves\n", options.worker.c_str());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddDrainCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("drain", "Give a worker no more tasks and let it leave");
+  const auto options = std::make_shared<DrainOptions>();
+  command->add_option("--coordinator", options->coordinator, "Address of the coordinator")
+      ->required();
+  command->add_option("worker", options->worker, "Its name, as status shows it")->required();
+  command->footer(
+      "Example:\n"
+      "  orbweave drain --coordinator 127.0.0.1:7000 second");
+  command->callback(
+      [options, &selected] { selected.run = [options] { return ReportStatus(Drain(*options)); }; });
+}
+
+}  // namespace orbweave
