@@ -52,6 +52,13 @@ std::string FormatJobStatus(const JobStatus& status) {
                                    status.workers.end(),
                                    [](const WorkerStatus& worker) { return worker.alive; });
   absl::StrAppend(&text, "  workers: ", alive, " alive of ", status.workers.size(), "\n");
+  for (const WorkerStatus& worker : status.workers) {
+    if (worker.alive && worker.set_aside)
+      absl::StrAppend(
+          &text, "  set aside: ", worker.name, ", which failed tasks that others did\n");
+    if (worker.alive && worker.draining)
+      absl::StrAppend(&text, "  leaving: ", worker.name, ", when its tasks are done\n");
+  }
   return text;
 }
 
@@ -72,7 +79,9 @@ std::string JobStatusToJson(const JobStatus& status) {
     workers.push_back({{"name", worker.name},
                        {"slots", worker.slots},
                        {"tasks_done", worker.tasks_done},
-                       {"alive", worker.alive}});
+                       {"alive", worker.alive},
+                       {"set_aside", worker.set_aside},
+                       {"draining", worker.draining}});
   }
   const nlohmann::json job = {{"id", status.id.ToHex()},
                               {"state", std::string(JobStateName(status.state))},

@@ -100,9 +100,12 @@ absl::Status LocalFleet::StartMember(Member& member) const {
                                               member.name,
                                               "--threads",
                                               absl::StrCat(options_.threads_per_worker),
+                                              "--grace",
+                                              "0",
                                               "--parent-pid",
                                               absl::StrCat(::getpid())};
-  ORBWEAVE_ASSIGN_OR_RETURN(member.process, ChildProcess::SpawnSelf(arguments, member.log_path));
+  ORBWEAVE_ASSIGN_OR_RETURN(member.process,
+                            ChildProcess::SpawnSelf(arguments, {.log_path = member.log_path}));
   return absl::OkStatus();
 }
 

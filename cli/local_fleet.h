@@ -10,11 +10,11 @@
 #include <thread>
 #include <vector>
 
-#include "cli/child_process.h"
 #include "cli/wait_for_job.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
 #include "core/base/clock.h"
+#include "worker/child_process.h"
 
 namespace orbweave {
 

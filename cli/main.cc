@@ -8,7 +8,9 @@
 #include "cli/bench_command.h"
 #include "cli/cancel_command.h"
 #include "cli/command.h"
+#include "cli/drain_command.h"
 #include "cli/evaluate_command.h"
+#include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
 #include "cli/keys_command.h"
@@ -43,10 +45,12 @@ int main(int argc, char** argv) {
   orbweave::AddSynthCommand(app, selected);
   orbweave::AddKeysCommand(app, selected);
   orbweave::AddServeCommand(app, selected);
-  orbweave::AddWorkCommand(app, selected, stages);
+  orbweave::AddWorkCommand(app, selected);
+  orbweave::AddExecTasksCommand(app, selected, stages);
   orbweave::AddSubmitCommand(app, selected);
   orbweave::AddStatusCommand(app, selected);
   orbweave::AddCancelCommand(app, selected);
+  orbweave::AddDrainCommand(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

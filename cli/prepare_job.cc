@@ -3,6 +3,7 @@
 #include "cli/prepare_job.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "core/io/cluster_table.h"
 #include "core/io/colmap_database.h"
@@ -52,20 +53,20 @@ absl::Status OfferFiles(CoordinatorApi& coordinator,
 }
 
 /// A database knows keypoints: one pixel of angular sigma, no descriptors, no colours.
-Features FeaturesOf(const DatabaseImage& image) {
-  Features features{.camera = image.camera, .keypoints = image.keypoints};
-  features.sigma_rad.assign(features.size(), static_cast<float>(image.camera.AngleFromPixels(1.0)));
+Features FeaturesOf(const EquirectangularCamera& camera, std::vector<Keypoint> keypoints) {
+  Features features{.camera = camera, .keypoints = std::move(keypoints)};
+  features.sigma_rad.assign(features.size(), static_cast<float>(camera.AngleFromPixels(1.0)));
   features.colors.assign(features.size(), Rgb{128, 128, 128});
   return features;
 }
 
 absl::StatusOr<std::vector<Digest>> PutFeatures(CoordinatorApi& coordinator,
-                                                const ColmapDatabase& database) {
+                                                std::vector<DatabaseImage> images) {
   std::vector<Digest> blobs;
-  for (const DatabaseImage& image : database.images) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const Digest features,
-                              coordinator.Put(EncodeFeatures(FeaturesOf(image))));
+  for (DatabaseImage& image : images) {
     const PlaceSample place{.num_features = static_cast<uint32_t>(image.keypoints.size())};
+    const Features of_image = FeaturesOf(image.camera, std::move(image.keypoints));
+    ORBWEAVE_ASSIGN_OR_RETURN(const Digest features, coordinator.Put(EncodeFeatures(of_image)));
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest sample, coordinator.Put(EncodePlaceSample(place)));
     blobs.insert(blobs.end(), {features, sample});
   }
@@ -73,16 +74,17 @@ absl::StatusOr<std::vector<Digest>> PutFeatures(CoordinatorApi& coordinator,
 }
 
 absl::StatusOr<std::vector<Digest>> PutMatches(CoordinatorApi& coordinator,
-                                               const ColmapDatabase& database,
+                                               std::vector<TwoViewGeometry> verified,
                                                const std::vector<Digest>& feature_blobs) {
   std::vector<MatchRecipe::Pair> pairs;
-  for (const TwoViewGeometry& pair : database.pairs) {
-    if (!pair.inliers.empty()) pairs.push_back({pair.pair, pair.inliers});
+  for (TwoViewGeometry& pair : verified) {
+    if (!pair.inliers.empty()) pairs.push_back({pair.pair, std::move(pair.inliers)});
   }
   std::vector<Digest> features;
   for (size_t i = 0; i < feature_blobs.size(); i += 2) features.push_back(feature_blobs[i]);
   std::vector<Digest> recipes;
-  for (const MatchRecipe& recipe : PlanMatching(pairs, features, kPairsPerVerification)) {
+  for (const MatchRecipe& recipe :
+       PlanMatching(std::move(pairs), features, kPairsPerVerification)) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, coordinator.Put(EncodeMatchRecipe(recipe)));
     recipes.push_back(digest);
   }
@@ -137,7 +139,7 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
                                            const std::string& cluster_table,
                                            const PipelineOptions& options,
                                            const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const ColmapDatabase database, ReadColmapDatabase(database_path));
+  ORBWEAVE_ASSIGN_OR_RETURN(ColmapDatabase database, ReadColmapDatabase(database_path));
   ImageSources sources = SourcesFromDatabase(database);
   if (!gnss_table.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadFile(gnss_table));
@@ -147,9 +149,10 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
                             PutClusters(coordinator, sources, cluster_table));
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
                             IngestImages(sources, options.ingest, context));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features, PutFeatures(coordinator, database));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features,
+                            PutFeatures(coordinator, std::move(database.images)));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> recipes,
-                            PutMatches(coordinator, database, features));
+                            PutMatches(coordinator, std::move(database.pairs), features));
   JobSpec job{.kind = "sparse_from_matches",
               .options_text = PipelineOptionsToText(options),
               .label = std::filesystem::path(database_path).filename().string()};

@@ -19,6 +19,7 @@
 #include "worker/certificate_keeper.h"
 #include "worker/grpc_coordinator_client.h"
 #include "worker/grpc_enrollment_client.h"
+#include "worker/task_process.h"
 
 namespace orbweave {
 namespace {
@@ -53,7 +54,22 @@ bool DieWithParent(int parent_pid) {
   return ::getppid() == parent_pid;
 }
 
-absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
+void AddTaskLimits(CLI::App& command, TaskLimits& limits) {
+  command
+      .add_option("--task-stall",
+                  limits.stall_s,
+                  "Seconds without progress or processor time after which a task hangs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--task-limit", limits.total_s, "Longest time of a task in seconds")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--task-memory", limits.memory_bytes, "Memory of a task in bytes, as in 16GiB")
+      ->transform(CLI::AsSizeValue(false));
+}
+
+absl::Status Work(const WorkOptions& options) {
   if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
   const StopSignals signals;
   const SteadyClock clock;
@@ -68,14 +84,17 @@ absl::Status Work(const WorkOptions& options, const StageLookup& stages) {
   GrpcCoordinatorClient coordinator(
       options.join.address, signals.token(), {.tls_folder = options.join.tls_folder});
   LogLine(absl::StrCat("worker started name=", worker.name, " coordinator=", options.join.address));
-  const absl::Status status = RunWorker(coordinator, stages, worker, clock, signals.token());
+  const auto make_executor = [&options, &clock] {
+    return std::make_unique<TaskProcess>(options.task_limits, clock);
+  };
+  const absl::Status status = RunWorker(coordinator, make_executor, worker, signals.token());
   LogLine(absl::StrCat("worker ended name=", worker.name));
   return status;
 }
 
 }  // namespace
 
-void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup& stages) {
+void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("work", "Run a worker: do tasks for a coordinator");
   const auto options = std::make_shared<WorkOptions>();
   options->worker.log = LogLine;
@@ -91,6 +110,10 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup&
                       options->worker.name,
                       "Name, unique among the coordinator's workers (default: certificate's name, "
                       "host and process); with --tls the certificate's, or that and /more");
+  command->add_option("--grace", options->worker.grace_s, "Seconds for running tasks after SIGTERM")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  AddTaskLimits(*command, options->task_limits);
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
       ->group("");
@@ -100,10 +123,9 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup&
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
       "  orbweave work --join coordinator.example:7000 --tls keys/node7\n"
       "  orbweave work --join coordinator.example:7000 --tls node-keys --token-file join.token\n"
-      "SIGTERM gives running tasks back and leaves.");
-  command->callback([options, &selected, &stages] {
-    selected.run = [options, &stages] { return ReportStatus(Work(*options, stages)); };
-  });
+      "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves.");
+  command->callback(
+      [options, &selected] { selected.run = [options] { return ReportStatus(Work(*options)); }; });
 }
 
 }  // namespace orbweave

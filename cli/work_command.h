@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/coordinator_argument.h"
+#include "worker/task_watch.h"
 #include "worker/worker_loop.h"
 
 namespace orbweave {
@@ -14,11 +15,11 @@ struct WorkOptions {
   CoordinatorArgument join{};
   std::string token_path{};  ///< file of a join token; empty: none, or in the environment
   WorkerOptions worker{};
+  TaskLimits task_limits{};
   int parent_pid = 0;  ///< when given, the worker dies with that process
 };
 
-/// Declares the options of `orbweave work`; `stages` is what the worker can do and outlives the
-/// command.
-void AddWorkCommand(CLI::App& app, SelectedCommand& selected, const StageLookup& stages);
+/// Declares the options of `orbweave work`. What the worker can do is up to `exec-tasks`.
+void AddWorkCommand(CLI::App& app, SelectedCommand& selected);
 
 }  // namespace orbweave

@@ -92,6 +92,14 @@ absl::Status Coordinator::Leave(uint64_t session) {
   return absl::OkStatus();
 }
 
+absl::Status Coordinator::DrainWorker(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Drain(name));
+  dispatcher_.Log("worker drains worker=" + name);
+  WakeAll();
+  return absl::OkStatus();
+}
+
 void Coordinator::WorkerDied(std::string_view name) {
   const std::lock_guard lock(mutex_);
   dispatcher_.WorkerDied(name, clock_.NowSeconds());
@@ -106,6 +114,8 @@ absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
     if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
     const double now_s = clock_.NowSeconds();
     ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, now_s));
+    if (dispatcher_.roster().IsDraining(session))
+      return absl::CancelledError("the worker is to leave");
     dispatcher_.ExpireLeases(now_s);
     if (const std::optional<Grant> grant = dispatcher_.GrantNext(session, slot, now_s)) {
       lock.unlock();

@@ -65,6 +65,7 @@ class Coordinator final : public CoordinatorApi {
                                       const Lease& lease,
                                       const absl::Status& error) override;
   [[nodiscard]] absl::Status Leave(uint64_t session) override;
+  [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
 
   [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;

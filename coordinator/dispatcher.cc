@@ -3,6 +3,7 @@
 
 #include "coordinator/dispatcher.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -69,26 +70,38 @@ void Dispatcher::WorkerDied(std::string_view name, double now_s) {
   roster_.End(*session);
 }
 
-std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, double now_s) {
-  const std::string worker = roster_.NameOf(session);
-  const std::vector<std::string> alive = roster_.Alive(now_s);
+std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const std::string& worker, double now_s) {
+  const std::vector<std::string> serving = roster_.Serving(now_s);
+  if (!std::ranges::binary_search(serving, worker)) return std::nullopt;
   for (const auto& [number, id] : jobs_.order()) {
-    JobMachine& machine = *jobs_.At(id).machine;
-    const std::optional<TaskRef> ref = machine.NextReady(worker, alive, now_s);
-    if (!ref) continue;
-    const Lease lease{machine.TaskId(*ref), ++last_epoch_, machine.Spec(*ref), slot};
-    machine.TaskLeased(*ref, {lease.epoch, worker, slot}, now_s);
-    book_.Grant({.epoch = lease.epoch,
-                 .task = lease.task,
-                 .job = id,
-                 .ref = *ref,
-                 .worker = worker,
-                 .slot = slot,
-                 .session = session,
-                 .until_s = now_s + options_.lease_s});
-    return Grant{lease, {lease.epoch, lease.task, id, lease.spec.stage, ref->part, worker, slot}};
+    const auto ref = jobs_.At(id).machine->NextReady(worker, serving, now_s);
+    if (ref) return JobTask{id, *ref};
+  }
+  const uint32_t slots = roster_.Slots(now_s);
+  for (const auto& [number, id] : jobs_.order()) {
+    const auto ref = jobs_.At(id).machine->NextStraggler(worker, slots, now_s);
+    if (ref) return JobTask{id, *ref};
   }
   return std::nullopt;
+}
+
+std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, double now_s) {
+  const std::string worker = roster_.NameOf(session);
+  const std::optional<JobTask> next = NextTask(worker, now_s);
+  if (!next) return std::nullopt;
+  const auto& [job, ref] = *next;
+  JobMachine& machine = *jobs_.At(job).machine;
+  const Lease lease{machine.TaskId(ref), ++last_epoch_, machine.Spec(ref), slot};
+  machine.TaskLeased(ref, {lease.epoch, worker, slot}, now_s);
+  book_.Grant({.epoch = lease.epoch,
+               .task = lease.task,
+               .job = job,
+               .ref = ref,
+               .worker = worker,
+               .slot = slot,
+               .session = session,
+               .until_s = now_s + options_.lease_s});
+  return Grant{lease, {lease.epoch, lease.task, job, lease.spec.stage, ref.part, worker, slot}};
 }
 
 void Dispatcher::Await(const Attempt& attempt, double now_s) {
@@ -111,7 +124,7 @@ absl::StatusOr<HeartbeatReply> Dispatcher::Heartbeat(uint64_t session,
     if (entry == nullptr) {
       reply.cancelled.push_back(held.task);
     } else if (entry->ref) {
-      jobs_.At(entry->job).machine->TaskProgressed(*entry->ref, held.progress);
+      jobs_.At(entry->job).machine->TaskProgressed({*entry->ref, entry->epoch}, held.progress);
     }
   }
   return reply;
@@ -135,11 +148,15 @@ absl::Status Dispatcher::TaskDone(uint64_t session,
   const absl::StatusOr<LeaseEntry> entry = book_.Take(lease.epoch, lease.task, session);
   if (!entry.ok()) return jobs_.WasDoneBy(lease) ? absl::OkStatus() : entry.status();
   if (entry->ref) {
-    jobs_.At(entry->job).machine->TaskDone(*entry->ref, result, now_s);
+    for (const LeaseEntry& other : book_.TakeTask(entry->job, *entry->ref))
+      ends_.push_back({other.epoch, "another attempt was first"});
+    JobMachine& machine = *jobs_.At(entry->job).machine;
+    machine.TaskDone({*entry->ref, entry->epoch}, result, now_s);
+    roster_.CountTask(session, machine.FailedOn(*entry->ref));
   } else {
     ++early_results_;
+    roster_.CountTask(session, {});
   }
-  roster_.CountTask(session);
   options_.changed();
   return absl::OkStatus();
 }
@@ -178,7 +195,7 @@ void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& er
     BeginJob(JobSpec(job.machine->spec()), JobPlan(job.machine->plan()), job.number, now_s);
     return;
   }
-  job.machine->TaskFailed(*entry.ref, error, now_s);
+  job.machine->TaskFailed({*entry.ref, entry.epoch}, error, now_s);
   if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
 }
 

@@ -82,6 +82,12 @@ class Dispatcher {
   void Log(const std::string& line) const;
 
  private:
+  struct JobTask {
+    Digest job{};
+    TaskRef task{};
+  };
+  /// What `worker` is to do now: what is ready in the oldest job, or else a straggler.
+  [[nodiscard]] std::optional<JobTask> NextTask(const std::string& worker, double now_s);
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
   void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
   void VoidLeases(const Digest& job, const std::string& reason);

@@ -117,6 +117,10 @@ grpc::Status GrpcService::ListJobs(Context*, const v1::Empty*, v1::ListJobsReply
   return grpc::Status::OK;
 }
 
+grpc::Status GrpcService::DrainWorker(Context*, const v1::DrainWorkerRequest* request, v1::Empty*) {
+  return OnWire(api_.DrainWorker(request->name()));
+}
+
 grpc::Status GrpcService::CancelJob(Context*, const v1::JobRequest* request, v1::Empty*) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
   return OnWire(api_.CancelJob(id));

@@ -35,6 +35,7 @@ class GrpcService final : public v1::Coordinator::Service {
   grpc::Status SubmitJob(Context*, const v1::JobSpec*, v1::JobReply*) override;
   grpc::Status GetJob(Context*, const v1::JobRequest*, v1::JobStatus*) override;
   grpc::Status ListJobs(Context*, const v1::Empty*, v1::ListJobsReply*) override;
+  grpc::Status DrainWorker(Context*, const v1::DrainWorkerRequest*, v1::Empty*) override;
   grpc::Status CancelJob(Context*, const v1::JobRequest*, v1::Empty*) override;
   grpc::Status GetOutcomes(Context*,
                            const v1::JobRequest*,

@@ -11,17 +11,8 @@
 namespace orbweave {
 namespace {
 
-std::string DescribeTask(const TaskSpec& spec, const Digest& id) {
-  return absl::StrCat("stage ", spec.stage, ", part ", spec.part, " (task ", id.ToShortHex(), ")");
-}
-
 std::string TextOf(const absl::Status& status) {
   return absl::StrCat(absl::StatusCodeToString(status.code()), ": ", status.message());
-}
-
-double FractionOf(const Progress& progress) {
-  if (progress.total == 0) return 0.0;
-  return std::min(1.0, static_cast<double>(progress.done) / static_cast<double>(progress.total));
 }
 
 }  // namespace
@@ -31,7 +22,7 @@ JobMachine::JobMachine(JobSpec spec, JobPlan plan, RetryPolicy policy, double no
 
 std::optional<uint32_t> JobMachine::StageToPlan() const {
   if (state_ != JobState::kRunning) return std::nullopt;
-  if (!runs_.empty() && runs_.back().done < runs_.back().tasks.size()) return std::nullopt;
+  if (!runs_.empty() && !runs_.back().IsDone()) return std::nullopt;
   const uint32_t next = NextStage();
   return next < plan_.stages.size() ? std::optional(next) : std::nullopt;
 }
@@ -42,22 +33,11 @@ uint32_t JobMachine::NextStage() const {
   return StageAfter(plan_, last, results_[last]);
 }
 
-bool JobMachine::MayTake(const TaskRecord& task,
-                         const std::string& worker,
-                         const std::vector<std::string>& alive,
-                         double now_s) const {
-  const auto failed_on = [&task](const std::string& name) {
-    return std::find(task.failed_on.begin(), task.failed_on.end(), name) != task.failed_on.end();
-  };
-  if (task.not_before_s > now_s) return false;
-  return !failed_on(worker) || std::all_of(alive.begin(), alive.end(), failed_on);
-}
-
 const std::string& JobMachine::HolderBefore(const StageRun& run, uint32_t part) const {
   static const std::string* const kNobody = new std::string;
   if (!run.before) return *kNobody;
   const std::vector<TaskRecord>& tasks = runs_[*run.before].tasks;
-  return part < tasks.size() ? tasks[part].holder.worker : *kNobody;
+  return part < tasks.size() ? tasks[part].done_by.worker : *kNobody;
 }
 
 std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
@@ -69,7 +49,7 @@ std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
   std::optional<uint32_t> nobodys;
   std::optional<uint32_t> somebodys;
   for (const uint32_t part : run.ready) {
-    if (!MayTake(run.tasks[part], worker, alive, now_s)) continue;
+    if (!run.tasks[part].MayTake(worker, alive, now_s)) continue;
     const std::string& before = HolderBefore(run, part);
     if (!run.before || before == worker) return TaskRef{number, part};
     const bool is_free = std::ranges::find(alive, before) == alive.end();
@@ -86,9 +66,23 @@ std::optional<TaskRef> JobMachine::FindReady(const Digest& task) const {
   return it->second;
 }
 
+std::optional<TaskRef> JobMachine::NextStraggler(const std::string& worker,
+                                                 uint32_t slots,
+                                                 double now_s) const {
+  if (state_ != JobState::kRunning || runs_.empty()) return std::nullopt;
+  const std::optional<uint32_t> part = runs_.back().FindStraggler(worker, slots, policy_, now_s);
+  if (!part) return std::nullopt;
+  return TaskRef{static_cast<uint32_t>(runs_.size() - 1), *part};
+}
+
+std::set<std::string> JobMachine::FailedOn(TaskRef ref) const {
+  const std::vector<std::string>& names = Task(ref).failed_on;
+  return {names.begin(), names.end()};
+}
+
 bool JobMachine::WasDoneBy(const Digest& task, uint64_t epoch) const {
   const auto it = refs_.find(task);
-  return it != refs_.end() && Task(it->second).done && Task(it->second).holder.epoch == epoch;
+  return it != refs_.end() && Task(it->second).done && Task(it->second).done_by.epoch == epoch;
 }
 
 void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
@@ -97,11 +91,13 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
   const std::optional<uint32_t> stage = StageToPlan();
   ORBWEAVE_CHECK(stage.has_value() && tasks.size() == found.size());
   const auto number = static_cast<uint32_t>(runs_.size());
-  const auto before = std::find_if(
-      runs_.rbegin(), runs_.rend(), [&](const StageRun& earlier) { return earlier.stage == *stage; });
+  const auto before = std::find_if(runs_.rbegin(), runs_.rend(), [&](const StageRun& earlier) {
+    return earlier.stage == *stage;
+  });
   StageRun fresh{.stage = *stage};
   if (before != runs_.rend()) fresh.before = static_cast<uint32_t>(runs_.rend() - before - 1);
   StageRun& run = runs_.emplace_back(std::move(fresh));
+  num_tasks_ += tasks.size();
   if (results_.size() <= *stage) results_.resize(*stage + 1);
   std::vector<TaskResult>& results = results_[*stage];
   results.assign(tasks.size(), {});
@@ -125,69 +121,97 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
 
 void JobMachine::TaskLeased(TaskRef ref, const TaskHolder& holder, double now_s) {
   StageRun& run = runs_[ref.run];
-  ORBWEAVE_CHECK(run.ready.erase(ref.part) == 1);
+  const bool was_ready = run.ready.erase(ref.part) == 1;
+  ORBWEAVE_CHECK(was_ready != run.running.contains(ref.part));
   run.running.insert(ref.part);
   if (!run.first_lease_s) run.first_lease_s = now_s;
-  TaskRecord& task = Task(ref);
-  task.holder = holder;
-  task.leased_s = now_s;
-  task.progress = {};
+  Task(ref).attempts.push_back({.holder = holder, .leased_s = now_s});
+  run.UpdateStragglerTime(policy_);
 }
 
-void JobMachine::TaskProgressed(TaskRef ref, const Progress& progress) {
-  Task(ref).progress = progress;
+void JobMachine::TaskProgressed(AttemptRef ref, const Progress& progress) {
+  RunningAttempt* attempt = Task(ref.task).FindAttempt(ref.epoch);
+  if (attempt != nullptr) attempt->progress = progress;
 }
 
-void JobMachine::AttemptEnds(TaskRef ref, bool ok, double now_s) {
-  const TaskRecord& task = Task(ref);
-  ORBWEAVE_CHECK(runs_[ref.run].running.erase(ref.part) == 1);
-  timings_.push_back({.run = ref.run,
+double JobMachine::AttemptEnds(AttemptRef ref, bool ok, double now_s) {
+  TaskRecord& task = Task(ref.task);
+  RunningAttempt* found = task.FindAttempt(ref.epoch);
+  ORBWEAVE_CHECK(found != nullptr);
+  const RunningAttempt attempt = std::move(*found);
+  task.attempts.erase(task.attempts.begin() + (found - task.attempts.data()));
+  if (task.attempts.empty()) runs_[ref.task.run].running.erase(ref.task.part);
+  timings_.push_back({.run = ref.task.run,
                       .stage = task.spec.stage,
-                      .part = ref.part,
-                      .worker = task.holder.worker,
-                      .slot = task.holder.slot,
-                      .start_s = task.leased_s - submitted_s_,
+                      .part = ref.task.part,
+                      .worker = attempt.holder.worker,
+                      .slot = attempt.holder.slot,
+                      .start_s = attempt.leased_s - submitted_s_,
                       .end_s = now_s - submitted_s_,
                       .ok = ok});
+  return now_s - attempt.leased_s;
 }
 
-void JobMachine::TaskDone(TaskRef ref, TaskResult result, double now_s) {
+void JobMachine::TaskDone(AttemptRef ref, TaskResult result, double now_s) {
   if (state_ != JobState::kRunning) return;
-  AttemptEnds(ref, true, now_s);
-  StageRun& run = runs_[ref.run];
-  Task(ref).done = true;
-  Task(ref).cost = result.cost;
+  StageRun& run = runs_[ref.task.run];
+  TaskRecord& task = Task(ref.task);
+  task.done_by = task.FindAttempt(ref.epoch)->holder;
+  run.durations_s.push_back(AttemptEnds(ref, true, now_s));
+  while (!task.attempts.empty())
+    AttemptEnds({ref.task, task.attempts.front().holder.epoch}, false, now_s);
+  task.done = true;
+  task.cost = result.cost;
   ++run.done;
   run.last_result_s = now_s;
   run.cpu_s += result.cost.cpu_s;
-  results_[run.stage][ref.part] = std::move(result);
+  run.UpdateStragglerTime(policy_);
+  results_[run.stage][ref.task.part] = std::move(result);
   EndIfAllDone(now_s);
 }
 
-void JobMachine::TaskFailed(TaskRef ref, const absl::Status& error, double now_s) {
+void JobMachine::TaskFailed(AttemptRef ref, const absl::Status& error, double now_s) {
   if (state_ != JobState::kRunning) return;
+  StageRun& run = runs_[ref.task.run];
+  TaskRecord& task = Task(ref.task);
+  const std::string worker = task.FindAttempt(ref.epoch)->holder.worker;
   AttemptEnds(ref, false, now_s);
-  StageRun& run = runs_[ref.run];
-  run.ready.insert(ref.part);
+  if (task.attempts.empty()) run.ready.insert(ref.task.part);
+  run.UpdateStragglerTime(policy_);
+  if (ClassifyFailure(error.code()) == FailureClass::kReturned) return;
+  CountFailure(task, worker, error, now_s);
+  if (state_ == JobState::kRunning) ++run.retries;
+}
+
+void JobMachine::CountFailure(TaskRecord& task,
+                              const std::string& worker,
+                              const absl::Status& error,
+                              double now_s) {
   const FailureClass failure = ClassifyFailure(error.code());
-  if (failure == FailureClass::kReturned) return;
-  TaskRecord& task = Task(ref);
-  ++task.failures;
+  const uint32_t failures = task.failures.Add(failure);
+  ++num_failures_;
+  task.failed_on.push_back(worker);
+  task.not_before_s = now_s + policy_.WaitAfter(task.failures.Total(), task.id.ToSeed());
   if (failure == FailureClass::kPermanent) {
-    JobFails(absl::StrCat(DescribeTask(task.spec, task.id), ": ", TextOf(error)), now_s);
-  } else if (task.failures >= policy_.max_attempts) {
-    JobFails(absl::StrCat(DescribeTask(task.spec, task.id),
-                          " failed ",
-                          task.failures,
-                          " times, last on ",
-                          task.holder.worker,
-                          ": ",
-                          TextOf(error)),
+    JobFails(absl::StrCat(task.Describe(), ": ", TextOf(error)), now_s);
+    return;
+  }
+  const std::string last = absl::StrCat("last on ", worker, ": ", TextOf(error));
+  if (failures >= policy_.MaxFailures(failure)) {
+    const char* verb = failure == FailureClass::kProcessLost ? " lost its process " : " failed ";
+    JobFails(absl::StrCat(
+                 task.Describe(), verb, failures, " times, ", last, "; ", task.DescribeInputs()),
              now_s);
-  } else {
-    ++run.retries;
-    task.failed_on.push_back(task.holder.worker);
-    task.not_before_s = now_s + policy_.WaitAfter(task.failures);
+  } else if (num_failures_ > policy_.MaxJobRetries(num_tasks_)) {
+    JobFails(absl::StrCat("the job gave up after ",
+                          num_failures_,
+                          " failed attempts at ",
+                          num_tasks_,
+                          " tasks: ",
+                          task.Describe(),
+                          ", ",
+                          last),
+             now_s);
   }
 }
 
@@ -201,33 +225,23 @@ void JobMachine::JobIsCancelled(double now_s) {
 }
 
 void JobMachine::EndIfAllDone(double now_s) {
-  const bool last_is_done = runs_.back().done == runs_.back().tasks.size();
-  if (last_is_done && NextStage() == plan_.stages.size()) JobEnds(JobState::kDone, now_s);
+  if (runs_.back().IsDone() && NextStage() == plan_.stages.size()) JobEnds(JobState::kDone, now_s);
 }
 
 void JobMachine::JobEnds(JobState state, double now_s) {
   state_ = state;
   ended_s_ = now_s;
-  for (StageRun& run : runs_) run.running.clear();
-}
-
-void JobMachine::AddTo(StageStatus& status, const StageRun& run) {
-  status.tasks_total += static_cast<uint32_t>(run.tasks.size());
-  status.tasks_done += run.done;
-  status.tasks_reused += run.reused;
-  status.tasks_running += static_cast<uint32_t>(run.running.size());
-  status.retries += run.retries;
-  if (run.first_lease_s) status.wall_s += std::max(0.0, run.last_result_s - *run.first_lease_s);
-  status.cpu_s += run.cpu_s;
-  for (const uint32_t part : run.running)
-    status.fraction_running += FractionOf(run.tasks[part].progress);
+  for (StageRun& run : runs_) {
+    for (const uint32_t part : run.running) run.tasks[part].attempts.clear();
+    run.running.clear();
+  }
 }
 
 JobStatus JobMachine::Status(double now_s) const {
   JobStatus status{.id = spec_.Id(), .state = state_, .error = error_, .spec = spec_};
   status.elapsed_s = (state_ == JobState::kRunning ? now_s : ended_s_) - submitted_s_;
   for (const StageRule& rule : plan_.stages) status.stages.push_back({.stage = rule.stage});
-  for (const StageRun& run : runs_) AddTo(status.stages[run.stage], run);
+  for (const StageRun& run : runs_) run.AddTo(status.stages[run.stage]);
   return status;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "coordinator/retry_policy.h"
+#include "coordinator/stage_run.h"
 #include "core/pipeline/coordinator_api.h"
 #include "core/pipeline/job_plan.h"
 
@@ -23,11 +24,10 @@ struct TaskRef {
   friend auto operator<=>(const TaskRef&, const TaskRef&) = default;
 };
 
-/// Who works on a task, for the record.
-struct TaskHolder {
+/// One attempt at a task.
+struct AttemptRef {
+  TaskRef task{};
   uint64_t epoch = 0;
-  std::string worker{};
-  uint32_t slot = 0;
 };
 
 /// One job as a state machine: events go in with the time at which they happened, what may be done
@@ -39,6 +39,8 @@ struct TaskHolder {
 ///   task:   ready --TaskLeased--> leased --TaskDone--> done
 ///                   ^----TaskFailed------'      (ready again after a wait; too often: the job
 ///                   fails)
+///           a task that runs far longer than its siblings is leased once more; the first result
+///           counts
 ///   job:    running --> done | failed | cancelled
 class JobMachine {
  public:
@@ -64,6 +66,13 @@ class JobMachine {
                                                  double now_s) const;
   /// Where a task is, while it is ready.
   [[nodiscard]] std::optional<TaskRef> FindReady(const Digest& task) const;
+  /// A task that `worker` may do beside the one who does it already: no task is ready, this one
+  /// runs much longer than its siblings did, and few others of all `slots` run twice.
+  [[nodiscard]] std::optional<TaskRef> NextStraggler(const std::string& worker,
+                                                     uint32_t slots,
+                                                     double now_s) const;
+  /// Workers that failed a task, each once.
+  [[nodiscard]] std::set<std::string> FailedOn(TaskRef ref) const;
   /// Whether this very attempt is the one whose result was taken.
   [[nodiscard]] bool WasDoneBy(const Digest& task, uint64_t epoch) const;
 
@@ -72,11 +81,11 @@ class JobMachine {
                    std::vector<std::optional<TaskResult>> found,
                    double now_s);
   void TaskLeased(TaskRef ref, const TaskHolder& holder, double now_s);
-  void TaskProgressed(TaskRef ref, const Progress& progress);
-  void TaskDone(TaskRef ref, TaskResult result, double now_s);
-  /// Of class kReturned, kPermanent or kTransient (see retry_policy.h; a lost input counts as
-  /// transient).
-  void TaskFailed(TaskRef ref, const absl::Status& error, double now_s);
+  void TaskProgressed(AttemptRef ref, const Progress& progress);
+  /// Ends every attempt at the task.
+  void TaskDone(AttemptRef ref, TaskResult result, double now_s);
+  /// See retry_policy.h for what becomes of which error.
+  void TaskFailed(AttemptRef ref, const absl::Status& error, double now_s);
   void JobFails(const std::string& error, double now_s);
   void JobIsCancelled(double now_s);
 
@@ -89,44 +98,18 @@ class JobMachine {
   [[nodiscard]] std::vector<MeasuredTask> Costs() const;
 
  private:
-  struct TaskRecord {
-    TaskSpec spec{};
-    Digest id{};
-    bool done = false;
-    TaskHolder holder{};
-    double leased_s = 0.0;
-    double not_before_s = 0.0;
-    uint32_t failures = 0;
-    std::vector<std::string> failed_on{};
-    Progress progress{};
-    TaskCost cost{};
-  };
-  struct StageRun {
-    uint32_t stage = 0;                ///< of the plan
-    std::optional<uint32_t> before{};  ///< the run of the same stage before this one
-    std::vector<TaskRecord> tasks{};
-    std::set<uint32_t> ready{};
-    std::set<uint32_t> running{};
-    uint32_t done = 0;
-    uint32_t reused = 0;
-    uint32_t retries = 0;
-    std::optional<double> first_lease_s{};
-    double last_result_s = 0.0;
-    double cpu_s = 0.0;
-  };
-
   [[nodiscard]] const TaskRecord& Task(TaskRef ref) const { return runs_[ref.run].tasks[ref.part]; }
   [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
   /// The stage that comes after the last run; the number of stages: none.
   [[nodiscard]] uint32_t NextStage() const;
   /// Who did this part when the stage last ran; empty: nobody.
   [[nodiscard]] const std::string& HolderBefore(const StageRun& run, uint32_t part) const;
-  [[nodiscard]] bool MayTake(const TaskRecord& task,
-                             const std::string& worker,
-                             const std::vector<std::string>& alive,
-                             double now_s) const;
-  static void AddTo(StageStatus& status, const StageRun& run);
-  void AttemptEnds(TaskRef ref, bool ok, double now_s);
+  /// Strikes out an attempt and notes its time; how long it took.
+  double AttemptEnds(AttemptRef ref, bool ok, double now_s);
+  void CountFailure(TaskRecord& task,
+                    const std::string& worker,
+                    const absl::Status& error,
+                    double now_s);
   void JobEnds(JobState state, double now_s);
   void EndIfAllDone(double now_s);
 
@@ -137,6 +120,8 @@ class JobMachine {
   double ended_s_ = 0.0;
   JobState state_ = JobState::kRunning;
   std::string error_;
+  size_t num_tasks_ = 0;        ///< of all runs
+  uint32_t num_failures_ = 0;   ///< of attempts
   std::vector<StageRun> runs_;  ///< in order
   std::vector<std::vector<TaskResult>> results_;
   std::map<Digest, TaskRef> refs_;

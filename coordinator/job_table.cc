@@ -26,8 +26,8 @@ Job* JobTable::Find(const Digest& id) {
 }
 
 size_t JobTable::NumRunning() const {
-  return static_cast<size_t>(std::ranges::count_if(
-      jobs_, [](const auto& item) { return item.second.IsRunning(); }));
+  return static_cast<size_t>(
+      std::ranges::count_if(jobs_, [](const auto& item) { return item.second.IsRunning(); }));
 }
 
 std::optional<Digest> JobTable::ToPlan() const {

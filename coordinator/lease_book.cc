@@ -79,4 +79,8 @@ std::vector<LeaseEntry*> LeaseBook::AwaitingPlace(const Digest& job) {
   return entries;
 }
 
+std::vector<LeaseEntry> LeaseBook::TakeTask(const Digest& job, TaskRef ref) {
+  return TakeIf([&](const LeaseEntry& entry) { return entry.job == job && entry.ref == ref; });
+}
+
 }  // namespace orbweave

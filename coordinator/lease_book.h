@@ -54,6 +54,7 @@ class LeaseBook {
   [[nodiscard]] std::vector<LeaseEntry*> AwaitingPlace(const Digest& job);
 
   /// Strike out and return, in order of epoch.
+  [[nodiscard]] std::vector<LeaseEntry> TakeTask(const Digest& job, TaskRef ref);
   [[nodiscard]] std::vector<LeaseEntry> TakeExpired(double now_s);
   [[nodiscard]] std::vector<LeaseEntry> TakeSession(uint64_t session);
   [[nodiscard]] std::vector<LeaseEntry> TakeJob(const Digest& job);

@@ -11,7 +11,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<MethodRight, 19> kRights = {{
+constexpr std::array<MethodRight, 20> kRights = {{
     {.method = "/orbweave.v1.Coordinator/Join", .worker = true},
     {.method = "/orbweave.v1.Coordinator/LeaseTask", .worker = true},
     {.method = "/orbweave.v1.Coordinator/Heartbeat", .worker = true},
@@ -31,6 +31,8 @@ constexpr std::array<MethodRight, 19> kRights = {{
     {.method = "/orbweave.v1.Coordinator/StatBlobs", .worker = true, .client = true},
     {.method = "/orbweave.v1.Coordinator/GetBlob", .worker = true, .client = true},
     {.method = "/orbweave.v1.Coordinator/PutBlob", .worker = true, .client = true},
+
+    {.method = "/orbweave.v1.Coordinator/DrainWorker"},  // an admin's
 
     {.method = "/orbweave.v1.Enrollment/Enroll", .stranger = true},
     {.method = "/orbweave.v1.Enrollment/Renew", .worker = true},

@@ -13,6 +13,8 @@ void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s
   record.session = session;
   record.heard_s = now_s;
   record.slots = worker.slots;
+  record.draining = false;
+  record.blames = 0;
   names_[session] = worker.name;
 }
 
@@ -32,9 +34,27 @@ void WorkerRoster::End(uint64_t session) {
   names_.erase(it);
 }
 
-void WorkerRoster::CountTask(uint64_t session) {
+absl::Status WorkerRoster::Drain(std::string_view name) {
+  const auto it = records_.find(name);
+  if (it == records_.end() || it->second.session == 0)
+    return absl::NotFoundError(absl::StrCat("there is no worker ", std::string(name)));
+  it->second.draining = true;
+  return absl::OkStatus();
+}
+
+bool WorkerRoster::IsDraining(uint64_t session) const {
   const auto it = names_.find(session);
-  if (it != names_.end()) ++records_[it->second].tasks_done;
+  return it != names_.end() && records_.at(it->second).draining;
+}
+
+void WorkerRoster::CountTask(uint64_t session, const std::set<std::string>& failed_on) {
+  const std::string name = NameOf(session);
+  for (const std::string& other : failed_on) {
+    if (other != name) ++records_[other].blames;
+  }
+  if (name.empty()) return;
+  ++records_[name].tasks_done;
+  records_[name].blames = 0;
 }
 
 std::string WorkerRoster::NameOf(uint64_t session) const {
@@ -52,12 +72,27 @@ bool WorkerRoster::IsAlive(const Record& record, double now_s) const {
   return record.session != 0 && now_s - record.heard_s <= silence_s_;
 }
 
-std::vector<std::string> WorkerRoster::Alive(double now_s) const {
-  std::vector<std::string> names;
+bool WorkerRoster::IsSetAside(const Record& record) {
+  constexpr uint32_t kMaxBlames = 3;
+  return record.blames >= kMaxBlames;
+}
+
+std::vector<std::string> WorkerRoster::Serving(double now_s) const {
+  std::vector<std::string> serving;
+  std::vector<std::string> set_aside;
   for (const auto& [name, record] : records_) {
-    if (IsAlive(record, now_s)) names.push_back(name);
+    if (!IsAlive(record, now_s) || record.draining) continue;
+    (IsSetAside(record) ? set_aside : serving).push_back(name);
   }
-  return names;
+  return serving.empty() ? set_aside : serving;
+}
+
+uint32_t WorkerRoster::Slots(double now_s) const {
+  uint32_t slots = 0;
+  for (const auto& [name, record] : records_) {
+    if (IsAlive(record, now_s)) slots += record.slots;
+  }
+  return slots;
 }
 
 std::vector<WorkerStatus> WorkerRoster::Status(double now_s) const {
@@ -66,7 +101,9 @@ std::vector<WorkerStatus> WorkerRoster::Status(double now_s) const {
     workers.push_back({.name = name,
                        .slots = record.slots,
                        .tasks_done = record.tasks_done,
-                       .alive = IsAlive(record, now_s)});
+                       .alive = IsAlive(record, now_s),
+                       .set_aside = IsSetAside(record),
+                       .draining = record.draining});
   }
   return workers;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,9 @@
 namespace orbweave {
 
 /// The workers that ever joined, by name, each with its present session. A worker is alive while it
-/// was heard within `silence_s`. Pure bookkeeping: time is handed in. Not thread-safe.
+/// was heard within `silence_s`; it is set aside once it has failed three tasks that others then
+/// did, without doing one in between, and until it joins anew. Pure bookkeeping: time is handed in.
+/// Not thread-safe.
 class WorkerRoster {
  public:
   explicit WorkerRoster(double silence_s) : silence_s_(silence_s) {}
@@ -25,11 +28,20 @@ class WorkerRoster {
   [[nodiscard]] absl::Status Hear(uint64_t session, double now_s);
   /// Ends a session; the worker stays listed as not alive.
   void End(uint64_t session);
-  void CountTask(uint64_t session);
+  /// Gives a worker no more tasks until it joins anew. NotFound: it has no session.
+  [[nodiscard]] absl::Status Drain(std::string_view name);
+  [[nodiscard]] bool IsDraining(uint64_t session) const;
+  /// A worker handed in a result of which others had failed: what counts against them, and that
+  /// it works itself.
+  void CountTask(uint64_t session, const std::set<std::string>& failed_on);
 
   [[nodiscard]] std::string NameOf(uint64_t session) const;
   [[nodiscard]] std::optional<uint64_t> SessionOf(std::string_view name) const;
-  [[nodiscard]] std::vector<std::string> Alive(double now_s) const;
+  /// Workers that are given tasks: alive, not to leave, and not set aside. When all that remain are
+  /// set aside, they are given tasks all the same.
+  [[nodiscard]] std::vector<std::string> Serving(double now_s) const;
+  /// Slots of all workers that are alive.
+  [[nodiscard]] uint32_t Slots(double now_s) const;
   [[nodiscard]] std::vector<WorkerStatus> Status(double now_s) const;
 
  private:
@@ -38,7 +50,10 @@ class WorkerRoster {
     double heard_s = 0.0;
     uint32_t slots = 1;
     uint32_t tasks_done = 0;
+    bool draining = false;
+    uint32_t blames = 0;  ///< tasks it failed and others did, since it did one itself
   };
+  [[nodiscard]] static bool IsSetAside(const Record& record);
   [[nodiscard]] bool IsAlive(const Record& record, double now_s) const;
 
   double silence_s_;

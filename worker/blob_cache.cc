@@ -7,7 +7,7 @@
 
 namespace orbweave {
 
-absl::StatusOr<std::string> BlobCache::Get(const Digest& digest) {
+absl::StatusOr<SharedBytes> BlobCache::Get(const Digest& digest) {
   {
     const std::lock_guard lock(mutex_);
     const auto it = places_.find(digest);
@@ -16,27 +16,29 @@ absl::StatusOr<std::string> BlobCache::Get(const Digest& digest) {
       return it->second->second;
     }
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(std::string bytes,
+  ORBWEAVE_ASSIGN_OR_RETURN(std::string got,
                             RetryWhileUnavailable(stop_, [&] { return source_.Get(digest); }));
+  const SharedBytes bytes = SharedBytes::Of(std::move(got));
   Keep(digest, bytes);
   return bytes;
 }
 
-absl::StatusOr<Digest> BlobCache::Put(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest,
-                            RetryWhileUnavailable(stop_, [&] { return source_.Put(bytes); }));
+absl::StatusOr<Digest> BlobCache::Put(const SharedBytes& bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const Digest digest, RetryWhileUnavailable(stop_, [&] { return source_.Put(bytes.View()); }));
   Keep(digest, bytes);
   return digest;
 }
 
-void BlobCache::Keep(const Digest& digest, std::string_view bytes) {
+void BlobCache::Keep(const Digest& digest, const SharedBytes& bytes) {
   const std::lock_guard lock(mutex_);
-  if (bytes.size() > capacity_bytes_ || places_.contains(digest)) return;
+  const size_t size = bytes.View().size();
+  if (size > capacity_bytes_ || places_.contains(digest)) return;
   entries_.emplace_front(digest, bytes);
   places_[digest] = entries_.begin();
-  size_bytes_ += bytes.size();
+  size_bytes_ += size;
   while (size_bytes_ > capacity_bytes_) {
-    size_bytes_ -= entries_.back().second.size();
+    size_bytes_ -= entries_.back().second.View().size();
     places_.erase(entries_.back().first);
     entries_.pop_back();
   }

@@ -7,25 +7,26 @@
 #include <map>
 #include <mutex>
 #include <stop_token>
-#include <string>
 
 #include "core/pipeline/blob_access.h"
+#include "worker/shared_bytes.h"
 
 namespace orbweave {
 
 /// Blobs of `source` with the last used ones kept in memory, up to `capacity_bytes`. Waits through
 /// times when the source is Unavailable, until `stop`. Thread-safe.
-class BlobCache final : public BlobAccess {
+class BlobCache {
  public:
   BlobCache(BlobAccess& source, size_t capacity_bytes, std::stop_token stop)
       : source_(source), capacity_bytes_(capacity_bytes), stop_(std::move(stop)) {}
 
-  [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
-  [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
+  /// Errors of both: those of the source.
+  [[nodiscard]] absl::StatusOr<SharedBytes> Get(const Digest& digest);
+  [[nodiscard]] absl::StatusOr<Digest> Put(const SharedBytes& bytes);
 
  private:
-  using Entry = std::pair<Digest, std::string>;
-  void Keep(const Digest& digest, std::string_view bytes);
+  using Entry = std::pair<Digest, SharedBytes>;
+  void Keep(const Digest& digest, const SharedBytes& bytes);
 
   BlobAccess& source_;
   size_t capacity_bytes_;

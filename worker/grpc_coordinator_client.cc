@@ -154,6 +154,12 @@ absl::Status GrpcCoordinatorClient::Leave(uint64_t session) {
   return Call(*stub_, &Stub::Leave, request, kQuick_s).status();
 }
 
+absl::Status GrpcCoordinatorClient::DrainWorker(const std::string& name) {
+  v1::DrainWorkerRequest request;
+  request.set_name(name);
+  return Call(*stub_, &Stub::DrainWorker, request, kQuick_s).status();
+}
+
 absl::StatusOr<Digest> GrpcCoordinatorClient::SubmitJob(const JobSpec& job) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::JobReply reply,
                             Call(*stub_, &Stub::SubmitJob, ToProto(job), kFile_s));

@@ -47,6 +47,7 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
+  [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) override;

@@ -15,10 +15,9 @@
 namespace orbweave {
 namespace {
 
-double CpuSeconds(CpuClock clock) {
+double CpuSeconds() {
   timespec time{};
-  ::clock_gettime(clock == CpuClock::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID,
-                  &time);
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
@@ -41,18 +40,17 @@ absl::StatusOr<TaskResult> RunTask(const StageLookup& stages,
                                    const TaskSpec& spec,
                                    BlobAccess& blobs,
                                    const StageContext& context,
-                                   const Clock& clock,
-                                   CpuClock cpu_clock) {
+                                   const Clock& clock) {
   const StageFunction* stage = stages(spec.stage);
   if (stage == nullptr)
     return absl::UnimplementedError(absl::StrCat("this build has no stage ", spec.stage));
   MeteredBlobs counted(blobs);
-  if (cpu_clock == CpuClock::kProcess) RestartPeakMemory();
+  RestartPeakMemory();
   const double start_s = clock.NowSeconds();
-  const double cpu_start_s = CpuSeconds(cpu_clock);
+  const double cpu_start_s = CpuSeconds();
   ORBWEAVE_ASSIGN_OR_RETURN(TaskResult result, CallStage(*stage, spec, counted, context));
   result.cost = {.wall_s = clock.NowSeconds() - start_s,
-                 .cpu_s = CpuSeconds(cpu_clock) - cpu_start_s,
+                 .cpu_s = CpuSeconds() - cpu_start_s,
                  .bytes_in = counted.bytes_in(),
                  .bytes_out = counted.bytes_out(),
                  .peak_memory_bytes = PeakMemoryBytes()};

@@ -14,7 +14,6 @@
 #include "worker/blob_cache.h"
 #include "worker/held_leases.h"
 #include "worker/retry.h"
-#include "worker/task_runner.h"
 #include "worker/worker_session.h"
 
 namespace orbweave {
@@ -27,19 +26,15 @@ std::string DescribeLease(const Lease& lease) {
 
 class Worker {
  public:
-  Worker(CoordinatorApi& api,
-         const StageLookup& stages,
-         const WorkerOptions& options,
-         const Clock& clock)
+  Worker(CoordinatorApi& api, const MakeTaskExecutor& make_executor, const WorkerOptions& options)
       : api_(api),
-        stages_(stages),
+        make_executor_(make_executor),
         options_(options),
-        clock_(clock),
         session_(api, {options.name, std::string(BuildVersion()), options.slots}, leases_),
         blobs_(api, options.cache_bytes, ending_.get_token()) {}
 
   absl::Status Run(const std::stop_token& stop) {
-    const std::stop_callback on_stop(stop, [this] { End(absl::OkStatus()); });
+    const std::stop_callback on_stop(stop, [this] { Drain(); });
     {
       const std::jthread heartbeat([this] { BeatUntilEnd(); });
       std::vector<std::jthread> slots;
@@ -55,6 +50,15 @@ class Worker {
   }
 
  private:
+  /// Takes no more tasks; what runs has the grace.
+  void Drain() {
+    draining_.request_stop();
+    grace_ = std::jthread([this] {
+      WaitUntilAllIsIn(options_.grace_s);
+      End(absl::OkStatus());
+    });
+  }
+
   /// The first reason is kept: OK when told to stop or to leave.
   void End(const absl::Status& reason) {
     {
@@ -62,6 +66,7 @@ class Worker {
       if (ending_.stop_requested()) return;
       reason_ = reason;
     }
+    draining_.request_stop();
     ending_.request_stop();
     leases_.StopAll();
   }
@@ -72,32 +77,35 @@ class Worker {
 
   /// The session, or nothing when the work is over.
   std::optional<JoinReply> Session() {
-    const absl::StatusOr<JoinReply> reply = session_.Get(ending_.get_token());
+    const absl::StatusOr<JoinReply> reply = session_.Get(draining_.get_token());
     if (reply.ok()) return *reply;
     if (!absl::IsCancelled(reply.status())) End(reply.status());
     return std::nullopt;
   }
 
   void WorkUntilEnd(uint32_t slot) {
+    const std::unique_ptr<TaskExecutor> executor = make_executor_();
     Backoff backoff;
-    while (!ending_.stop_requested()) {
+    while (!draining_.stop_requested()) {
       const std::optional<JoinReply> session = Session();
       if (!session) return;
       const absl::StatusOr<std::optional<Lease>> lease =
           api_.LeaseTask(session->session, slot, options_.poll_s);
       if (lease.ok()) {
         backoff = {};
-        if (*lease) Work(**lease);
+        if (*lease) Work(**lease, *executor);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
-      } else if (!ending_.stop_requested()) {
+      } else if (absl::IsCancelled(lease.status())) {
+        draining_.request_stop();
+      } else if (!draining_.stop_requested()) {
         Log(absl::StrCat("coordinator away reason=\"", lease.status().message(), "\""));
-        backoff.Wait(ending_.get_token());
+        backoff.Wait(draining_.get_token());
       }
     }
   }
 
-  void Work(const Lease& lease) {
+  void Work(const Lease& lease, TaskExecutor& executor) {
     StageContext context;
     context.stop = leases_.Add(lease);
     context.num_threads = options_.threads_per_task;
@@ -108,9 +116,7 @@ class Worker {
     if (ending_.stop_requested())
       leases_.StopAll();  // the end may have come between leasing and adding
     Log("task leased " + DescribeLease(lease));
-    const CpuClock cpu_clock = options_.slots == 1 ? CpuClock::kProcess : CpuClock::kThread;
-    const absl::StatusOr<TaskResult> result =
-        RunTask(stages_, lease.spec, blobs_, context, clock_, cpu_clock);
+    const absl::StatusOr<TaskResult> result = executor.Run(lease.spec, blobs_, context);
     const absl::Status handed_in = result.ok() ? HandIn(lease, *result) : result.status();
     if (!handed_in.ok()) {
       const bool given_up = context.stop.stop_requested();
@@ -150,17 +156,20 @@ class Worker {
 
   void BeatUntilEnd() {
     while (!beating_.stop_requested()) {
-      const double wait_s = Beat();
-      std::unique_lock lock(beat_mutex_);
-      never_.wait_for(
-          lock, beating_.get_token(), std::chrono::duration<double>(wait_s), [] { return false; });
+      WaitUntilAllIsIn(Beat());
     }
+  }
+
+  void WaitUntilAllIsIn(double longest_s) {
+    std::unique_lock lock(wait_mutex_);
+    never_.wait_for(
+        lock, beating_.get_token(), std::chrono::duration<double>(longest_s), [] { return false; });
   }
 
   /// One heartbeat; returns the seconds until the next.
   double Beat() {
     constexpr double kSoon = 0.5;
-    if (ending_.stop_requested() && leases_.List().empty()) return kSoon;
+    if (draining_.stop_requested() && leases_.List().empty()) return kSoon;
     const absl::StatusOr<JoinReply> session = session_.Get(ending_.get_token());
     if (!session.ok()) {
       if (!absl::IsCancelled(session.status())) End(session.status());
@@ -175,28 +184,28 @@ class Worker {
   }
 
   CoordinatorApi& api_;
-  const StageLookup& stages_;
+  const MakeTaskExecutor& make_executor_;
   const WorkerOptions& options_;
-  const Clock& clock_;
   std::mutex mutex_;
   absl::Status reason_;
-  std::stop_source ending_;   ///< take no more, hand in or give back what runs
-  std::stop_source beating_;  ///< all is handed in
-  std::mutex beat_mutex_;
+  std::stop_source draining_;  ///< take no more
+  std::stop_source ending_;    ///< give back what runs
+  std::stop_source beating_;   ///< all is handed in
+  std::mutex wait_mutex_;
   std::condition_variable_any never_;
   HeldLeases leases_;
   WorkerSession session_;
   BlobCache blobs_;
+  std::jthread grace_;  ///< last: ends before what it uses
 };
 
 }  // namespace
 
 absl::Status RunWorker(CoordinatorApi& api,
-                       const StageLookup& stages,
+                       const MakeTaskExecutor& make_executor,
                        const WorkerOptions& options,
-                       const Clock& clock,
                        const std::stop_token& stop) {
-  return Worker(api, stages, options, clock).Run(stop);
+  return Worker(api, make_executor, options).Run(stop);
 }
 
 }  // namespace orbweave

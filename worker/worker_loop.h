@@ -6,9 +6,8 @@
 #include <stop_token>
 #include <string>
 
-#include "core/base/clock.h"
 #include "core/pipeline/coordinator_api.h"
-#include "worker/task_runner.h"
+#include "worker/task_executor.h"
 
 namespace orbweave {
 
@@ -16,21 +15,23 @@ struct WorkerOptions {
   std::string name{};  ///< unique among the workers of a coordinator
   uint32_t slots = 1;  ///< tasks at a time
   int threads_per_task = 1;
-  double poll_s = 10.0;  ///< how long one question for a task waits at the coordinator
+  double grace_s = 30.0;  ///< for tasks that run when the worker is told to end
+  double poll_s = 10.0;   ///< how long one question for a task waits at the coordinator
   size_t cache_bytes = size_t{512} << 20;
   /// Told one line per event ("task leased stage=... part=..."); may be empty. Called from several
   /// threads.
   std::function<void(const std::string& line)> log{};
 };
 
-/// Works for the coordinator until `stop` or until it says to leave: asks for tasks, runs them,
-/// hands in what came out, and beats. Outlasts a coordinator that is away for a while. Returns OK
-/// after leaving; FailedPrecondition when the coordinator does not take this worker (another
-/// version). When stopped, running tasks are given back.
+/// Works for the coordinator until `stop` or until it says to leave: asks for tasks, has them run
+/// by one executor per slot, hands in what came out, and beats. Then it takes no more tasks,
+/// finishes those that run, and leaves; what is not done within the grace after `stop` is given
+/// back, and so is all when the coordinator shuts down. Outlasts a coordinator that is away for a
+/// while. Returns OK after leaving; FailedPrecondition when the coordinator does not take this
+/// worker (another version).
 [[nodiscard]] absl::Status RunWorker(CoordinatorApi& api,
-                                     const StageLookup& stages,
+                                     const MakeTaskExecutor& make_executor,
                                      const WorkerOptions& options,
-                                     const Clock& clock,
                                      const std::stop_token& stop);
 
 }  // namespace orbweave

@@ -62,6 +62,8 @@ struct WorkerStatus {
   uint32_t slots = 1;
   uint32_t tasks_done = 0;
   bool alive = true;
+  bool set_aside = false;  ///< it failed tasks that others then did, and gets no more
+  bool draining = false;   ///< it finishes what it has
 };
 
 struct JobStatus {
@@ -116,7 +118,7 @@ class CoordinatorApi : public BlobAccess {
   /// others are void.
   [[nodiscard]] virtual absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) = 0;
   /// A task to do, or nullopt when none became ready within wait_s. NotFound: unknown session (join
-  /// again).
+  /// again). Cancelled: the worker is to finish what it has, and to leave.
   [[nodiscard]] virtual absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
                                                                        uint32_t slot,
                                                                        double wait_s) = 0;
@@ -128,12 +130,17 @@ class CoordinatorApi : public BlobAccess {
   [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session,
                                                   const Lease& lease,
                                                   const TaskResult& result) = 0;
-  /// InvalidArgument and FailedPrecondition errors are permanent and fail the job; Cancelled gives
-  /// the task back; others are retried. Answers as CompleteTask.
+  /// The error's code decides what becomes of the task (coordinator/retry_policy.cc has the table):
+  /// InvalidArgument and its like are permanent and fail the job; Cancelled gives the task back;
+  /// others are tried again, so often. Answers as CompleteTask.
   [[nodiscard]] virtual absl::Status FailTask(uint64_t session,
                                               const Lease& lease,
                                               const absl::Status& error) = 0;
   [[nodiscard]] virtual absl::Status Leave(uint64_t session) = 0;
+
+  /// Gives a worker no more tasks: it finishes what it has and leaves. It may join anew. NotFound:
+  /// no such worker is there.
+  [[nodiscard]] virtual absl::Status DrainWorker(const std::string& name) = 0;
 
   /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is
   /// missing. ResourceExhausted: too many jobs are running.

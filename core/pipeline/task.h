@@ -28,7 +28,7 @@ struct TaskCost {
   double cpu_s = 0.0;
   uint64_t bytes_in = 0;           ///< of blobs read, those in the worker's cache included
   uint64_t bytes_out = 0;          ///< of blobs stored
-  uint64_t peak_memory_bytes = 0;  ///< of the worker's process while it ran the task; 0: not known
+  uint64_t peak_memory_bytes = 0;  ///< of the process that ran the task; 0: not known
 };
 
 /// What a stage leaves behind. All bulk is in blobs; the coordinator only ever sees their names.

@@ -3,6 +3,7 @@
 #include "core/stages/plan_recipes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "core/base/status.h"
@@ -18,7 +19,7 @@ std::vector<ExtractRecipe> PlanExtraction(const ImageManifest& manifest) {
   return recipes;
 }
 
-std::vector<MatchRecipe> PlanMatching(const std::vector<MatchRecipe::Pair>& pairs,
+std::vector<MatchRecipe> PlanMatching(std::vector<MatchRecipe::Pair> pairs,
                                       const std::vector<Digest>& features,
                                       size_t pairs_per_task) {
   ORBWEAVE_CHECK(pairs_per_task > 0);
@@ -26,8 +27,8 @@ std::vector<MatchRecipe> PlanMatching(const std::vector<MatchRecipe::Pair>& pair
   for (size_t begin = 0; begin < pairs.size(); begin += pairs_per_task) {
     const size_t end = std::min(begin + pairs_per_task, pairs.size());
     MatchRecipe recipe;
-    recipe.pairs.assign(pairs.begin() + static_cast<std::ptrdiff_t>(begin),
-                        pairs.begin() + static_cast<std::ptrdiff_t>(end));
+    recipe.pairs.assign(std::make_move_iterator(pairs.begin() + static_cast<std::ptrdiff_t>(begin)),
+                        std::make_move_iterator(pairs.begin() + static_cast<std::ptrdiff_t>(end)));
     std::set<ImageId> images;
     for (const MatchRecipe::Pair& pair : recipe.pairs) images.insert({pair.pair.a, pair.pair.b});
     for (const ImageId id : images) recipe.images.push_back({id, features[id.value]});

@@ -16,7 +16,7 @@ namespace orbweave {
 
 /// Cuts sorted pairs into runs of `pairs_per_task`; neighbours in order share images, so a run
 /// opens few Features. `features[id]` is the blob of each image.
-[[nodiscard]] std::vector<MatchRecipe> PlanMatching(const std::vector<MatchRecipe::Pair>& pairs,
+[[nodiscard]] std::vector<MatchRecipe> PlanMatching(std::vector<MatchRecipe::Pair> pairs,
                                                     const std::vector<Digest>& features,
                                                     size_t pairs_per_task);
 

@@ -67,6 +67,8 @@ v1::WorkerStatus ToProto(const WorkerStatus& worker) {
   proto.set_slots(worker.slots);
   proto.set_tasks_done(worker.tasks_done);
   proto.set_alive(worker.alive);
+  proto.set_set_aside(worker.set_aside);
+  proto.set_draining(worker.draining);
   return proto;
 }
 
@@ -74,7 +76,9 @@ WorkerStatus FromProto(const v1::WorkerStatus& proto) {
   return {.name = proto.name(),
           .slots = proto.slots(),
           .tasks_done = proto.tasks_done(),
-          .alive = proto.alive()};
+          .alive = proto.alive(),
+          .set_aside = proto.set_aside(),
+          .draining = proto.draining()};
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ JobStatus Example() {
           .spec = {.label = "street"},
           .elapsed_s = 61.0,
           .stages = {{.stage = "align", .tasks_total = 1, .retries = 2}, {.stage = "merge"}},
-          .workers = {{.name = "a", .tasks_done = 4}, {.name = "b", .alive = false}}};
+          .workers = {{.name = "a", .tasks_done = 4, .set_aside = true, .draining = true},
+                      {.name = "b", .alive = false}}};
 }
 
 TEST(FormatJobStatus, ShowsWhatWentWrongAndWhoIsThere) {
@@ -27,6 +28,8 @@ TEST(FormatJobStatus, ShowsWhatWentWrongAndWhoIsThere) {
   EXPECT_THAT(text, ::testing::HasSubstr("no seam"));
   EXPECT_THAT(text, ::testing::HasSubstr("2 retries"));
   EXPECT_THAT(text, ::testing::HasSubstr("1 alive of 2"));
+  EXPECT_THAT(text, ::testing::HasSubstr("set aside: a"));
+  EXPECT_THAT(text, ::testing::HasSubstr("leaving: a"));
 }
 
 TEST(JobStatusToJson, NamesEverything) {
@@ -37,6 +40,8 @@ TEST(JobStatusToJson, NamesEverything) {
   EXPECT_EQ(job["stages"].size(), 2U);
   EXPECT_EQ(job["stages"][0]["retries"], 2);
   EXPECT_EQ(job["workers"][1]["alive"], false);
+  EXPECT_EQ(job["workers"][0]["set_aside"], true);
+  EXPECT_EQ(job["workers"][0]["draining"], true);
 }
 
 }  // namespace

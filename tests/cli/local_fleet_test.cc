@@ -15,6 +15,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/drain_command.h"
+#include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
@@ -25,22 +27,26 @@ namespace orbweave {
 namespace {
 
 using testing::FindToyPlan;
+using ::testing::HasSubstr;
 using testing::PrepareToyJob;
 using testing::Square;
 using testing::TemporaryFolder;
 using testing::ToyAnswer;
 using testing::ToyStages;
 
-/// The toy stages; squaring 13 for the first time kills the process that does it. A file next to
-/// the worker's socket remembers that it happened.
+/// The toy stages; squaring 666 aborts the process that does it, and squaring 13 for the first time
+/// kills that process or its worker. A file remembers that it happened.
 testing::StageMap DeadlyStages() {
   testing::StageMap stages = ToyStages();
   stages["square"] = [](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
     const char* marker = std::getenv("ORBWEAVE_TEST_MARKER");
     const auto number = blobs.Get(spec.inputs.at(0));
+    if (number.ok() && *number == "666") std::abort();
     if (marker != nullptr && number.ok() && *number == "13" && !std::filesystem::exists(marker)) {
       std::ofstream(marker) << "killed";
-      ::kill(::getpid(), SIGKILL);
+      const bool is_worker = std::string_view(std::getenv("ORBWEAVE_TEST_VICTIM")) == "worker";
+      ::kill(is_worker ? ::getppid() : ::getpid(), SIGKILL);
+      std::this_thread::sleep_for(std::chrono::seconds(60));
     }
     return Square(spec, blobs, context);
   };
@@ -71,20 +77,98 @@ TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
   EXPECT_EQ((*fleet)->restarts(), 0U);
 }
 
-TEST(LocalFleet, AWorkerKilledInTheMiddleOfATaskCostsNothingButTime) {
-  const TemporaryFolder folder;
-  ::setenv("ORBWEAVE_TEST_MARKER", (folder / "killed").c_str(), 1);
-  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
+/// Squares 12, 13 and 14 on a fleet where 13 brings death the first time.
+class Deadly : public ::testing::TestWithParam<const char*> {
+ protected:
+  Deadly() {
+    ::setenv("ORBWEAVE_TEST_MARKER", (folder_ / "killed").c_str(), 1);
+    ::setenv("ORBWEAVE_TEST_VICTIM", GetParam(), 1);
+  }
+  ~Deadly() override {
+    ::unsetenv("ORBWEAVE_TEST_MARKER");
+    ::unsetenv("ORBWEAVE_TEST_VICTIM");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(Deadly, CostsNothingButTime) {
+  const auto fleet = LocalFleet::Start(FleetOptions(folder_ / "state", 2));
   ASSERT_TRUE(fleet.ok()) << fleet.status();
   const auto job = PrepareToyJob((*fleet)->coordinator(), "12 13 14");
   const auto status = (*fleet)->RunJob(*job, {}, {});
-  ::unsetenv("ORBWEAVE_TEST_MARKER");
   ASSERT_TRUE(status.ok()) << status.status();
   EXPECT_EQ(status->state, JobState::kDone) << status->error;
-  EXPECT_TRUE(std::filesystem::exists(folder / "killed"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "killed"));
   EXPECT_EQ(status->stages[1].retries, 1U);
-  EXPECT_EQ((*fleet)->restarts(), 1U);
+  EXPECT_EQ((*fleet)->restarts(), std::string_view(GetParam()) == "worker" ? 1U : 0U);
   EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "509");
+}
+
+INSTANTIATE_TEST_SUITE_P(LocalFleet, Deadly, ::testing::Values("worker", "task"));
+
+TEST(LocalFleet, ATaskThatKillsWhoeverDoesItFailsTheJobAndIsNamed) {
+  const TemporaryFolder folder;
+  const auto fleet = LocalFleet::Start(FleetOptions(folder / "state", 2));
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), "1 666 2");
+  const auto status = (*fleet)->RunJob(*job, {}, {});
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(status->state, JobState::kFailed);
+  EXPECT_THAT(status->error, HasSubstr("stage square, part 1"));
+  EXPECT_THAT(status->error, HasSubstr("lost its process 3 times"));
+  EXPECT_THAT(status->error, HasSubstr("signal 6 (Aborted)"));
+  EXPECT_THAT(status->error, HasSubstr(DigestOf("666").ToShortHex()));
+  EXPECT_EQ((*fleet)->restarts(), 0U) << "the workers live on";
+}
+
+/// A worker process beside a coordinator, in the middle of a job of twenty squares.
+class Leaver : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto started = LocalFleet::Start(FleetOptions(folder_ / "state", 0));
+    ASSERT_TRUE(started.ok()) << started.status();
+    fleet_ = *std::move(started);
+    job_ = *Api().SubmitJob(*PrepareToyJob(
+        Api(), "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20", "toy.pause=true\n"));
+    worker_ = std::make_unique<testing::Command>(std::vector<std::string>{
+        "/proc/self/exe", "work", "--join", fleet_->address(), "--name", "leaver"});
+    ASSERT_TRUE(testing::WaitUntil([this] { return Squares().tasks_running == 1; }, 60.0));
+  }
+
+  CoordinatorApi& Api() { return fleet_->coordinator(); }
+  StageStatus Squares() { return Api().GetJob(job_)->stages[1]; }
+
+  void ExpectThatItFinishedAndLeft() {
+    const testing::CommandOutcome outcome = worker_->Wait();
+    EXPECT_EQ(outcome.exit_code, kExitOk) << outcome.err;
+    EXPECT_GT(Squares().tasks_done, 0U) << "what ran";
+    EXPECT_LT(Squares().tasks_done, 20U) << "and no more";
+    EXPECT_EQ(Squares().tasks_running, 0U);
+    EXPECT_EQ(Squares().retries, 0U);
+    EXPECT_FALSE(Api().GetJob(job_)->workers.at(0).alive);
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<LocalFleet> fleet_;
+  Digest job_{};
+  std::unique_ptr<testing::Command> worker_;
+};
+
+TEST_F(Leaver, FinishesItsTaskAfterSigterm) {
+  worker_->Signal(SIGTERM);
+  ExpectThatItFinishedAndLeft();
+}
+
+TEST_F(Leaver, FinishesItsTaskWhenItIsDrained) {
+  const testing::CommandOutcome drained = testing::RunCommand(
+      {"/proc/self/exe", "drain", "--coordinator", fleet_->address(), "leaver"});
+  EXPECT_EQ(drained.exit_code, kExitOk) << drained.err;
+  ExpectThatItFinishedAndLeft();
+  const testing::CommandOutcome again = testing::RunCommand(
+      {"/proc/self/exe", "drain", "--coordinator", fleet_->address(), "leaver"});
+  EXPECT_EQ(again.exit_code, kExitUsage);
+  EXPECT_THAT(again.err, HasSubstr("there is no worker leaver"));
 }
 
 TEST(LocalFleet, AnInterruptedJobGoesOnWhenItIsRunAgain) {
@@ -131,13 +215,15 @@ TEST(LocalFleet, RefusesAStateFolderInUse) {
       absl::IsFailedPrecondition(LocalFleet::Start(FleetOptions(folder / "state", 0)).status()));
 }
 
-/// What the fleet starts.
-int BeAWorker(int argc, char** argv) {
+/// What `orbweave` would do with these arguments.
+int BeTheCommand(int argc, char** argv) {
   const testing::StageMap stages = DeadlyStages();
   const StageLookup lookup = testing::LookupIn(stages);
   CLI::App app;
   SelectedCommand selected;
-  AddWorkCommand(app, selected, lookup);
+  AddWorkCommand(app, selected);
+  AddDrainCommand(app, selected);
+  AddExecTasksCommand(app, selected, lookup);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError&) {
@@ -150,7 +236,8 @@ int BeAWorker(int argc, char** argv) {
 }  // namespace orbweave
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "work") return orbweave::BeAWorker(argc, argv);
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

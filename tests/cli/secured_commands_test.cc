@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/keys_command.h"
 #include "cli/serve_command.h"
@@ -162,7 +163,8 @@ int BeTheCommand(int argc, char** argv) {
   SelectedCommand selected;
   AddKeysCommand(app, selected);
   AddServeCommand(app, selected);
-  AddWorkCommand(app, selected, lookup);
+  AddWorkCommand(app, selected);
+  AddExecTasksCommand(app, selected, lookup);
   AddStatusCommand(app, selected);
   try {
     app.parse(argc, argv);

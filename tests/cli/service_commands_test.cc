@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/cancel_command.h"
+#include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/serve_command.h"
 #include "cli/status_command.h"
@@ -131,7 +132,8 @@ int BeTheCommand(int argc, char** argv) {
   CLI::App app;
   SelectedCommand selected;
   AddServeCommand(app, selected);
-  AddWorkCommand(app, selected, lookup);
+  AddWorkCommand(app, selected);
+  AddExecTasksCommand(app, selected, lookup);
   AddStatusCommand(app, selected);
   AddCancelCommand(app, selected);
   try {

@@ -18,7 +18,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
                                   .label = "street"},
                          .elapsed_s = 1.5,
                          .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}},
-                         .workers = {{"w", 2, 3, false}}};
+                         .workers = {{"w", 2, 3, false, true, true}}};
   const auto back = FromProto(ToProto(status));
   ASSERT_TRUE(back.ok());
   EXPECT_EQ(back->id, status.id);
@@ -41,6 +41,8 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   EXPECT_EQ(back->workers.at(0).slots, 2U);
   EXPECT_EQ(back->workers.at(0).tasks_done, 3U);
   EXPECT_FALSE(back->workers.at(0).alive);
+  EXPECT_TRUE(back->workers.at(0).set_aside);
+  EXPECT_TRUE(back->workers.at(0).draining);
 }
 
 TEST(CoordinatorCodec, CostsAndTimingsSurviveTheRoundTrip) {

@@ -76,8 +76,7 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
   }
 
   absl::Status Do(uint64_t session, const Lease& lease) {
-    const auto result =
-        RunTask(LookupIn(stages_), lease.spec, Api(), {}, clock_, CpuClock::kProcess);
+    const auto result = RunTask(LookupIn(stages_), lease.spec, Api(), {}, clock_);
     ORBWEAVE_CHECK(result.ok());
     return Api().CompleteTask(session, lease, *result);
   }
@@ -89,6 +88,17 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
   std::unique_ptr<GrpcServer> server_;
   std::unique_ptr<GrpcCoordinatorClient> client_;
 };
+
+TEST_P(CoordinatorContract, AWorkerThatIsDrainedGetsNoMoreTasks) {
+  Submit("1");
+  const auto joined = Api().Join(Worker("w"));
+  ASSERT_TRUE(joined.ok());
+  const Lease lease = MustLease(joined->session);
+  ASSERT_TRUE(Api().DrainWorker("w").ok());
+  EXPECT_TRUE(absl::IsCancelled(Api().LeaseTask(joined->session, 0, 10.0).status()));
+  EXPECT_TRUE(Do(joined->session, lease).ok()) << "it may finish what it has";
+  EXPECT_TRUE(absl::IsNotFound(Api().DrainWorker("stranger")));
+}
 
 TEST_P(CoordinatorContract, RunsAJobFromSubmissionToAnswer) {
   const Digest job = Submit("1 2 3");

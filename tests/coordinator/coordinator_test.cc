@@ -44,7 +44,7 @@ class CoordinatorTest : public ::testing::Test {
   CoordinatorOptions Options() const {
     return {.state_dir = folder_ / "state",
             .lease_s = 20.0,
-            .retry = {.max_attempts = 3, .first_wait_s = 1.0},
+            .retry = {.first_wait_s = 1.0},
             .find_plan = FindToyPlan};
   }
 
@@ -153,6 +153,46 @@ TEST_F(CoordinatorTest, ADeadProcessLosesItsLeasesAtOnce) {
   coordinator_->WorkerDied("dead");
   clock_.Advance(1.5);
   EXPECT_EQ(MustLease(other).task, lease.task);
+}
+
+TEST_F(CoordinatorTest, TheFirstResultOfAStragglerWinsAndTheOtherAttemptIsCalledOff) {
+  const uint64_t slow = Join("slow");
+  const uint64_t quick = Join("quick");
+  Submit("1 2 3");
+  ASSERT_TRUE(Do(quick, MustLease(quick)).ok());
+  const Lease late = MustLease(slow);
+  ASSERT_TRUE(Do(quick, MustLease(quick)).ok());
+  ASSERT_TRUE(Do(quick, MustLease(quick)).ok());
+  EXPECT_FALSE(coordinator_->LeaseTask(quick, 0, 0.2)->has_value());
+  for (int beat = 0; beat < 5; ++beat) {
+    clock_.Advance(15.0);
+    EXPECT_TRUE(coordinator_->Heartbeat(slow, {{late.task, late.epoch, {}}})->cancelled.empty());
+  }
+  const Lease again = MustLease(quick);
+  EXPECT_EQ(again.task, late.task);
+  ASSERT_TRUE(Do(quick, again).ok());
+  EXPECT_THAT(coordinator_->Heartbeat(slow, {{late.task, late.epoch, {}}})->cancelled,
+              ::testing::ElementsAre(late.task));
+  EXPECT_TRUE(absl::IsFailedPrecondition(Do(slow, late)));
+}
+
+TEST_F(CoordinatorTest, AWorkerThatFailsWhatOthersDoIsSetAside) {
+  const uint64_t bad = Join("bad");
+  const uint64_t good = Join("good");
+  const Digest job = Submit("1 2 3 4");
+  ASSERT_TRUE(Do(good, MustLease(good)).ok());
+  for (int i = 0; i < 3; ++i) {
+    const Lease lease = MustLease(bad);
+    ASSERT_TRUE(coordinator_->FailTask(bad, lease, absl::InternalError("bad memory")).ok());
+    clock_.Advance(5.0);
+    ASSERT_TRUE(Do(good, MustLease(good)).ok());
+  }
+  EXPECT_FALSE(coordinator_->LeaseTask(bad, 0, 0.2)->has_value());
+  const auto status = coordinator_->GetJob(job);
+  ASSERT_EQ(status->workers.size(), 2U);
+  EXPECT_TRUE(status->workers[0].set_aside);
+  EXPECT_FALSE(status->workers[1].set_aside);
+  EXPECT_TRUE(coordinator_->LeaseTask(good, 0, kWait_s)->has_value());
 }
 
 TEST_F(CoordinatorTest, StartedAgainItReusesEveryResult) {

@@ -21,7 +21,7 @@ JobPlan LinePlan(const std::vector<std::string>& stages) {
 JobMachine MachineFor(const std::vector<std::string>& stages) {
   return {{.kind = "line", .label = "test"},
           LinePlan(stages),
-          {.max_attempts = 3, .first_wait_s = 1.0},
+          {.max_transient = 3, .max_infrastructure = 4, .max_process_lost = 2, .first_wait_s = 1.0},
           100.0};
 }
 
@@ -39,14 +39,14 @@ void Begin(JobMachine& machine, const std::string& stage, uint32_t count, double
 }
 
 /// Leases what comes next to `worker`.
-TaskRef LeaseNext(JobMachine& machine,
-                  const std::string& worker,
-                  double now_s,
-                  uint64_t epoch = 1) {
+AttemptRef LeaseNext(JobMachine& machine,
+                     const std::string& worker,
+                     double now_s,
+                     uint64_t epoch = 1) {
   const std::optional<TaskRef> ref = machine.NextReady(worker, {worker}, now_s);
   ORBWEAVE_CHECK(ref.has_value());
   machine.TaskLeased(*ref, {.epoch = epoch, .worker = worker}, now_s);
-  return *ref;
+  return {*ref, epoch};
 }
 
 TEST(JobMachine, StartsAStageWhenTheOneBeforeIsDone) {
@@ -54,9 +54,9 @@ TEST(JobMachine, StartsAStageWhenTheOneBeforeIsDone) {
   EXPECT_EQ(machine.StageToPlan(), 0U);
   Begin(machine, "a", 2);
   EXPECT_EQ(machine.StageToPlan(), std::nullopt);
-  const TaskRef first = LeaseNext(machine, "w", 101.0);
-  const TaskRef second = LeaseNext(machine, "w", 101.0);
-  EXPECT_EQ(second, (TaskRef{0, 1}));
+  const AttemptRef first = LeaseNext(machine, "w", 101.0);
+  const AttemptRef second = LeaseNext(machine, "w", 101.0);
+  EXPECT_EQ(second.task, (TaskRef{0, 1}));
   EXPECT_EQ(machine.NextReady("w", {"w"}, 101.0), std::nullopt);
   machine.TaskDone(second, {}, 102.0);
   EXPECT_EQ(machine.StageToPlan(), std::nullopt);
@@ -186,7 +186,7 @@ TEST(JobMachine, RetriesATransientFailureAfterAWait) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);
   machine.TaskFailed(LeaseNext(machine, "w", 100.0), absl::UnavailableError("gone"), 100.0);
-  EXPECT_EQ(machine.NextReady("w", {"w"}, 100.5), std::nullopt);
+  EXPECT_EQ(machine.NextReady("w", {"w"}, 100.4), std::nullopt);
   EXPECT_EQ(machine.NextReady("w", {"w"}, 101.0), (TaskRef{0, 0}));
   EXPECT_EQ(machine.Status(101.0).stages[0].retries, 1U);
 }
@@ -216,6 +216,106 @@ TEST(JobMachine, FailsAfterTheLastAttemptAndSaysWhatAndWhy) {
   EXPECT_EQ(machine.NextReady("w", {"w"}, 9000.0), std::nullopt);
 }
 
+TEST(JobMachine, CountsFailuresByTheirClass) {
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", 1);
+  double now_s = 100.0;
+  const auto fail = [&](const absl::Status& error) {
+    machine.TaskFailed(LeaseNext(machine, "w", now_s), error, now_s);
+    now_s += 100.0;
+  };
+  for (int i = 0; i < 3; ++i) fail(absl::UnavailableError("went silent"));
+  for (int i = 0; i < 2; ++i) fail(absl::InternalError("no luck"));
+  fail(absl::AbortedError("signal 9"));
+  EXPECT_EQ(machine.state(), JobState::kRunning) << machine.error();
+  fail(absl::ResourceExhaustedError("out of memory"));
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_THAT(machine.error(), HasSubstr("failed 4 times"));
+}
+
+TEST(JobMachine, NamesTheInputsOfATaskThatKillsItsProcesses) {
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", 1);
+  machine.TaskFailed(LeaseNext(machine, "w1", 100.0), absl::AbortedError("signal 11"), 100.0);
+  machine.TaskFailed(LeaseNext(machine, "w2", 200.0), absl::DeadlineExceededError("hung"), 200.0);
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_THAT(machine.error(), HasSubstr("stage a, part 0"));
+  EXPECT_THAT(machine.error(), HasSubstr("lost its process 2 times, last on w2"));
+  EXPECT_THAT(machine.error(), HasSubstr("its inputs: " + DigestOf("0").ToShortHex()));
+}
+
+TEST(JobMachine, GivesUpWhenTooMuchOfItFails) {
+  constexpr uint32_t kTasks = 20;
+  JobMachine machine({.kind = "line"},
+                     LinePlan({"a"}),
+                     {.job_retries = 4, .job_retry_share = 0.1, .first_wait_s = 1.0},
+                     100.0);
+  Begin(machine, "a", kTasks);
+  for (int failures = 0; failures < 7; ++failures) {
+    ASSERT_EQ(machine.state(), JobState::kRunning) << failures;
+    machine.TaskFailed(LeaseNext(machine, "w", 100.0), absl::UnavailableError("no store"), 100.0);
+  }
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_THAT(machine.error(), HasSubstr("gave up after 7 failed attempts at 20 tasks"));
+}
+
+/// A stage of `count` tasks of which all but the last `left` were done in 40 s each; those left
+/// began at 100 s on the worker "slow", under epochs from 1000 on.
+JobMachine MachineWithStragglers(uint32_t count, uint32_t left) {
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", count);
+  for (uint32_t part = 0; part < count; ++part) {
+    const bool is_left = part + left >= count;
+    const AttemptRef ref = LeaseNext(machine, is_left ? "slow" : "w", 100.0, 1000 + part);
+    if (!is_left) machine.TaskDone(ref, {}, 140.0);
+  }
+  return machine;
+}
+
+TEST(JobMachine, LetsAnIdleWorkerRepeatAStraggler) {
+  JobMachine machine = MachineWithStragglers(3, 1);
+  const AttemptRef slow{{0, 2}, 1002};
+  EXPECT_EQ(machine.NextStraggler("w", 8, 180.0), std::nullopt) << "twice the median";
+  EXPECT_EQ(machine.NextStraggler("slow", 8, 181.0), std::nullopt) << "does it itself";
+  ASSERT_EQ(machine.NextStraggler("w", 8, 181.0), slow.task);
+  machine.TaskLeased(slow.task, {.epoch = 7, .worker = "w"}, 181.0);
+  EXPECT_EQ(machine.NextStraggler("third", 8, 999.0), std::nullopt) << "one more is enough";
+  EXPECT_EQ(machine.Status(181.0).stages[0].tasks_running, 1U);
+  machine.TaskDone({slow.task, 7}, {.report_json = "quick"}, 190.0);
+  EXPECT_EQ(machine.state(), JobState::kDone);
+  EXPECT_TRUE(machine.WasDoneBy(machine.TaskId(slow.task), 7));
+  EXPECT_FALSE(machine.WasDoneBy(machine.TaskId(slow.task), 1002));
+  EXPECT_EQ(machine.Outcomes().back().result.report_json, "quick");
+  ASSERT_EQ(machine.Timings().size(), 4U);
+  EXPECT_FALSE(machine.Timings()[3].ok) << "the attempt that came too late";
+}
+
+TEST(JobMachine, AFailedRepetitionLeavesTheOtherAttemptAlone) {
+  JobMachine machine = MachineWithStragglers(3, 1);
+  const AttemptRef slow{{0, 2}, 1002};
+  machine.TaskLeased(slow.task, {.epoch = 7, .worker = "w"}, 200.0);
+  machine.TaskFailed({slow.task, 7}, absl::InternalError("no luck"), 201.0);
+  EXPECT_EQ(machine.NextReady("w2", {"w2"}, 300.0), std::nullopt);
+  EXPECT_EQ(machine.Status(201.0).stages[0].tasks_running, 1U);
+  machine.TaskDone(slow, {}, 210.0);
+  EXPECT_EQ(machine.state(), JobState::kDone);
+}
+
+TEST(JobMachine, RepeatsNoMoreThanAShareOfTheSlots) {
+  JobMachine machine = MachineWithStragglers(8, 4);
+  for (const uint32_t part : {4U, 5U}) {
+    ASSERT_EQ(machine.NextStraggler("w", 20, 500.0), (TaskRef{0, part}));
+    machine.TaskLeased({0, part}, {.epoch = part, .worker = "w"}, 500.0);
+  }
+  EXPECT_EQ(machine.NextStraggler("w", 20, 500.0), std::nullopt);
+  EXPECT_EQ(machine.NextStraggler("w", 30, 500.0), (TaskRef{0, 6}));
+}
+
+TEST(JobMachine, KnowsNoStragglersBeforeHalfOfTheStageIsDone) {
+  JobMachine machine = MachineWithStragglers(5, 3);
+  EXPECT_EQ(machine.NextStraggler("w", 100, 9999.0), std::nullopt);
+}
+
 TEST(JobMachine, FailsAtOnceWhenAnErrorIsPermanent) {
   for (const absl::Status& error : {absl::InvalidArgumentError("no images"),
                                     absl::FailedPreconditionError("no images"),
@@ -241,7 +341,7 @@ TEST(JobMachine, AReturnedTaskIsReadyAtOnceAndDoesNotCount) {
 TEST(JobMachine, CancellingEndsItAndLateEventsChangeNothing) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);
-  const TaskRef ref = LeaseNext(machine, "w", 100.0);
+  const AttemptRef ref = LeaseNext(machine, "w", 100.0);
   machine.JobIsCancelled(101.0);
   machine.TaskDone(ref, {}, 102.0);
   EXPECT_EQ(machine.state(), JobState::kCancelled);
@@ -251,8 +351,8 @@ TEST(JobMachine, CancellingEndsItAndLateEventsChangeNothing) {
 TEST(JobMachine, KnowsWhichAttemptWasTaken) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);
-  const TaskRef ref = LeaseNext(machine, "w", 100.0, 7);
-  const Digest id = machine.TaskId(ref);
+  const AttemptRef ref = LeaseNext(machine, "w", 100.0, 7);
+  const Digest id = machine.TaskId(ref.task);
   EXPECT_FALSE(machine.WasDoneBy(id, 7));
   machine.TaskDone(ref, {}, 101.0);
   EXPECT_TRUE(machine.WasDoneBy(id, 7));
@@ -262,8 +362,8 @@ TEST(JobMachine, KnowsWhichAttemptWasTaken) {
 TEST(JobMachine, ReportsOutcomesInOrderAndTimingsAsTheyEnd) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 2);
-  const TaskRef first = LeaseNext(machine, "w1", 101.0);
-  const TaskRef second = LeaseNext(machine, "w2", 102.0);
+  const AttemptRef first = LeaseNext(machine, "w1", 101.0);
+  const AttemptRef second = LeaseNext(machine, "w2", 102.0);
   machine.TaskProgressed(first, {1, 4, "images"});
   EXPECT_DOUBLE_EQ(machine.Status(102.0).stages[0].fraction_running, 0.25);
   machine.TaskDone(second, {.report_json = "second", .cost = {.cpu_s = 2.0}}, 103.0);

@@ -49,6 +49,18 @@ TEST(LeaseBook, ExpiresWhatWasNotRenewed) {
   EXPECT_EQ(book.TakeExpired(100.0).size(), 1U);
 }
 
+TEST(LeaseBook, StrikesOutAllLeasesOfATask) {
+  LeaseBook book;
+  book.Grant(Entry(1, 10, 5.0));
+  book.Grant(Entry(2, 11, 5.0));
+  LeaseEntry sibling = Entry(3, 10, 5.0);
+  sibling.ref->part = 1;
+  book.Grant(sibling);
+  EXPECT_EQ(book.TakeTask(DigestOf("job"), {}).size(), 2U);
+  EXPECT_EQ(book.TakeTask(DigestOf("other job"), *sibling.ref).size(), 0U);
+  EXPECT_TRUE(book.Take(3, kTask, 10).ok());
+}
+
 TEST(LeaseBook, VoidsASessionOrAJobWhole) {
   LeaseBook book;
   book.Grant(Entry(1, 10, 5.0));

@@ -24,16 +24,16 @@ TEST(WorkerRoster, AKnownNameReplacesItsSession) {
 TEST(WorkerRoster, ASilentWorkerIsNotAliveUntilItIsHeardAgain) {
   WorkerRoster roster(10.0);
   roster.Join({.name = "w"}, 1, 0.0);
-  EXPECT_THAT(roster.Alive(10.0), ElementsAre("w"));
-  EXPECT_THAT(roster.Alive(10.1), IsEmpty());
+  EXPECT_THAT(roster.Serving(10.0), ElementsAre("w"));
+  EXPECT_THAT(roster.Serving(10.1), IsEmpty());
   EXPECT_TRUE(roster.Hear(1, 12.0).ok());
-  EXPECT_THAT(roster.Alive(12.0), ElementsAre("w"));
+  EXPECT_THAT(roster.Serving(12.0), ElementsAre("w"));
 }
 
 TEST(WorkerRoster, RemembersWhatAWorkerDidAfterItLeft) {
   WorkerRoster roster(10.0);
   roster.Join({.name = "w", .slots = 3}, 1, 0.0);
-  roster.CountTask(1);
+  roster.CountTask(1, {});
   roster.End(1);
   const std::vector<WorkerStatus> status = roster.Status(0.0);
   ASSERT_EQ(status.size(), 1U);
@@ -41,6 +41,56 @@ TEST(WorkerRoster, RemembersWhatAWorkerDidAfterItLeft) {
   EXPECT_EQ(status[0].slots, 3U);
   EXPECT_FALSE(status[0].alive);
   EXPECT_EQ(roster.SessionOf("w"), std::nullopt);
+}
+
+/// Two workers, of which "bad" failed `tasks` that "good" then did.
+WorkerRoster RosterWithBlame(int tasks) {
+  WorkerRoster roster(10.0);
+  roster.Join({.name = "bad"}, 1, 0.0);
+  roster.Join({.name = "good", .slots = 3}, 2, 0.0);
+  for (int i = 0; i < tasks; ++i) roster.CountTask(2, {"bad", "good"});
+  return roster;
+}
+
+TEST(WorkerRoster, SetsAWorkerAsideThatFailedThreeTasksWhichOthersDid) {
+  EXPECT_THAT(RosterWithBlame(2).Serving(0.0), ElementsAre("bad", "good"));
+  const WorkerRoster roster = RosterWithBlame(3);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("good"));
+  EXPECT_TRUE(roster.Status(0.0)[0].set_aside);
+  EXPECT_FALSE(roster.Status(0.0)[1].set_aside);
+  EXPECT_EQ(roster.Slots(0.0), 4U);
+}
+
+TEST(WorkerRoster, ATaskOfItsOwnClearsAWorker) {
+  WorkerRoster roster = RosterWithBlame(2);
+  roster.CountTask(1, {});
+  roster.CountTask(2, {"bad"});
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("bad", "good"));
+}
+
+TEST(WorkerRoster, AWorkerThatJoinsAnewBeginsAnew) {
+  WorkerRoster roster = RosterWithBlame(3);
+  roster.Join({.name = "bad"}, 3, 0.0);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("bad", "good"));
+}
+
+TEST(WorkerRoster, WhoIsToLeaveServesNoMoreUntilItJoinsAnew) {
+  WorkerRoster roster(10.0);
+  roster.Join({.name = "w"}, 1, 0.0);
+  EXPECT_TRUE(absl::IsNotFound(roster.Drain("stranger")));
+  EXPECT_FALSE(roster.IsDraining(1));
+  ASSERT_TRUE(roster.Drain("w").ok());
+  EXPECT_TRUE(roster.IsDraining(1));
+  EXPECT_TRUE(roster.Status(0.0)[0].draining);
+  EXPECT_THAT(roster.Serving(0.0), IsEmpty());
+  roster.Join({.name = "w"}, 2, 0.0);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("w"));
+}
+
+TEST(WorkerRoster, WhoIsSetAsideServesWhenNobodyElseIsAlive) {
+  WorkerRoster roster = RosterWithBlame(3);
+  roster.End(2);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("bad"));
 }
 
 }  // namespace

@@ -45,6 +45,24 @@ TEST(KilledProcess, AWorkerKilledInTheMiddleOfTheJobIsReplaced) {
   ExpectSameModel(expected, output);
 }
 
+TEST(KilledProcess, ATasksProcessKilledInTheMiddleOfTheJobLeavesTheWorkersAlone) {
+  const TemporaryFolder folder;
+  const std::string expected = Undisturbed(folder);
+  const std::string output = folder / "killed";
+  Command run(ReconstructCorridor(output, 2));
+  ASSERT_TRUE(WaitUntil([&] { return FinishedTasks(output) >= 3; }, 60)) << run.ErrSoFar();
+  const std::vector<pid_t> workers = ChildrenOf(run.Pid());
+  ASSERT_EQ(workers.size(), 2U);
+  for (const pid_t worker : workers) {
+    for (const pid_t process : ChildrenOf(worker)) kill(process, SIGKILL);
+  }
+  ASSERT_TRUE(run.Running()) << "the job ended before a process could be killed";
+  EXPECT_EQ(ChildrenOf(run.Pid()), workers);
+  const CommandOutcome outcome = run.Wait();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  ExpectSameModel(expected, output);
+}
+
 TEST(KilledProcess, AKilledRunResumesWithoutRepeatingFinishedTasks) {
   const TemporaryFolder folder;
   const std::string expected = Undisturbed(folder);

@@ -34,8 +34,7 @@ TEST(Certificates, CarryAJobFromSubmissionToAnswer) {
   for (int i = 0; i < 4; ++i) {
     const auto lease = worker->LeaseTask(session, 0, 10.0);
     ASSERT_TRUE(lease.ok() && lease->has_value()) << lease.status();
-    const auto result =
-        RunTask(testing::LookupIn(stages), (*lease)->spec, *worker, {}, clock, CpuClock::kProcess);
+    const auto result = RunTask(testing::LookupIn(stages), (*lease)->spec, *worker, {}, clock);
     ASSERT_TRUE(worker->CompleteTask(session, **lease, *result).ok());
   }
   EXPECT_EQ(testing::WaitForEnd(*client, job)->state, JobState::kDone);

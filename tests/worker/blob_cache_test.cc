@@ -33,19 +33,21 @@ class CountingBlobs final : public BlobAccess {
   std::map<Digest, std::string> blobs;
 };
 
+SharedBytes Text(const char* text) { return SharedBytes::Of(text); }
+
 TEST(BlobCache, AsksOnceForWhatItKeeps) {
   CountingBlobs source;
   BlobCache cache(source, 100, {});
   const Digest digest = *source.Put("text");
-  EXPECT_EQ(*cache.Get(digest), "text");
-  EXPECT_EQ(*cache.Get(digest), "text");
+  EXPECT_EQ(cache.Get(digest)->View(), "text");
+  EXPECT_EQ(cache.Get(digest)->View(), "text");
   EXPECT_EQ(source.gets, 1);
 }
 
 TEST(BlobCache, KeepsWhatWasPut) {
   CountingBlobs source;
   BlobCache cache(source, 100, {});
-  EXPECT_EQ(*cache.Get(*cache.Put("text")), "text");
+  EXPECT_EQ(cache.Get(*cache.Put(Text("text")))->View(), "text");
   EXPECT_EQ(source.gets, 0);
   EXPECT_EQ(source.blobs.size(), 1U);
 }
@@ -53,22 +55,22 @@ TEST(BlobCache, KeepsWhatWasPut) {
 TEST(BlobCache, ForgetsWhatWasNotUsedForLongest) {
   CountingBlobs source;
   BlobCache cache(source, 10, {});
-  const Digest a = *cache.Put("aaaa");
-  const Digest b = *cache.Put("bbbb");
+  const Digest a = *cache.Put(Text("aaaa"));
+  const Digest b = *cache.Put(Text("bbbb"));
   EXPECT_TRUE(cache.Get(a).ok());
-  EXPECT_TRUE(cache.Put("cccc").ok());  // b goes
+  EXPECT_TRUE(cache.Put(Text("cccc")).ok());  // b goes
   EXPECT_TRUE(cache.Get(a).ok());
   EXPECT_EQ(source.gets, 0);
-  EXPECT_EQ(*cache.Get(b), "bbbb");
+  EXPECT_EQ(cache.Get(b)->View(), "bbbb");
   EXPECT_EQ(source.gets, 1);
 }
 
 TEST(BlobCache, PassesOnWhatIsTooLargeToKeep) {
   CountingBlobs source;
   BlobCache cache(source, 3, {});
-  const Digest digest = *cache.Put("four");
-  EXPECT_EQ(*cache.Get(digest), "four");
-  EXPECT_EQ(*cache.Get(digest), "four");
+  const Digest digest = *cache.Put(Text("four"));
+  EXPECT_EQ(cache.Get(digest)->View(), "four");
+  EXPECT_EQ(cache.Get(digest)->View(), "four");
   EXPECT_EQ(source.gets, 2);
 }
 
@@ -78,7 +80,7 @@ TEST(BlobCache, WaitsForASourceThatIsAwayUntilToldToStop) {
   BlobCache cache(source, 100, stop.get_token());
   const Digest digest = *source.Put("text");
   source.failures = 1;
-  EXPECT_EQ(*cache.Get(digest), "text");
+  EXPECT_EQ(cache.Get(digest)->View(), "text");
   EXPECT_EQ(source.gets, 2);
   stop.request_stop();
   source.failures = 1;

@@ -28,8 +28,7 @@ absl::StatusOr<TaskResult> RunStage(const StageFunction& stage,
                                     const Clock& clock = ManualClock()) {
   const testing::StageMap stages = {{"stage", stage}};
   OneBlob blobs;
-  return RunTask(
-      testing::LookupIn(stages), {.stage = "stage"}, blobs, {}, clock, CpuClock::kThread);
+  return RunTask(testing::LookupIn(stages), {.stage = "stage"}, blobs, {}, clock);
 }
 
 TEST(RunTask, MeasuresWallTime) {
@@ -96,8 +95,8 @@ TEST(RunTask, PassesOnTheErrorOfTheStage) {
 TEST(RunTask, NamesAStageItDoesNotHave) {
   const testing::StageMap stages;
   OneBlob blobs;
-  const auto result = RunTask(
-      testing::LookupIn(stages), {.stage = "juggle"}, blobs, {}, ManualClock(), CpuClock::kProcess);
+  const auto result =
+      RunTask(testing::LookupIn(stages), {.stage = "juggle"}, blobs, {}, ManualClock());
   EXPECT_TRUE(absl::IsUnimplemented(result.status()));
   EXPECT_THAT(std::string(result.status().message()), ::testing::HasSubstr("juggle"));
 }

@@ -14,6 +14,7 @@
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
 #include "tests/support/command.h"
+#include "tests/support/in_process_executor.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
@@ -48,10 +49,13 @@ class RunningWorker {
   RunningWorker(CoordinatorApi& api,
                 testing::StageMap stages,
                 const std::string& name,
-                uint32_t slots = 1)
-      : stages_(std::move(stages)), options_{.name = name, .slots = slots, .poll_s = 0.1} {
+                uint32_t slots = 1,
+                double grace_s = 0.0)
+      : stages_(std::move(stages)),
+        options_{.name = name, .slots = slots, .grace_s = grace_s, .poll_s = 0.1} {
     thread_ = std::thread([this, &api] {
-      end_ = RunWorker(api, LookupIn(stages_), options_, clock_, stop_.get_token());
+      const StageLookup lookup = LookupIn(stages_);
+      end_ = RunWorker(api, testing::RunInProcess(lookup, clock_), options_, stop_.get_token());
     });
   }
   ~RunningWorker() { (void)Stop(); }
@@ -118,6 +122,56 @@ TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
   EXPECT_EQ(status->stages[1].retries, 0U);
   RunningWorker next(*coordinator, ToyStages(), "next");
   EXPECT_TRUE(WaitUntil(is_squaring, 20.0));
+}
+
+TEST_F(WorkerLoopTest, FinishesWhatRunsWithinTheGrace) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const Digest job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10", "toy.pause=true\n");
+  RunningWorker leaver(*coordinator, ToyStages(), "leaver", 1, 20.0);
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  EXPECT_TRUE(leaver.Stop().ok());
+  const StageStatus left = coordinator->GetJob(job)->stages[1];
+  EXPECT_GT(left.tasks_done, 0U) << "what ran";
+  EXPECT_LT(left.tasks_done, 10U) << "and no more";
+  EXPECT_EQ(left.retries, 0U);
+}
+
+TEST_F(WorkerLoopTest, GivesBackWhatOutlastsTheGrace) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
+  RunningWorker leaver(*coordinator, ToyStages(), "leaver", 1, 0.3);
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  EXPECT_TRUE(leaver.Stop().ok());
+  EXPECT_EQ(coordinator->GetJob(job)->stages[1].retries, 0U);
+}
+
+TEST_F(WorkerLoopTest, LeavesWhenItIsDrained) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const Digest job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10", "toy.pause=true\n");
+  RunningWorker leaver(*coordinator, ToyStages(), "leaver");
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  ASSERT_TRUE(coordinator->DrainWorker("leaver").ok());
+  EXPECT_TRUE(leaver.Join().ok());
+  const StageStatus left = coordinator->GetJob(job)->stages[1];
+  EXPECT_GT(left.tasks_done, 0U) << "what ran";
+  EXPECT_LT(left.tasks_done, 10U) << "and no more";
+  EXPECT_EQ(left.retries, 0U);
+}
+
+TEST_F(WorkerLoopTest, TheGraceAlsoEndsAWorkerThatIsDrained) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
+  RunningWorker leaver(*coordinator, ToyStages(), "leaver", 2, 0.1);
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  ASSERT_TRUE(coordinator->DrainWorker("leaver").ok());
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(coordinator->GetJob(job)->stages[1].tasks_running, 1U);
+  EXPECT_TRUE(leaver.Stop().ok());
+  EXPECT_EQ(coordinator->GetJob(job)->stages[1].tasks_running, 0U);
 }
 
 TEST_F(WorkerLoopTest, StopsATaskOfACancelledJobAndTakesTheNext) {

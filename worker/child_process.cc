@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/child_process.h"
+#include "worker/child_process.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -10,6 +10,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -19,12 +20,19 @@ namespace {
 
 class SpawnSettings {
  public:
-  explicit SpawnSettings(const std::string& log_path) {
+  explicit SpawnSettings(const ChildSettings& settings) {
     ::posix_spawn_file_actions_init(&actions_);
     ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_addopen(
-        &actions_, STDOUT_FILENO, log_path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    ::posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    if (!settings.log_path.empty()) {
+      ::posix_spawn_file_actions_addopen(
+          &actions_, STDERR_FILENO, settings.log_path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    }
+    ::posix_spawn_file_actions_adddup2(&actions_, STDERR_FILENO, STDOUT_FILENO);
+    const bool has_channel = settings.channel >= 0;
+    if (has_channel)
+      ::posix_spawn_file_actions_adddup2(&actions_, settings.channel, kChannelDescriptor);
+    ::posix_spawn_file_actions_addclosefrom_np(
+        &actions_, has_channel ? kChannelDescriptor + 1 : kChannelDescriptor);
     sigset_t none;
     sigset_t stopping;
     ::sigemptyset(&none);
@@ -53,13 +61,16 @@ class SpawnSettings {
   posix_spawnattr_t attributes_{};
 };
 
+std::string DescribeEnd(int status) {
+  if (!WIFSIGNALED(status)) return absl::StrCat("exit code ", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  const char* name = ::sigdescr_np(signal);
+  return absl::StrCat("signal ", signal, " (", name != nullptr ? name : "unknown", ")");
+}
+
 }  // namespace
 
-ChildProcess::~ChildProcess() {
-  if (pid_ <= 0) return;
-  ::kill(pid_, SIGKILL);
-  ::waitpid(pid_, nullptr, 0);
-}
+ChildProcess::~ChildProcess() { Kill(); }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, -1)) {}
 
@@ -69,12 +80,12 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
 }
 
 absl::StatusOr<ChildProcess> ChildProcess::SpawnSelf(const std::vector<std::string>& arguments,
-                                                     const std::string& log_path) {
+                                                     const ChildSettings& child_settings) {
   std::vector<std::string> texts = arguments;
   std::vector<char*> argv;
   for (std::string& text : texts) argv.push_back(text.data());
   argv.push_back(nullptr);
-  const SpawnSettings settings(log_path);
+  const SpawnSettings settings(child_settings);
   ChildProcess child;
   const int error = ::posix_spawn(&child.pid_,
                                   "/proc/self/exe",
@@ -92,12 +103,28 @@ void ChildProcess::Signal(int signal) const {
   if (pid_ > 0) ::kill(pid_, signal);
 }
 
+double ChildProcess::CpuSeconds() const {
+  clockid_t clock{};
+  timespec time{};
+  if (pid_ <= 0 || ::clock_getcpuclockid(pid_, &clock) != 0) return 0.0;
+  ::clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 std::optional<std::string> ChildProcess::PollEnd() {
   int status = 0;
   if (pid_ <= 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
   pid_ = -1;
-  if (WIFSIGNALED(status)) return absl::StrCat("signal ", WTERMSIG(status));
-  return absl::StrCat("exit code ", WEXITSTATUS(status));
+  return DescribeEnd(status);
+}
+
+std::string ChildProcess::Kill() {
+  if (pid_ <= 0) return "nothing";
+  int status = 0;
+  ::kill(pid_, SIGKILL);
+  ::waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return DescribeEnd(status);
 }
 
 }  // namespace orbweave

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/stage_run.h"
+
+#include <algorithm>
+
+namespace orbweave {
+
+void StageRun::UpdateStragglerTime(const RetryPolicy& policy) {
+  straggler_after_s.reset();
+  const size_t computed = tasks.size() - reused;
+  if (!ready.empty() || durations_s.empty() || 2 * durations_s.size() < computed) return;
+  const auto middle = durations_s.begin() + static_cast<ptrdiff_t>(durations_s.size() / 2);
+  std::nth_element(durations_s.begin(), middle, durations_s.end());
+  straggler_after_s = policy.StragglerAfter(*middle);
+}
+
+std::optional<uint32_t> StageRun::FindStraggler(const std::string& worker,
+                                                uint32_t slots,
+                                                const RetryPolicy& policy,
+                                                double now_s) const {
+  if (!straggler_after_s) return std::nullopt;
+  std::optional<uint32_t> found;
+  uint32_t duplicates = 0;
+  for (const uint32_t part : running) {
+    const std::vector<RunningAttempt>& attempts = tasks[part].attempts;
+    if (attempts.size() > 1) ++duplicates;
+    const bool is_late = now_s - attempts.front().leased_s > *straggler_after_s;
+    const bool is_elsewhere = attempts.front().holder.worker != worker;
+    if (!found && attempts.size() == 1 && is_late && is_elsewhere) found = part;
+  }
+  return duplicates < policy.MaxDuplicates(slots) ? found : std::nullopt;
+}
+
+void StageRun::AddTo(StageStatus& status) const {
+  status.tasks_total += static_cast<uint32_t>(tasks.size());
+  status.tasks_done += done;
+  status.tasks_reused += reused;
+  status.tasks_running += static_cast<uint32_t>(running.size());
+  status.retries += retries;
+  if (first_lease_s) status.wall_s += std::max(0.0, last_result_s - *first_lease_s);
+  status.cpu_s += cpu_s;
+  for (const uint32_t part : running) status.fraction_running += tasks[part].Fraction();
+}
+
+}  // namespace orbweave

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "worker/message_channel.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+
+#include <thread>
+
+namespace orbweave {
+namespace {
+
+struct Connection {
+  MessageChannel left;
+  MessageChannel right;
+};
+
+Connection Connect(double timeout_s = 0.0) {
+  auto ends = MessageChannel::MakePair();
+  return {MessageChannel(std::move(ends->first)),
+          MessageChannel(std::move(ends->second), timeout_s)};
+}
+
+TEST(MessageChannel, CarriesFramesOfAllSizesInOrder) {
+  Connection connection = Connect();
+  const size_t least = SharedBytes::kLeastFileBytes;
+  const std::vector<size_t> sizes = {0, 1, 1000, least - 1, least, size_t{5} << 20};
+  const std::jthread sender([&] {
+    for (const size_t message : sizes) {
+      for (const size_t bulk : sizes) {
+        const SharedBytes bytes = SharedBytes::CopyOf(std::string(bulk, 'b'));
+        EXPECT_TRUE(connection.left.Send(std::string(message, 'm'), bytes).ok());
+      }
+    }
+  });
+  for (const size_t message : sizes) {
+    for (const size_t bulk : sizes) {
+      const auto frame = connection.right.Receive();
+      ASSERT_TRUE(frame.ok()) << frame.status();
+      EXPECT_EQ(frame->message, std::string(message, 'm'));
+      EXPECT_EQ(frame->bulk.View(), std::string(bulk, 'b'));
+      EXPECT_EQ(frame->bulk.descriptor() >= 0, bulk >= least);
+    }
+  }
+}
+
+TEST(MessageChannel, SaysWhenTheOtherEndIsClosed) {
+  Connection connection = Connect();
+  { const MessageChannel closed = std::move(connection.left); }
+  EXPECT_TRUE(absl::IsUnavailable(connection.right.Receive().status()));
+  EXPECT_TRUE(absl::IsUnavailable(connection.right.Send("text")));
+}
+
+TEST(MessageChannel, DoesNotWaitForEverForTheRestOfAFrame) {
+  Connection connection = Connect(0.1);
+  ASSERT_EQ(::send(connection.left.descriptor(), "begin", 5, 0), 5);
+  EXPECT_TRUE(absl::IsDeadlineExceeded(connection.right.Receive().status()));
+}
+
+TEST(MessageChannel, RefusesWhatIsNoFrame) {
+  Connection connection = Connect();
+  const std::string noise(100, '\xff');
+  ASSERT_EQ(::send(connection.left.descriptor(), noise.data(), noise.size(), 0), 100);
+  EXPECT_TRUE(absl::IsDataLoss(connection.right.Receive().status()));
+}
+
+TEST(SharedBytes, RefusesAFileThatMayStillChange) {
+  FileDescriptor file(::memfd_create("open", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  ASSERT_EQ(::ftruncate(file.get(), 4096), 0);
+  EXPECT_TRUE(absl::IsInvalidArgument(SharedBytes::FromFile(std::move(file)).status()));
+}
+
+TEST(SharedBytes, NobodyCanChangeThem) {
+  const SharedBytes bytes = SharedBytes::CopyOf(std::string(SharedBytes::kLeastFileBytes, 'a'));
+  ASSERT_GE(bytes.descriptor(), 0);
+  EXPECT_LT(::pwrite(bytes.descriptor(), "b", 1, 0), 0);
+  EXPECT_NE(::ftruncate(bytes.descriptor(), 0), 0);
+  EXPECT_EQ(bytes.View().front(), 'a');
+}
+
+}  // namespace
+}  // namespace orbweave
