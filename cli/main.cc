@@ -16,6 +16,7 @@
 #include "cli/keys_command.h"
 #include "cli/options_command.h"
 #include "cli/reconstruct_command.h"
+#include "cli/raise_file_limit.h"
 #include "cli/run_command.h"
 #include "cli/serve_command.h"
 #include "cli/single_threaded_libraries.h"
@@ -29,6 +30,7 @@
 int main(int argc, char** argv) {
   ::setenv("GRPC_VERBOSITY", "NONE", 0);  // what goes wrong is said in our own words
   orbweave::RunLibrariesOnOneThread(argv);
+  orbweave::RaiseFileLimit();
   CLI::App app("Orbweave: structure from motion for 360-degree panoramas, on one machine or many");
   app.name("orbweave");
   app.set_version_flag("--version",

@@ -116,6 +116,19 @@ struct ReportUncertainty {
   std::vector<uint32_t> worst{};  ///< of JobReport.images, least certain first
 };
 
+/// One minimisation of the global adjustment: costs are half the sum of losses.
+struct ReportPhase {
+  int steps = 0;
+  bool converged = false;
+  std::vector<double> accepted_costs{};  ///< the initial one first
+};
+
+/// The global adjustment of one model.
+struct ReportAdjustment {
+  std::vector<ReportPhase> phases{};       ///< with the robust loss, then one of least squares
+  std::vector<uint64_t> bytes_of_block{};  ///< what each block sends for a step, at most
+};
+
 struct ReportWorker {
   std::string name{};
   uint32_t slots = 1;
@@ -149,6 +162,7 @@ struct JobReport {
   std::vector<ReportSeam> seams{};
   ReportGnss gnss{};
   ReportUncertainty uncertainty{};
+  std::vector<ReportAdjustment> adjustments{};  ///< per model
   std::optional<GeodeticPosition>
       origin{};                       ///< of the east-north-up frame; absent: the frame is free
   std::vector<ReportStage> stages{};  ///< in order

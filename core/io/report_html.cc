@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/io/html_page.h"
 #include "core/io/html_text.h"
+#include "core/io/report_adjustment.h"
 #include "core/io/report_charts.h"
 #include "core/io/report_map.h"
 #include "core/io/report_seams.h"
@@ -228,6 +229,16 @@ std::string Uncertainty(const JobReport& report) {
                  UncertaintyHtml(report));
 }
 
+std::string Adjustment(const JobReport& report) {
+  const std::string table = AdjustmentHtml(report);
+  if (table.empty()) return "";
+  return Section("Global adjustment",
+                 "All poses and points of the first model at once; after each round observations "
+                 "that do not fit are removed. Cost: half the sum of squared residuals in sigmas, "
+                 "robust but in the last round.",
+                 table);
+}
+
 std::string LeftOut(const JobReport& report) {
   if (report.not_registered.empty()) return "";
   std::string rows;
@@ -301,6 +312,7 @@ std::string ReportHtml(const JobReport& report) {
           Times(report),
           Clusters(report),
           Seams(report),
+          Adjustment(report),
           Gnss(report),
           Uncertainty(report),
           LeftOut(report),

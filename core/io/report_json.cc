@@ -103,6 +103,20 @@ Json Stages(const JobReport& report) {
   return list;
 }
 
+Json Adjustments(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportAdjustment& adjustment : report.adjustments) {
+    Json phases = Json::array();
+    for (const ReportPhase& phase : adjustment.phases) {
+      phases.push_back({{"steps", phase.steps},
+                        {"converged", phase.converged},
+                        {"accepted_costs", phase.accepted_costs}});
+    }
+    list.push_back({{"rounds", std::move(phases)}, {"bytes_of_block", adjustment.bytes_of_block}});
+  }
+  return list;
+}
+
 Json Workers(const JobReport& report) {
   Json list = Json::array();
   for (const ReportWorker& worker : report.workers) {
@@ -134,6 +148,7 @@ std::string ReportJson(const JobReport& report) {
   json["seams"] = Seams(report);
   json["gnss"] = Gnss(report.gnss);
   json["uncertainty"] = Uncertainty(report);
+  json["global_adjustment"] = Adjustments(report);
   json["stages"] = Stages(report);
   json["workers"] = Workers(report);
   json["elapsed_s"] = report.elapsed_s;

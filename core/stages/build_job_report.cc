@@ -173,6 +173,17 @@ std::vector<ReportSeam> SeamRows(const JobResults& results) {
   return rows;
 }
 
+ReportAdjustment AdjustmentRow(const GlobalAdjustReport& report) {
+  ReportAdjustment row{.bytes_of_block = report.bytes_of_block};
+  for (size_t i = 0; i < report.adjustments.size(); ++i) {
+    ReportPhase& phase = row.phases.emplace_back();
+    phase.steps = report.adjustments[i].iterations;
+    phase.converged = report.adjustments[i].converged;
+    if (i < report.accepted_costs.size()) phase.accepted_costs = report.accepted_costs[i];
+  }
+  return row;
+}
+
 ReportGnss GnssRow(const GnssReport& gnss) {
   return {.used = gnss.used,
           .reason = gnss.reason,
@@ -207,6 +218,7 @@ JobReport BuildJobReport(const JobResults& results) {
   for (uint32_t model = 0; model < report.models; ++model) {
     AddMeasures(results.models[model].measures, report);
     FillModel(results, model, report);
+    report.adjustments.push_back(AdjustmentRow(results.models[model].report));
   }
   if (report.points > 0) {
     report.mean_track_length =

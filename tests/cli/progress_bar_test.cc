@@ -42,6 +42,30 @@ TEST(ViewProgress, PassesAStageWithoutTasks) {
   EXPECT_EQ(ViewProgress(status).stage, "second");
 }
 
+/// In the third of some 26 rounds of a global adjustment in four blocks.
+JobStatus ThirdRound() {
+  return {.elapsed_s = 30.0,
+          .stages = {{.stage = "reconstruct_cluster", .tasks_total = 4, .tasks_done = 4},
+                     {.stage = "steer_adjustment", .tasks_total = 3, .tasks_done = 3},
+                     {.stage = "adjust_block", .tasks_total = 12, .tasks_done = 9},
+                     {.stage = "conclude_adjustment"}}};
+}
+
+TEST(ViewProgress, DoesNotTakeARoundOfTheAdjustmentForItsEnd) {
+  JobStatus status = ThirdRound();
+  const double third = ViewProgress(status).fraction;
+  EXPECT_EQ(ViewProgress(status).stage, "adjust_block");
+  EXPECT_LT(third, 0.8);
+  status.stages[2].tasks_done = 12;
+  status.stages[1].tasks_total = 4;
+  EXPECT_EQ(ViewProgress(status).stage, "steer_adjustment");
+  EXPECT_GT(ViewProgress(status).fraction, third);
+  status.stages[1].tasks_done = 4;
+  status.stages[3].tasks_total = 1;
+  EXPECT_EQ(ViewProgress(status).stage, "conclude_adjustment");
+  EXPECT_GT(ViewProgress(status).fraction, 0.9);
+}
+
 TEST(ViewProgress, KnowsNoEtaAtTheBeginningAndNoStageAtTheEnd) {
   JobStatus status{.stages = {{.stage = "first"}}};
   EXPECT_EQ(ViewProgress(status).stage, "first");

@@ -75,6 +75,8 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                    {"reconstruct_cluster", 33.4, 61.8, num_clusters - 1, 1, 0},
                    {"merge", 2.1, 2.0, 1, 0, 0},
                    {"adjust_globally", 11.9, 11.7, 1, 0, 0}};
+  report.adjustments = {{.phases = {{7, true, {180250.5, 91400.25, 91399.5}}, {4, false, {}}},
+                         .bytes_of_block = {51200, 64000}}};
   report.workers = {{"worker-1", 1, 61}, {"worker-2", 1, 58}};
   report.elapsed_s = 231.4;
   report.warnings = {

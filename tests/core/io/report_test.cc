@@ -47,6 +47,8 @@ bool IsBalanced(const std::string& html) {
 TEST(ReportJson, HasEveryKeyAndIsDeterministic) {
   const JobReport report = MadeUpReport(40, 3);
   const auto json = nlohmann::json::parse(ReportJson(report));
+  EXPECT_EQ(json["global_adjustment"][0]["rounds"][0]["accepted_costs"][1], 91400.25);
+  EXPECT_EQ(json["global_adjustment"][0]["bytes_of_block"][1], 64000);
   for (const char* key : {"images_total",
                           "registered",
                           "not_registered",
@@ -171,6 +173,13 @@ TEST(NumberTexts, ReadWell) {
   EXPECT_EQ(DurationText(4.26), "4.3 s");
   EXPECT_EQ(DurationText(185.0), "3 min 05 s");
   EXPECT_EQ(DurationText(7620.0), "2 h 07 min");
+}
+
+TEST(ReportHtml, TellsTheStepsOfTheGlobalAdjustment) {
+  const std::string html = ReportHtml(MadeUpReport(40, 3));
+  EXPECT_THAT(html, HasSubstr("<td>1</td><td>7</td><td>180250.5</td><td>91399.5</td>"));
+  EXPECT_THAT(html, HasSubstr("stopped before it converged"));
+  EXPECT_THAT(html, HasSubstr("2 blocks; for a step a block sends 64 kB at most"));
 }
 
 }  // namespace
