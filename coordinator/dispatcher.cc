@@ -70,16 +70,16 @@ void Dispatcher::WorkerDied(std::string_view name, double now_s) {
   roster_.End(*session);
 }
 
-std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const std::string& worker, double now_s) {
+std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at, double now_s) {
   const std::vector<std::string> serving = roster_.Serving(now_s);
-  if (!std::ranges::binary_search(serving, worker)) return std::nullopt;
+  if (!std::ranges::binary_search(serving, at.worker)) return std::nullopt;
   for (const auto& [number, id] : jobs_.order()) {
-    const auto ref = jobs_.At(id).machine->NextReady(worker, serving, now_s);
+    const auto ref = jobs_.At(id).machine->NextReady(at, serving, now_s);
     if (ref) return JobTask{id, *ref};
   }
   const uint32_t slots = roster_.Slots(now_s);
   for (const auto& [number, id] : jobs_.order()) {
-    const auto ref = jobs_.At(id).machine->NextStraggler(worker, slots, now_s);
+    const auto ref = jobs_.At(id).machine->NextStraggler(at.worker, slots, now_s);
     if (ref) return JobTask{id, *ref};
   }
   return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const std::string& worke
 
 std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, double now_s) {
   const std::string worker = roster_.NameOf(session);
-  const std::optional<JobTask> next = NextTask(worker, now_s);
+  const std::optional<JobTask> next = NextTask({worker, slot}, now_s);
   if (!next) return std::nullopt;
   const auto& [job, ref] = *next;
   JobMachine& machine = *jobs_.At(job).machine;

@@ -86,8 +86,8 @@ class Dispatcher {
     Digest job{};
     TaskRef task{};
   };
-  /// What `worker` is to do now: what is ready in the oldest job, or else a straggler.
-  [[nodiscard]] std::optional<JobTask> NextTask(const std::string& worker, double now_s);
+  /// What a worker is to do now in this slot: what is ready in the oldest job, or else a straggler.
+  [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at, double now_s);
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
   void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
   void VoidLeases(const Digest& job, const std::string& reason);

@@ -33,14 +33,13 @@ uint32_t JobMachine::NextStage() const {
   return StageAfter(plan_, last, results_[last]);
 }
 
-const std::string& JobMachine::HolderBefore(const StageRun& run, uint32_t part) const {
-  static const std::string* const kNobody = new std::string;
-  if (!run.before) return *kNobody;
-  const std::vector<TaskRecord>& tasks = runs_[*run.before].tasks;
-  return part < tasks.size() ? tasks[part].done_by.worker : *kNobody;
+WorkerSlot JobMachine::PlaceBefore(const StageRun& run, uint32_t part) const {
+  if (!run.before || part >= runs_[*run.before].tasks.size()) return {};
+  const TaskHolder& holder = runs_[*run.before].tasks[part].done_by;
+  return {holder.worker, holder.slot};
 }
 
-std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
+std::optional<TaskRef> JobMachine::NextReady(const WorkerSlot& at,
                                              const std::vector<std::string>& alive,
                                              double now_s) const {
   if (state_ != JobState::kRunning || runs_.empty()) return std::nullopt;
@@ -49,10 +48,10 @@ std::optional<TaskRef> JobMachine::NextReady(const std::string& worker,
   std::optional<uint32_t> nobodys;
   std::optional<uint32_t> somebodys;
   for (const uint32_t part : run.ready) {
-    if (!run.tasks[part].MayTake(worker, alive, now_s)) continue;
-    const std::string& before = HolderBefore(run, part);
-    if (!run.before || before == worker) return TaskRef{number, part};
-    const bool is_free = std::ranges::find(alive, before) == alive.end();
+    if (!run.tasks[part].MayTake(at.worker, alive, now_s)) continue;
+    const WorkerSlot before = PlaceBefore(run, part);
+    if (!run.before || before == at) return TaskRef{number, part};
+    const bool is_free = std::ranges::find(alive, before.worker) == alive.end();
     if (!is_free) somebodys = part;
     if (is_free && !nobodys) nobodys = part;
   }

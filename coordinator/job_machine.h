@@ -57,11 +57,11 @@ class JobMachine {
 
   /// The stage whose tasks are to be written down now: all that come before it are done.
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
-  /// The task that `worker` had better do now: of a loop's stage the first part that it had the
-  /// last time, which it may still know, else one that nobody in `alive` had, else the last part of
-  /// somebody else; of other stages the first part. A task that failed here waits for another
-  /// worker while one that has not failed it is in `alive`.
-  [[nodiscard]] std::optional<TaskRef> NextReady(const std::string& worker,
+  /// The task that a worker had better do now in this slot: of a loop's stage the first part that
+  /// the slot had the last time, whose process may still know it, else one that nobody in `alive`
+  /// had, else the last part of somebody else; of other stages the first part. A task that failed
+  /// here waits for another worker while one that has not failed it is in `alive`.
+  [[nodiscard]] std::optional<TaskRef> NextReady(const WorkerSlot& at,
                                                  const std::vector<std::string>& alive,
                                                  double now_s) const;
   /// Where a task is, while it is ready.
@@ -102,8 +102,8 @@ class JobMachine {
   [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
   /// The stage that comes after the last run; the number of stages: none.
   [[nodiscard]] uint32_t NextStage() const;
-  /// Who did this part when the stage last ran; empty: nobody.
-  [[nodiscard]] const std::string& HolderBefore(const StageRun& run, uint32_t part) const;
+  /// Where this part was done when the stage last ran; no name: nowhere.
+  [[nodiscard]] WorkerSlot PlaceBefore(const StageRun& run, uint32_t part) const;
   /// Strikes out an attempt and notes its time; how long it took.
   double AttemptEnds(AttemptRef ref, bool ok, double now_s);
   void CountFailure(TaskRecord& task,

@@ -11,6 +11,13 @@
 
 namespace orbweave {
 
+/// Where a task is worked on: each slot of a worker has a process of its own.
+struct WorkerSlot {
+  std::string worker{};
+  uint32_t slot = 0;
+  friend bool operator==(const WorkerSlot&, const WorkerSlot&) = default;
+};
+
 /// Who works on a task, for the record.
 struct TaskHolder {
   uint64_t epoch = 0;

@@ -43,7 +43,7 @@ AttemptRef LeaseNext(JobMachine& machine,
                      const std::string& worker,
                      double now_s,
                      uint64_t epoch = 1) {
-  const std::optional<TaskRef> ref = machine.NextReady(worker, {worker}, now_s);
+  const std::optional<TaskRef> ref = machine.NextReady({worker}, {worker}, now_s);
   ORBWEAVE_CHECK(ref.has_value());
   machine.TaskLeased(*ref, {.epoch = epoch, .worker = worker}, now_s);
   return {*ref, epoch};
@@ -57,7 +57,7 @@ TEST(JobMachine, StartsAStageWhenTheOneBeforeIsDone) {
   const AttemptRef first = LeaseNext(machine, "w", 101.0);
   const AttemptRef second = LeaseNext(machine, "w", 101.0);
   EXPECT_EQ(second.task, (TaskRef{0, 1}));
-  EXPECT_EQ(machine.NextReady("w", {"w"}, 101.0), std::nullopt);
+  EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 101.0), std::nullopt);
   machine.TaskDone(second, {}, 102.0);
   EXPECT_EQ(machine.StageToPlan(), std::nullopt);
   machine.TaskDone(first, {}, 103.0);
@@ -151,7 +151,7 @@ JobMachine SecondRound() {
 TEST(JobMachine, GivesTheNextRoundOfAPartToWhomHadTheLast) {
   JobMachine machine = SecondRound();
   const auto next = [&machine](const std::string& worker, const std::vector<std::string>& alive) {
-    const TaskRef ref = *machine.NextReady(worker, alive, 102.0);
+    const TaskRef ref = *machine.NextReady({worker}, alive, 102.0);
     machine.TaskLeased(ref, {.epoch = 9, .worker = worker}, 102.0);
     return ref.part;
   };
@@ -163,16 +163,22 @@ TEST(JobMachine, GivesTheNextRoundOfAPartToWhomHadTheLast) {
 
 TEST(JobMachine, GivesPartsOfWorkersThatAreGoneBeforeThoseOfOthers) {
   const JobMachine machine = SecondRound();
-  EXPECT_EQ(machine.NextReady("w3", {"w1", "w3"}, 102.0)->part, 2U);
-  EXPECT_EQ(machine.NextReady("w3", {"w1", "w2", "w3"}, 102.0)->part, 3U);
-  EXPECT_EQ(machine.NextReady("w3", {"w3"}, 102.0)->part, 0U);
+  EXPECT_EQ(machine.NextReady({"w3"}, {"w1", "w3"}, 102.0)->part, 2U);
+  EXPECT_EQ(machine.NextReady({"w3"}, {"w1", "w2", "w3"}, 102.0)->part, 3U);
+  EXPECT_EQ(machine.NextReady({"w3"}, {"w3"}, 102.0)->part, 0U);
+}
+
+TEST(JobMachine, TellsTheSlotsOfAWorkerApart) {
+  const JobMachine machine = SecondRound();
+  EXPECT_EQ(machine.NextReady({"w2", 0}, {"w1", "w2"}, 102.0)->part, 2U);
+  EXPECT_EQ(machine.NextReady({"w2", 1}, {"w2"}, 102.0)->part, 0U) << "whose worker is gone";
 }
 
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {
   JobMachine machine = MachineFor({"a"});
   const TaskResult found{.cost = {.cpu_s = 7.0}};
   machine.StageBegins(Tasks("a", 3), {TaskResult{}, std::nullopt, found}, 100.0);
-  EXPECT_EQ(machine.NextReady("w", {"w"}, 100.0), (TaskRef{0, 1}));
+  EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 100.0), (TaskRef{0, 1}));
   const StageStatus stage = machine.Status(100.0).stages[0];
   EXPECT_EQ(stage.tasks_total, 3U);
   EXPECT_EQ(stage.tasks_done, 2U);
@@ -186,8 +192,8 @@ TEST(JobMachine, RetriesATransientFailureAfterAWait) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);
   machine.TaskFailed(LeaseNext(machine, "w", 100.0), absl::UnavailableError("gone"), 100.0);
-  EXPECT_EQ(machine.NextReady("w", {"w"}, 100.4), std::nullopt);
-  EXPECT_EQ(machine.NextReady("w", {"w"}, 101.0), (TaskRef{0, 0}));
+  EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 100.4), std::nullopt);
+  EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 101.0), (TaskRef{0, 0}));
   EXPECT_EQ(machine.Status(101.0).stages[0].retries, 1U);
 }
 
@@ -195,9 +201,9 @@ TEST(JobMachine, PrefersAWorkerThatHasNotFailedTheTask) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);
   machine.TaskFailed(LeaseNext(machine, "w1", 100.0), absl::InternalError("crash"), 100.0);
-  EXPECT_EQ(machine.NextReady("w1", {"w1", "w2"}, 200.0), std::nullopt);
-  EXPECT_EQ(machine.NextReady("w2", {"w1", "w2"}, 200.0), (TaskRef{0, 0}));
-  EXPECT_EQ(machine.NextReady("w1", {"w1"}, 200.0), (TaskRef{0, 0}));
+  EXPECT_EQ(machine.NextReady({"w1"}, {"w1", "w2"}, 200.0), std::nullopt);
+  EXPECT_EQ(machine.NextReady({"w2"}, {"w1", "w2"}, 200.0), (TaskRef{0, 0}));
+  EXPECT_EQ(machine.NextReady({"w1"}, {"w1"}, 200.0), (TaskRef{0, 0}));
 }
 
 TEST(JobMachine, FailsAfterTheLastAttemptAndSaysWhatAndWhy) {
@@ -213,7 +219,7 @@ TEST(JobMachine, FailsAfterTheLastAttemptAndSaysWhatAndWhy) {
   EXPECT_THAT(machine.error(), HasSubstr("stage a, part 0"));
   EXPECT_THAT(machine.error(), HasSubstr("failed 3 times"));
   EXPECT_THAT(machine.error(), HasSubstr("segfault"));
-  EXPECT_EQ(machine.NextReady("w", {"w"}, 9000.0), std::nullopt);
+  EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 9000.0), std::nullopt);
 }
 
 TEST(JobMachine, CountsFailuresByTheirClass) {
@@ -295,7 +301,7 @@ TEST(JobMachine, AFailedRepetitionLeavesTheOtherAttemptAlone) {
   const AttemptRef slow{{0, 2}, 1002};
   machine.TaskLeased(slow.task, {.epoch = 7, .worker = "w"}, 200.0);
   machine.TaskFailed({slow.task, 7}, absl::InternalError("no luck"), 201.0);
-  EXPECT_EQ(machine.NextReady("w2", {"w2"}, 300.0), std::nullopt);
+  EXPECT_EQ(machine.NextReady({"w2"}, {"w2"}, 300.0), std::nullopt);
   EXPECT_EQ(machine.Status(201.0).stages[0].tasks_running, 1U);
   machine.TaskDone(slow, {}, 210.0);
   EXPECT_EQ(machine.state(), JobState::kDone);
