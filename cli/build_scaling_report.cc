@@ -129,6 +129,24 @@ ScalingPrediction Predict(const std::vector<StageRun>& runs,
   return prediction;
 }
 
+/// As many times the measured job as there are workers.
+std::vector<ScalingWeakPoint> WeakScaling(const std::vector<StageRun>& runs,
+                                          const std::map<std::string, StageGrowth>& growth,
+                                          uint32_t panoramas,
+                                          const FleetModel& model) {
+  const double alone_s = SimulateSchedule(runs, 1, model).makespan_s;
+  std::vector<ScalingWeakPoint> points;
+  for (const uint32_t workers : {1U, 2U, 5U, 10U, 20U, 50U, 100U}) {
+    const double wall_s =
+        SimulateSchedule(GrowJob(runs, workers, growth), workers, model).makespan_s;
+    points.push_back({.workers = workers,
+                      .panoramas = uint64_t{workers} * panoramas,
+                      .wall_s = wall_s,
+                      .efficiency = wall_s > 0.0 ? alone_s / wall_s : 1.0});
+  }
+  return points;
+}
+
 /// Of each run of a stage: loops run as often as they did. Linear growth at least: what a stage
 /// does once hides in small jobs behind what it always does.
 std::map<std::string, StageGrowth> CarefulGrowth(const std::vector<JobMeasurement>& jobs,
@@ -204,6 +222,7 @@ ScalingReport BuildScalingReport(const std::vector<JobMeasurement>& jobs,
   report.predictions.back().panoramas = base.panoramas;
   const std::map<std::string, StageGrowth> growth = CarefulGrowth(jobs, base);
   if (growth.empty()) return report;
+  report.weak = WeakScaling(runs, growth, base.panoramas, model);
   for (const uint32_t panoramas : question.predict) {
     const double factor = static_cast<double>(panoramas) / std::max(1U, base.panoramas);
     report.predictions.push_back(

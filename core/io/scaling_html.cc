@@ -66,6 +66,37 @@ std::string WorkersCharts(const ScalingReport& report) {
          "</div>";
 }
 
+std::string WeakScaling(const ScalingReport& report) {
+  if (report.weak.empty()) return "";
+  ChartLine line{
+      .name = absl::StrCat(CountText(report.panoramas), " panoramas per worker, simulated"),
+      .color = ClusterColor(0)};
+  std::string rows;
+  for (const ScalingWeakPoint& point : report.weak) {
+    line.points.push_back({static_cast<double>(point.workers), point.efficiency});
+    absl::StrAppend(&rows,
+                    "<tr><td>",
+                    CountText(point.workers),
+                    "</td><td>",
+                    CountText(point.panoramas),
+                    "</td><td>",
+                    DurationText(point.wall_s),
+                    "</td><td>",
+                    DecimalText(100.0 * point.efficiency, 0),
+                    " %</td></tr>");
+  }
+  const std::vector<ChartLine> lines = {line};
+  return Section(
+      "Weak scaling",
+      "A street that grows with the number of workers. Efficiency: time of one worker on "
+      "the measured job, over the time of all on theirs.",
+      LineChartSvg(lines, {.x = "workers", .y = "efficiency", .log_y = false}) +
+          LineKeyHtml(lines) +
+          "<table><thead><tr><th>workers</th><th>panoramas</th><th>time</th>"
+          "<th>efficiency</th></tr></thead><tbody>" +
+          rows + "</tbody></table>");
+}
+
 /// One bar, divided by stage.
 std::string ShareRow(const std::string& name,
                      const std::vector<double>& stage_s,
@@ -173,6 +204,7 @@ std::string ScalingHtml(const ScalingReport& report) {
                                "</p></header>\n",
                                Cards(report),
                                WorkersCharts(report),
+                               WeakScaling(report),
                                Shares(report),
                                ScalingStagesHtml(report),
                                ScalingRunsHtml(report),

@@ -39,6 +39,14 @@ Json JsonOf(const ScalingPoint& point) {
           {"stage_s", point.stage_s}};
 }
 
+Json JsonOf(const ScalingWeakPoint& point) {
+  return {{"simulated", true},
+          {"workers", point.workers},
+          {"panoramas", point.panoramas},
+          {"wall_s", point.wall_s},
+          {"efficiency", point.efficiency}};
+}
+
 Json JsonOf(const ScalingPrediction& prediction);
 
 template <typename Values>
@@ -77,6 +85,7 @@ std::string ScalingJson(const ScalingReport& report) {
                    {"runs", ListOf(report.runs)},
                    {"stages", ListOf(report.stages)},
                    {"predictions", ListOf(report.predictions)},
+                   {"weak_scaling", ListOf(report.weak)},
                    {"assumptions", JsonOf(report.assumptions)}});
 }
 

@@ -53,6 +53,14 @@ struct ScalingPrediction {
   std::vector<ScalingPoint> points{};      ///< by workers
 };
 
+/// A job that grows with the number of workers: simulated.
+struct ScalingWeakPoint {
+  uint32_t workers = 1;
+  uint64_t panoramas = 0;
+  double wall_s = 0.0;
+  double efficiency = 1.0;  ///< time of one worker on the measured job over this time
+};
+
 /// What the simulation takes for granted.
 struct ScalingAssumptions {
   double worker_gbit_per_s = 0.0;
@@ -72,6 +80,7 @@ struct ScalingReport {
   std::vector<ScalingRun> runs{};
   std::vector<ScalingStage> stages{};
   std::vector<ScalingPrediction> predictions{};  ///< the measured job, then those extrapolated
+  std::vector<ScalingWeakPoint> weak{};          ///< by workers; empty where growth is not known
   ScalingAssumptions assumptions{};
 };
 

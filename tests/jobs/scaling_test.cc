@@ -59,6 +59,12 @@ TEST(BenchScaling, RunsCorridorsAndPredictsMoreWorkers) {
   EXPECT_GT((*adjust)["peak_memory_bytes"], 1 << 20);
   EXPECT_TRUE((*adjust)["growth_exponent"].is_number());
   EXPECT_EQ((*StageNamed(report, "partition_view_graph"))["serial_share"], 1.0);
+  ASSERT_EQ(report["weak_scaling"].size(), 7U);
+  EXPECT_NEAR(report["weak_scaling"][0]["efficiency"], 1.0, 1e-9);
+  for (const nlohmann::json& point : report["weak_scaling"]) {
+    EXPECT_TRUE(point["simulated"]);
+    EXPECT_LE(point["efficiency"], 1.0 + 1e-9);
+  }
 }
 
 TEST(BenchScaling, PredictionsKeepTheLawsOfSchedules) {
@@ -71,6 +77,7 @@ TEST(BenchScaling, PredictionsKeepTheLawsOfSchedules) {
   EXPECT_EQ(report["panoramas"], 60);
   EXPECT_TRUE(report["runs"].empty()) << "nothing was run now";
   EXPECT_FALSE(report["assumptions"]["overhead_measured"]);
+  EXPECT_TRUE(report["weak_scaling"].empty()) << "one job does not tell how stages grow";
   ASSERT_EQ(report["predictions"].size(), 1U);
   const nlohmann::json& prediction = report["predictions"][0];
   EXPECT_TRUE(prediction["simulated"]);
