@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "cli/event_log.h"
 #include "coordinator/listen_address.h"
 
 namespace orbweave {
@@ -31,11 +32,6 @@ absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOp
   std::unique_ptr<LocalFleet> fleet(new LocalFleet(options));
   ORBWEAVE_RETURN_IF_ERROR(fleet->OpenCoordinator());
   const std::string logs = options.coordinator.state_dir + "/logs";
-  std::error_code error;
-  fs::create_directories(logs, error);
-  if (error)
-    return absl::PermissionDeniedError(
-        absl::StrCat("cannot create folder ", logs, ": ", error.message()));
   for (uint32_t k = 1; k <= options.workers; ++k) {
     const std::string name = absl::StrCat("worker-", k);
     fleet->members_.push_back({.name = name, .log_path = absl::StrCat(logs, "/", name, ".log")});
@@ -46,6 +42,8 @@ absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOp
 }
 
 absl::Status LocalFleet::OpenCoordinator() {
+  ORBWEAVE_ASSIGN_OR_RETURN(options_.coordinator.log,
+                            OpenEventLog(CoordinatorLogPath(options_.coordinator.state_dir)));
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string socket, ChooseSocket());
   ORBWEAVE_ASSIGN_OR_RETURN(server_, GrpcServer::Start(*coordinator_, socket));

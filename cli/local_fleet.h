@@ -27,8 +27,8 @@ struct LocalFleetOptions {
 
 /// A coordinator in this process, listening on a unix socket in its state folder, and worker
 /// processes of the same executable (`<self> work --join ...`), which end with it however it ends.
-/// A worker that dies is started again; its tasks go to others at once. Workers write to
-/// `<state>/logs/worker-<n>.log`.
+/// A worker that dies is started again; its tasks go to others at once. Workers write
+/// their log to `<state>/logs/worker-<n>.log`, the coordinator to `coordinator.log` beside them.
 class LocalFleet {
  public:
   /// Errors: those of Coordinator::Open and GrpcServer::Start.

@@ -7,11 +7,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "cli/coordinator_argument.h"
+#include "cli/event_log.h"
 #include "cli/exit_code.h"
-#include "cli/log_line.h"
 #include "cli/root_argument.h"
 #include "cli/stop_signals.h"
 #include "coordinator/coordinator.h"
@@ -35,25 +36,39 @@ void WaitForStop(const std::stop_token& stop) {
   never.wait(lock, stop, [] { return false; });
 }
 
+/// To stderr for who watches the process, and to a file beside the state for who comes later.
+absl::StatusOr<EventLog> OpenLog(const std::string& state_dir) {
+  ORBWEAVE_ASSIGN_OR_RETURN(EventLog file, OpenEventLog(CoordinatorLogPath(state_dir)));
+  return [file = std::move(file)](const LogEvent& event) {
+    file(event);
+    LogToStderr(event);
+  };
+}
+
 absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
   ServerOptions server_options = options.server;
   server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
   const SteadyClock clock;
-  CoordinatorOptions with_journal = options.coordinator;
+  ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir));
+  CoordinatorOptions coordinator_options = options.coordinator;
+  coordinator_options.log = log;
   if (!options.journal.empty()) {
-    with_journal.open_journal = [&options](const std::string&) {
+    coordinator_options.open_journal = [&options](const std::string&) {
       return OpenPostgresJournal(options.journal);
     };
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(with_journal, clock));
+  server_options.log = log;
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
-  LogLine(absl::StrCat(
-      "coordinator ready address=", server->address(), " state=", options.coordinator.state_dir));
+  log({.event = "coordinator_ready",
+       .message =
+           absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
   WaitForStop(signals.token());
   coordinator->BeginShutdown();
-  LogLine("coordinator stops; its jobs go on when it is started again on the same state");
+  log({.event = "coordinator_stops",
+       .message = "its jobs go on when it is started again on the same state"});
   return absl::OkStatus();
 }
 
@@ -63,8 +78,6 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command =
       app.add_subcommand("serve", "Run a coordinator: give the tasks of jobs to workers that join");
   const auto options = std::make_shared<ServeOptions>();
-  options->coordinator.log = LogLine;
-  options->server.log = LogLine;
   command->add_option("--listen", options->listen, "unix:/path or host:port (port 0: any free one)")
       ->required();
   command
@@ -102,7 +115,8 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave serve --listen unix:/tmp/orbweave.sock --state state --lease 60\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state --journal postgresql://db/orbweave\n"
       "  orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state\n"
-      "Started again on the same state it goes on where it was.");
+      "Started again on the same state it goes on where it was. The log, one JSON object per line, "
+      "goes to stderr and to logs/coordinator.log in the state folder.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Serve(*options)); }; });
 }

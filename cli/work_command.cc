@@ -11,9 +11,9 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "cli/event_log.h"
 #include "cli/exit_code.h"
 #include "cli/join_token_argument.h"
-#include "cli/log_line.h"
 #include "cli/stop_signals.h"
 #include "security/tls_folder.h"
 #include "worker/certificate_keeper.h"
@@ -37,7 +37,7 @@ std::unique_ptr<CertificateKeeper> KeepCertificate(const CoordinatorArgument& jo
   return std::make_unique<CertificateKeeper>(CertificateKeeperOptions{
       .folder = folder,
       .renew = [address = join.address, folder] { return RenewCertificate(address, folder); },
-      .log = LogLine});
+      .log = LogToStderr});
 }
 
 /// The host and the process; where there is a certificate its name goes before (see MaySpeakFor).
@@ -83,12 +83,14 @@ absl::Status Work(const WorkOptions& options) {
   }
   GrpcCoordinatorClient coordinator(
       options.join.address, signals.token(), {.tls_folder = options.join.tls_folder});
-  LogLine(absl::StrCat("worker started name=", worker.name, " coordinator=", options.join.address));
+  LogToStderr({.event = "worker_started",
+               .worker = worker.name,
+               .message = absl::StrCat("coordinator=", options.join.address)});
   const auto make_executor = [&options, &clock] {
     return std::make_unique<TaskProcess>(options.task_limits, clock);
   };
   const absl::Status status = RunWorker(coordinator, make_executor, worker, signals.token());
-  LogLine(absl::StrCat("worker ended name=", worker.name));
+  LogToStderr({.event = "worker_ended", .worker = worker.name});
   return status;
 }
 
@@ -97,7 +99,7 @@ absl::Status Work(const WorkOptions& options) {
 void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("work", "Run a worker: do tasks for a coordinator");
   const auto options = std::make_shared<WorkOptions>();
-  options->worker.log = LogLine;
+  options->worker.log = LogToStderr;
   AddCoordinatorArgument(*command, options->join, "--join");
   AddJoinTokenArgument(*command, options->token_path);
   command->add_option("--slots", options->worker.slots, "Tasks at a time")
@@ -123,7 +125,8 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
       "  orbweave work --join coordinator.example:7000 --tls keys/node7\n"
       "  orbweave work --join coordinator.example:7000 --tls node-keys --token-file join.token\n"
-      "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves.");
+      "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves. "
+      "The log goes to stderr, one JSON object per line.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Work(*options)); }; });
 }

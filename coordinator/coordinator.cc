@@ -95,7 +95,7 @@ absl::Status Coordinator::Leave(uint64_t session) {
 absl::Status Coordinator::DrainWorker(const std::string& name) {
   const std::lock_guard lock(mutex_);
   ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Drain(name));
-  dispatcher_.Log("worker drains worker=" + name);
+  dispatcher_.Log({.event = "worker_drained", .worker = name});
   WakeAll();
   return absl::OkStatus();
 }
@@ -171,6 +171,13 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
   lock.lock();
   if (saved.ok()) return dispatcher_.TaskDone(session, lease, result, clock_.NowSeconds());
   dispatcher_.LetGo(session, lease, clock_.NowSeconds());
+  dispatcher_.Log({.level = LogLevel::kError,
+                   .event = "result_not_saved",
+                   .stage = lease.spec.stage,
+                   .part = lease.spec.part,
+                   .task = lease.task,
+                   .epoch = lease.epoch,
+                   .message = std::string(saved.message())});
   return saved;
 }
 

@@ -16,6 +16,7 @@
 #include "coordinator/state_lock.h"
 #include "core/base/clock.h"
 #include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/log_event.h"
 
 namespace orbweave {
 
@@ -31,9 +32,7 @@ struct CoordinatorOptions {
   JobDesk::FindPlan find_plan = FindJobPlan;
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
       open_journal = OpenJournal;
-  /// Told one line per event ("task failed stage=... part=... worker=..."); may be empty. Must be
-  /// quick.
-  std::function<void(const std::string& line)> log{};
+  EventLog log{};
 };
 
 /// The coordinator: gives tasks to workers that ask, takes each result once, and remembers jobs,

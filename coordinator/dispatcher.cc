@@ -43,12 +43,9 @@ uint64_t Dispatcher::Join(const WorkerInfo& worker, double now_s) {
   EndAttempts(book_.Adopt(worker.name, worker.held, session, now_s + options_.lease_s),
               absl::StrCat("worker ", worker.name, " started anew"),
               now_s);
-  Log(absl::StrCat("worker joined worker=",
-                   worker.name,
-                   " slots=",
-                   worker.slots,
-                   " leases=",
-                   worker.held.size()));
+  Log({.event = "worker_joined",
+       .worker = worker.name,
+       .message = absl::StrCat("slots=", worker.slots, " leases=", worker.held.size())});
   return session;
 }
 
@@ -57,13 +54,14 @@ void Dispatcher::Leave(uint64_t session, double now_s) {
     EndAttempt(entry, absl::CancelledError("its worker left"), now_s);
   }
   if (const std::string name = roster_.NameOf(session); !name.empty())
-    Log("worker left worker=" + name);
+    Log({.event = "worker_left", .worker = name});
   roster_.End(session);
 }
 
 void Dispatcher::WorkerDied(std::string_view name, double now_s) {
   const std::optional<uint64_t> session = roster_.SessionOf(name);
   if (!session) return;
+  Log({.level = LogLevel::kWarning, .event = "worker_died", .worker = std::string(name)});
   EndAttempts(book_.TakeSession(*session),
               absl::StrCat("the process of worker ", std::string(name), " ended"),
               now_s);
@@ -93,14 +91,16 @@ std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, doub
   JobMachine& machine = *jobs_.At(job).machine;
   const Lease lease{machine.TaskId(ref), ++last_epoch_, machine.Spec(ref), slot};
   machine.TaskLeased(ref, {lease.epoch, worker, slot}, now_s);
-  book_.Grant({.epoch = lease.epoch,
-               .task = lease.task,
-               .job = job,
-               .ref = ref,
-               .worker = worker,
-               .slot = slot,
-               .session = session,
-               .until_s = now_s + options_.lease_s});
+  const LeaseEntry entry{.epoch = lease.epoch,
+                         .task = lease.task,
+                         .job = job,
+                         .ref = ref,
+                         .worker = worker,
+                         .slot = slot,
+                         .session = session,
+                         .until_s = now_s + options_.lease_s};
+  book_.Grant(entry);
+  Log(Describe(entry, "task_leased"));
   return Grant{lease, {lease.epoch, lease.task, job, lease.spec.stage, ref.part, worker, slot}};
 }
 
@@ -147,9 +147,10 @@ absl::Status Dispatcher::TaskDone(uint64_t session,
                                   double now_s) {
   const absl::StatusOr<LeaseEntry> entry = book_.Take(lease.epoch, lease.task, session);
   if (!entry.ok()) return jobs_.WasDoneBy(lease) ? absl::OkStatus() : entry.status();
+  Log(Describe(*entry, "task_done"));
   if (entry->ref) {
     for (const LeaseEntry& other : book_.TakeTask(entry->job, *entry->ref))
-      ends_.push_back({other.epoch, "another attempt was first"});
+      EndVoid(other, "another attempt was first");
     JobMachine& machine = *jobs_.At(entry->job).machine;
     machine.TaskDone({*entry->ref, entry->epoch}, result, now_s);
     roster_.CountTask(session, machine.FailedOn(*entry->ref));
@@ -173,15 +174,10 @@ absl::Status Dispatcher::TaskFailed(uint64_t session,
 
 void Dispatcher::EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s) {
   ends_.push_back({entry.epoch, std::string(error.message())});
-  Log(absl::StrCat("task not done job=",
-                   entry.job.ToShortHex(),
-                   " task=",
-                   entry.task.ToShortHex(),
-                   " worker=",
-                   entry.worker,
-                   " reason=\"",
-                   error.message(),
-                   "\""));
+  LogEvent event = Describe(entry, "task_not_done");
+  if (ClassifyFailure(error.code()) != FailureClass::kReturned) event.level = LogLevel::kWarning;
+  event.message = std::string(error.message());
+  Log(event);
   if (entry.ref && jobs_.At(entry.job).IsRunning()) FailOrBeginAnew(entry, error, now_s);
   options_.changed();
 }
@@ -206,7 +202,14 @@ void Dispatcher::EndAttempts(const std::vector<LeaseEntry>& entries,
 }
 
 void Dispatcher::VoidLeases(const Digest& job, const std::string& reason) {
-  for (const LeaseEntry& entry : book_.TakeJob(job)) ends_.push_back({entry.epoch, reason});
+  for (const LeaseEntry& entry : book_.TakeJob(job)) EndVoid(entry, reason);
+}
+
+void Dispatcher::EndVoid(const LeaseEntry& entry, const std::string& reason) {
+  ends_.push_back({entry.epoch, reason});
+  LogEvent event = Describe(entry, "task_not_done");
+  event.message = reason;
+  Log(event);
 }
 
 void Dispatcher::ExpireLeases(double now_s) {
@@ -239,8 +242,20 @@ void Dispatcher::JobFails(const Digest& id, const std::string& error, double now
   options_.changed();
 }
 
-void Dispatcher::Log(const std::string& line) const {
-  if (options_.log) options_.log(line);
+void Dispatcher::Log(const LogEvent& event) const {
+  if (options_.log) options_.log(event);
+}
+
+LogEvent Dispatcher::Describe(const LeaseEntry& entry, const std::string& event) {
+  LogEvent described{.event = event,
+                     .job = entry.job,
+                     .task = entry.task,
+                     .worker = entry.worker,
+                     .epoch = entry.epoch};
+  if (!entry.ref) return described;
+  described.stage = jobs_.At(entry.job).machine->Spec(*entry.ref).stage;
+  described.part = entry.ref->part;
+  return described;
 }
 
 }  // namespace orbweave

@@ -13,13 +13,14 @@
 #include "coordinator/journal.h"
 #include "coordinator/lease_book.h"
 #include "coordinator/worker_roster.h"
+#include "core/pipeline/log_event.h"
 
 namespace orbweave {
 
 struct DispatcherOptions {
   double lease_s = 20.0;  ///< a worker silent for so long loses its tasks
   RetryPolicy retry{};
-  std::function<void(const std::string& line)> log{};  ///< may be empty
+  EventLog log{};
   std::function<void()> changed{};  ///< called when there may be something new to do
 };
 
@@ -79,7 +80,7 @@ class Dispatcher {
 
   [[nodiscard]] bool HasEnds() const { return !ends_.empty(); }
   [[nodiscard]] std::vector<AttemptEnd> TakeEnds() { return std::exchange(ends_, {}); }
-  void Log(const std::string& line) const;
+  void Log(const LogEvent& event) const;
 
  private:
   struct JobTask {
@@ -90,6 +91,10 @@ class Dispatcher {
   [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at, double now_s);
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
   void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
+  /// What the book knows of an attempt, to be logged as `event`.
+  [[nodiscard]] LogEvent Describe(const LeaseEntry& entry, const std::string& event);
+  /// An attempt ends that nobody waits for any more.
+  void EndVoid(const LeaseEntry& entry, const std::string& reason);
   void VoidLeases(const Digest& job, const std::string& reason);
   void FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s);
 

@@ -41,7 +41,7 @@ absl::StatusOr<std::string> EnrollmentDesk::Enroll(const std::string& token,
                         .name = absl::StrCat(name, "-", claims.nonce.substr(0, kNonceDigits))};
   ORBWEAVE_ASSIGN_OR_RETURN(std::string certificate, Renew(worker, request_pem));
   ORBWEAVE_RETURN_IF_ERROR(used_.Use(claims.nonce, claims.expires_unix_s));
-  if (options_.log) options_.log("certificate given worker=" + worker.name);
+  if (options_.log) options_.log({.event = "certificate_given", .worker = worker.name});
   return certificate;
 }
 

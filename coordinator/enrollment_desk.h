@@ -7,6 +7,7 @@
 #include <string>
 
 #include "coordinator/used_tokens.h"
+#include "core/pipeline/log_event.h"
 #include "security/certificate_authority.h"
 #include "security/tls_folder.h"
 #include "security/unix_time.h"
@@ -18,7 +19,7 @@ struct EnrollmentOptions {
   std::string used_folder{};    ///< where used tokens are remembered
   int64_t valid_s = 24 * 3600;  ///< of the certificates it gives
   UnixClock now_unix_s = UnixNow;
-  std::function<void(const std::string& line)> log{};  ///< told of every certificate; may be empty
+  EventLog log{};  ///< told of every certificate
 };
 
 /// Gives certificates to workers: the first for a join token, the next ones for the one before.

@@ -4,12 +4,12 @@
 
 #include <grpcpp/server.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "coordinator/grpc_enrollment.h"
 #include "coordinator/grpc_service.h"
+#include "core/pipeline/log_event.h"
 
 namespace orbweave {
 
@@ -26,8 +26,7 @@ struct ServerOptions {
   /// ca.key and token.key.
   std::string used_tokens_folder{};
   ServerLimits limits{};
-  /// Told one line per event ("certificate given worker=..."); may be empty.
-  std::function<void(const std::string& line)> log{};
+  EventLog log{};
   FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
 };
 

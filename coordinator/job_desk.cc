@@ -6,9 +6,21 @@
 #include <map>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
-
 namespace orbweave {
+namespace {
+
+LogEvent DescribeEnd(const Digest& id, const JobEntry& entry) {
+  switch (entry.state) {
+    case JobState::kFailed:
+      return {.level = LogLevel::kError, .event = "job_failed", .job = id, .message = entry.error};
+    case JobState::kCancelled:
+      return {.event = "job_cancelled", .job = id};
+    default:
+      return {.event = "job_done", .job = id};
+  }
+}
+
+}  // namespace
 
 absl::Status JobDesk::Resume(bool leases_survive) {
   ORBWEAVE_RETURN_IF_ERROR(ResumeJobs());
@@ -70,8 +82,7 @@ absl::StatusOr<Digest> JobDesk::Submit(const JobSpec& spec) {
   Job& job = dispatcher_.BeginJob(spec, *std::move(plan), number, clock_.NowSeconds());
   job.verify = true;
   job.reruns = 0;
-  dispatcher_.Log(absl::StrCat(
-      "job submitted job=", id.ToShortHex(), " kind=", spec.kind, " label=\"", spec.label, "\""));
+  dispatcher_.Log({.event = "job_submitted", .job = id, .message = spec.label});
   return id;
 }
 
@@ -82,7 +93,7 @@ void JobDesk::SaveEnd(const Digest& id) {
   if (job.is_saved || job.IsRunning()) return;
   const JobEntry entry{job.machine->spec(), job.machine->state(), job.machine->error(), job.number};
   job.is_saved = true;
-  dispatcher_.Log(absl::StrCat("job ended job=", id.ToShortHex(), " error=\"", entry.error, "\""));
+  dispatcher_.Log(DescribeEnd(id, entry));
   lock.unlock();
   // When this fails the job is found running after a restart, and its results end it again at once.
   journal_.SaveJob(entry).IgnoreError();

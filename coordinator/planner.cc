@@ -6,8 +6,6 @@
 #include <chrono>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
-
 namespace orbweave {
 namespace {
 
@@ -49,7 +47,9 @@ void Planner::SaveEnds(const std::vector<AttemptEnd>& ends) {
   const absl::Status saved = journal_.SaveEnds(ends);
   if (saved.ok()) return;  // otherwise they count as open after a restart, for one lease time
   const std::lock_guard lock(mutex_);
-  dispatcher_.Log(absl::StrCat("ends of attempts not saved reason=\"", saved.message(), "\""));
+  dispatcher_.Log({.level = LogLevel::kError,
+                   .event = "ends_not_saved",
+                   .message = std::string(saved.message())});
 }
 
 void Planner::PlanNextStage(const Digest& id, const std::stop_token& stop) {

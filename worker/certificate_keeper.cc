@@ -7,8 +7,6 @@
 #include <mutex>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
-
 namespace orbweave {
 
 bool IsDueForRenewal(const CertificateFacts& certificate, int64_t now_unix_s) {
@@ -35,10 +33,13 @@ void CertificateKeeper::Look() const {
   absl::Status status = own.status();
   if (status.ok()) status = options_.renew();
   if (!options_.log) return;
-  options_.log(
-      status.ok()
-          ? absl::StrCat("certificate renewed name=", own->identity.name)
-          : absl::StrCat("certificate not renewed reason=\"", std::string(status.message()), "\""));
+  if (status.ok()) {
+    options_.log({.event = "certificate_renewed", .worker = own->identity.name});
+  } else {
+    options_.log({.level = LogLevel::kWarning,
+                  .event = "certificate_not_renewed",
+                  .message = std::string(status.message())});
+  }
 }
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "core/pipeline/log_event.h"
 #include "security/certificate.h"
 #include "security/tls_folder.h"
 #include "security/unix_time.h"
@@ -22,8 +23,7 @@ struct CertificateKeeperOptions {
   UnixClock now_unix_s = UnixNow;
   /// Replaces the folder's certificate.
   std::function<absl::Status()> renew{};
-  /// Told one line per renewal or failure; may be empty.
-  std::function<void(const std::string& line)> log{};
+  EventLog log{};  ///< told of every renewal and failure
 };
 
 /// While it lives, a thread of its own renews a folder's certificate before it ends.

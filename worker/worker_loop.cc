@@ -19,9 +19,13 @@
 namespace orbweave {
 namespace {
 
-std::string DescribeLease(const Lease& lease) {
-  return absl::StrCat(
-      "stage=", lease.spec.stage, " part=", lease.spec.part, " task=", lease.task.ToShortHex());
+LogEvent Describe(const Lease& lease, const std::string& event, const std::string& message = "") {
+  return {.event = event,
+          .stage = lease.spec.stage,
+          .part = lease.spec.part,
+          .task = lease.task,
+          .epoch = lease.epoch,
+          .message = message};
 }
 
 class Worker {
@@ -71,8 +75,10 @@ class Worker {
     leases_.StopAll();
   }
 
-  void Log(const std::string& line) const {
-    if (options_.log) options_.log(line);
+  void Log(LogEvent event) const {
+    if (!options_.log) return;
+    event.worker = options_.name;
+    options_.log(event);
   }
 
   /// The session, or nothing when the work is over.
@@ -99,7 +105,9 @@ class Worker {
       } else if (absl::IsCancelled(lease.status())) {
         draining_.request_stop();
       } else if (!draining_.stop_requested()) {
-        Log(absl::StrCat("coordinator away reason=\"", lease.status().message(), "\""));
+        Log({.level = LogLevel::kWarning,
+             .event = "coordinator_away",
+             .message = std::string(lease.status().message())});
         backoff.Wait(draining_.get_token());
       }
     }
@@ -115,7 +123,7 @@ class Worker {
     };
     if (ending_.stop_requested())
       leases_.StopAll();  // the end may have come between leasing and adding
-    Log("task leased " + DescribeLease(lease));
+    Log(Describe(lease, "task_leased"));
     const absl::StatusOr<TaskResult> result = executor.Run(lease.spec, blobs_, context);
     const absl::Status handed_in = result.ok() ? HandIn(lease, *result) : result.status();
     if (!handed_in.ok()) {
@@ -142,15 +150,14 @@ class Worker {
   absl::Status HandIn(const Lease& lease, const TaskResult& result) {
     const absl::Status status =
         InSession([&](uint64_t session) { return api_.CompleteTask(session, lease, result); });
-    if (status.ok())
-      Log(absl::StrCat("task done ", DescribeLease(lease), " wall_s=", result.cost.wall_s));
+    if (status.ok()) Log(Describe(lease, "task_done", absl::StrCat("wall_s=", result.cost.wall_s)));
     return status;
   }
 
   /// Tells the coordinator why there is no result. A lease that is no longer ours is not its
   /// business.
   void GiveBack(const Lease& lease, const absl::Status& error) {
-    Log(absl::StrCat("task not done ", DescribeLease(lease), " reason=\"", error.ToString(), "\""));
+    Log(Describe(lease, "task_not_done", error.ToString()));
     (void)InSession([&](uint64_t session) { return api_.FailTask(session, lease, error); });
   }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <stop_token>
 #include <string>
 
 #include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/log_event.h"
 #include "worker/task_executor.h"
 
 namespace orbweave {
@@ -18,9 +18,7 @@ struct WorkerOptions {
   double grace_s = 30.0;  ///< for tasks that run when the worker is told to end
   double poll_s = 10.0;   ///< how long one question for a task waits at the coordinator
   size_t cache_bytes = size_t{512} << 20;
-  /// Told one line per event ("task leased stage=... part=..."); may be empty. Called from several
-  /// threads.
-  std::function<void(const std::string& line)> log{};
+  EventLog log{};
 };
 
 /// Works for the coordinator until `stop` or until it says to leave: asks for tasks, has them run

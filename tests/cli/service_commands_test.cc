@@ -70,14 +70,18 @@ TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
   Command worker(Orbweave({"work", "--join", address_, "--name", "w", "--slots", "2"}));
   EXPECT_TRUE(WaitUntil(
       [this] {
-        return serve_.ErrSoFar().find("worker joined worker=w slots=2") != std::string::npos;
+        return serve_.ErrSoFar().find(R"("event":"worker_joined","worker":"w")") !=
+               std::string::npos;
       },
       60.0));
   worker.Signal(SIGTERM);
   EXPECT_EQ(worker.Wait().exit_code, kExitOk);
   EXPECT_TRUE(WaitUntil(
-      [this] { return serve_.ErrSoFar().find("worker left worker=w") != std::string::npos; },
+      [this] {
+        return serve_.ErrSoFar().find(R"("event":"worker_left","worker":"w")") != std::string::npos;
+      },
       60.0));
+  EXPECT_THAT(testing::ReadAll(folder_ / "state/logs/coordinator.log"), HasSubstr("worker_left"));
 }
 
 TEST_F(ServiceCommands, StatusAndCancelFollowAJob) {

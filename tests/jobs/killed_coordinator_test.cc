@@ -45,7 +45,7 @@ class KilledCoordinator : public ::testing::Test {
 
   static bool IsReady(const Command& serve) {
     return WaitUntil(
-        [&] { return serve.ErrSoFar().find("coordinator ready") != std::string::npos; }, 30);
+        [&] { return serve.ErrSoFar().find("coordinator_ready") != std::string::npos; }, 30);
   }
 
   TemporaryFolder folder_;
