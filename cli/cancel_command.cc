@@ -10,6 +10,7 @@
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
+#include "cli/name_coordinator.h"
 #include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
@@ -24,16 +25,12 @@ absl::Status Cancel(const CancelOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
   GrpcCoordinatorClient coordinator(
       options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  const absl::StatusOr<JobStatus> job = FindJob(coordinator, options.job);
-  if (absl::IsUnavailable(job.status())) {
-    return Annotate(job.status(), "no coordinator answers at " + options.coordinator.address);
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(coordinator, options.job));
+  if (job.state != JobState::kRunning) {
+    return absl::FailedPreconditionError("job " + job.id.ToShortHex() + " has ended already");
   }
-  ORBWEAVE_RETURN_IF_ERROR(job.status());
-  if (job->state != JobState::kRunning) {
-    return absl::FailedPreconditionError("job " + job->id.ToShortHex() + " has ended already");
-  }
-  ORBWEAVE_RETURN_IF_ERROR(coordinator.CancelJob(job->id));
-  std::printf("cancelled job %s; its finished tasks are kept\n", job->id.ToShortHex().c_str());
+  ORBWEAVE_RETURN_IF_ERROR(coordinator.CancelJob(job.id));
+  std::printf("cancelled job %s; its finished tasks are kept\n", job.id.ToShortHex().c_str());
   return absl::OkStatus();
 }
 
@@ -49,7 +46,9 @@ void AddCancelCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave cancel --coordinator 127.0.0.1:7000 3f2a\n"
       "Submitting the same job again takes up what it finished.");
   command->callback([options, &selected] {
-    selected.run = [options] { return ReportStatus(Cancel(*options)); };
+    selected.run = [options] {
+      return ReportStatus(NameCoordinator(Cancel(*options), options->coordinator.address));
+    };
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
+#include "cli/name_coordinator.h"
 #include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
@@ -22,10 +23,7 @@ absl::Status Drain(const DrainOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
   GrpcCoordinatorClient coordinator(
       options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  const absl::Status status = coordinator.DrainWorker(options.worker);
-  if (absl::IsUnavailable(status))
-    return Annotate(status, "no coordinator answers at " + options.coordinator.address);
-  ORBWEAVE_RETURN_IF_ERROR(status);
+  ORBWEAVE_RETURN_IF_ERROR(coordinator.DrainWorker(options.worker));
   std::printf("worker %s finishes what it has and leaves\n", options.worker.c_str());
   return absl::OkStatus();
 }
@@ -39,9 +37,13 @@ void AddDrainCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("worker", options->worker, "Its name, as status shows it")->required();
   command->footer(
       "Example:\n"
-      "  orbweave drain --coordinator 127.0.0.1:7000 second");
-  command->callback(
-      [options, &selected] { selected.run = [options] { return ReportStatus(Drain(*options)); }; });
+      "  orbweave drain --coordinator 127.0.0.1:7000 second\n"
+      "Its process ends then with 0. Started again it gets tasks again.");
+  command->callback([options, &selected] {
+    selected.run = [options] {
+      return ReportStatus(NameCoordinator(Drain(*options), options->coordinator.address));
+    };
+  });
 }
 
 }  // namespace orbweave

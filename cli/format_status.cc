@@ -3,7 +3,6 @@
 
 #include "cli/format_status.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/str_cat.h"
@@ -11,6 +10,19 @@
 #include "cli/progress_bar.h"
 
 namespace orbweave {
+namespace {
+
+std::string WorkerStateName(const WorkerStatus& worker) {
+  if (!worker.alive) return "gone";
+  if (worker.draining) return "draining";
+  return worker.set_aside ? "set aside: failed tasks that others did" : "at work";
+}
+
+nlohmann::json EtaToJson(const ProgressView& view) {
+  return view.eta_s >= 0.0 ? nlohmann::json(view.eta_s) : nlohmann::json();
+}
+
+}  // namespace
 
 std::string_view JobStateName(JobState state) {
   switch (state) {
@@ -26,43 +38,63 @@ std::string_view JobStateName(JobState state) {
   return "unknown";
 }
 
-std::string FormatJobStatus(const JobStatus& status) {
-  std::string text = absl::StrFormat("job %s  %s  %s  %s\n",
+std::string FormatJobLine(const JobStatus& status) {
+  const ProgressView view = ViewProgress(status);
+  std::string text = absl::StrFormat("job %s  %-9s  %3.0f %%  %s",
                                      status.id.ToShortHex(),
                                      std::string(JobStateName(status.state)),
-                                     FormatDuration(status.elapsed_s),
-                                     status.spec.label);
+                                     100.0 * view.fraction,
+                                     FormatDuration(status.elapsed_s));
+  if (status.state == JobState::kRunning && view.eta_s >= 0.0) {
+    absl::StrAppend(&text, "  about ", FormatDuration(view.eta_s), " left");
+  }
+  return absl::StrCat(text, "  ", status.spec.label, "\n");
+}
+
+std::string FormatJobStatus(const JobStatus& status) {
+  std::string text = FormatJobLine(status);
   if (!status.error.empty()) absl::StrAppend(&text, "  ", status.error, "\n");
+  absl::StrAppend(&text,
+                  absl::StrFormat("  %-22s %13s %8s %8s %8s %12s %12s\n",
+                                  "stage",
+                                  "done",
+                                  "reused",
+                                  "running",
+                                  "retries",
+                                  "wall",
+                                  "cpu"));
   for (const StageStatus& stage : status.stages) {
     if (stage.tasks_total == 0) continue;
-    absl::StrAppend(
-        &text,
-        absl::StrFormat(
-            "  %-22s %6u/%u tasks  %u reused  %u running  %u retries  %s wall  %s cpu\n",
-            stage.stage,
-            stage.tasks_done,
-            stage.tasks_total,
-            stage.tasks_reused,
-            stage.tasks_running,
-            stage.retries,
-            FormatDuration(stage.wall_s),
-            FormatDuration(stage.cpu_s)));
+    absl::StrAppend(&text,
+                    absl::StrFormat("  %-22s %13s %8u %8u %8u %12s %12s\n",
+                                    stage.stage,
+                                    absl::StrCat(stage.tasks_done, "/", stage.tasks_total),
+                                    stage.tasks_reused,
+                                    stage.tasks_running,
+                                    stage.retries,
+                                    FormatDuration(stage.wall_s),
+                                    FormatDuration(stage.cpu_s)));
   }
-  const auto alive = std::count_if(status.workers.begin(),
-                                   status.workers.end(),
-                                   [](const WorkerStatus& worker) { return worker.alive; });
-  absl::StrAppend(&text, "  workers: ", alive, " alive of ", status.workers.size(), "\n");
-  for (const WorkerStatus& worker : status.workers) {
-    if (worker.alive && worker.set_aside)
-      absl::StrAppend(
-          &text, "  set aside: ", worker.name, ", which failed tasks that others did\n");
-    if (worker.alive && worker.draining)
-      absl::StrAppend(&text, "  leaving: ", worker.name, ", when its tasks are done\n");
+  return text;
+}
+
+std::string FormatWorkers(const std::vector<WorkerStatus>& workers) {
+  std::string text =
+      absl::StrFormat("  %-22s %13s %8s %8s  %s\n", "worker", "done", "slots", "running", "state");
+  for (const WorkerStatus& worker : workers) {
+    absl::StrAppend(&text,
+                    absl::StrFormat("  %-22s %13u %8u %8u  %s\n",
+                                    worker.name,
+                                    worker.tasks_done,
+                                    worker.slots,
+                                    worker.tasks_running,
+                                    WorkerStateName(worker)));
   }
   return text;
 }
 
 std::string JobStatusToJson(const JobStatus& status) {
+  const ProgressView view = ViewProgress(status);
   nlohmann::json stages = nlohmann::json::array();
   for (const StageStatus& stage : status.stages) {
     stages.push_back({{"stage", stage.stage},
@@ -79,6 +111,7 @@ std::string JobStatusToJson(const JobStatus& status) {
     workers.push_back({{"name", worker.name},
                        {"slots", worker.slots},
                        {"tasks_done", worker.tasks_done},
+                       {"tasks_running", worker.tasks_running},
                        {"alive", worker.alive},
                        {"set_aside", worker.set_aside},
                        {"draining", worker.draining}});
@@ -88,7 +121,8 @@ std::string JobStatusToJson(const JobStatus& status) {
                               {"error", status.error},
                               {"label", status.spec.label},
                               {"elapsed_s", status.elapsed_s},
-                              {"fraction", ViewProgress(status).fraction},
+                              {"fraction", view.fraction},
+                              {"eta_s", EtaToJson(view)},
                               {"stages", std::move(stages)},
                               {"workers", std::move(workers)}};
   return job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/pipeline/coordinator_api.h"
 
@@ -12,8 +13,14 @@ namespace orbweave {
 /// "running", "done", "failed" or "cancelled".
 [[nodiscard]] std::string_view JobStateName(JobState state);
 
-/// A job as lines for people: one for the job, one per stage, one for the workers.
+/// A job as one line: id, state, how far it is, how long it takes, label.
+[[nodiscard]] std::string FormatJobLine(const JobStatus& status);
+
+/// A job as lines for people: its line, what went wrong, a table of its stages that have tasks.
 [[nodiscard]] std::string FormatJobStatus(const JobStatus& status);
+
+/// A table of workers.
+[[nodiscard]] std::string FormatWorkers(const std::vector<WorkerStatus>& workers);
 
 /// A job as one JSON object, all of JobStatus by name.
 [[nodiscard]] std::string JobStatusToJson(const JobStatus& status);

@@ -13,10 +13,12 @@
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
+#include "cli/jobs_command.h"
 #include "cli/keys_command.h"
 #include "cli/options_command.h"
-#include "cli/reconstruct_command.h"
 #include "cli/raise_file_limit.h"
+#include "cli/reconstruct_command.h"
+#include "cli/retry_command.h"
 #include "cli/run_command.h"
 #include "cli/serve_command.h"
 #include "cli/single_threaded_libraries.h"
@@ -51,7 +53,9 @@ int main(int argc, char** argv) {
   orbweave::AddExecTasksCommand(app, selected, stages);
   orbweave::AddSubmitCommand(app, selected);
   orbweave::AddStatusCommand(app, selected);
+  orbweave::AddJobsCommand(app, selected);
   orbweave::AddCancelCommand(app, selected);
+  orbweave::AddRetryCommand(app, selected);
   orbweave::AddDrainCommand(app, selected);
   try {
     app.parse(argc, argv);

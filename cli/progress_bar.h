@@ -5,21 +5,9 @@
 #include <cstdio>
 #include <string>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/view_progress.h"
 
 namespace orbweave {
-
-/// A job's progress in figures.
-struct ProgressView {
-  std::string stage{};      ///< the stage at work; empty when all are done
-  double tasks_done = 0.0;  ///< of that stage, running tasks counted by what they report
-  uint32_t tasks_total = 0;
-  double fraction = 0.0;     ///< of the whole job, stages weighted by what they usually cost
-  double tasks_per_s = 0.0;  ///< of that stage; 0: not known yet
-  double eta_s = -1.0;       ///< of the whole job; negative: not known yet
-};
-
-[[nodiscard]] ProgressView ViewProgress(const JobStatus& status);
 
 /// "3 s", "4 min 05 s", "2 h 10 min".
 [[nodiscard]] std::string FormatDuration(double seconds);

@@ -3,6 +3,8 @@
 
 #include "cli/status_command.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -11,6 +13,7 @@
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
 #include "cli/format_status.h"
+#include "cli/name_coordinator.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
@@ -38,17 +41,29 @@ void Print(const std::vector<JobStatus>& jobs, bool as_json) {
   for (const JobStatus& job : jobs) {
     std::fputs((as_json ? JobStatusToJson(job) + "\n" : FormatJobStatus(job)).c_str(), stdout);
   }
+  if (!as_json && !jobs.empty()) std::fputs(FormatWorkers(jobs.back().workers).c_str(), stdout);
 }
 
-/// Follows the job asked for, or the last submitted one, to its end.
+/// The job in place of what the terminal showed before.
+void Redraw(const JobStatus& job) {
+  constexpr const char* kHome = "\033[H\033[J";
+  std::fputs((kHome + FormatJobStatus(job) + FormatWorkers(job.workers)).c_str(), stdout);
+  std::fflush(stdout);
+}
+
+/// Follows the job asked for, or the last submitted one, to its end: on a terminal as a table that
+/// is drawn anew, elsewhere by a line now and then.
 absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job) {
   const StopSignals signals;
   ProgressBar bar(stderr);
-  const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
+  const bool is_terminal = ::isatty(STDOUT_FILENO) == 1;
+  const auto show = [&](const JobStatus& status) {
+    is_terminal ? Redraw(status) : bar.Update(status);
+  };
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus last,
                             WaitForJob(coordinator, job.id, show, {}, signals.token()));
   bar.Finish();
-  Print({last}, false);
+  if (!is_terminal) Print({last}, false);
   return absl::OkStatus();
 }
 
@@ -56,13 +71,10 @@ absl::Status ShowStatus(const StatusOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
   GrpcCoordinatorClient coordinator(
       options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  absl::StatusOr<std::vector<JobStatus>> jobs = WantedJobs(coordinator, options.job);
-  if (absl::IsUnavailable(jobs.status())) {
-    return Annotate(jobs.status(), "no coordinator answers at " + options.coordinator.address);
-  }
-  ORBWEAVE_RETURN_IF_ERROR(jobs.status());
-  if (options.watch && !jobs->empty()) return Watch(coordinator, jobs->back());
-  Print(*jobs, options.json);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs,
+                            WantedJobs(coordinator, options.job));
+  if (options.watch && !jobs.empty()) return Watch(coordinator, jobs.back());
+  Print(jobs, options.json);
   return absl::OkStatus();
 }
 
@@ -83,7 +95,9 @@ void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave status --coordinator 127.0.0.1:7000 --watch\n"
       "  orbweave status --coordinator 127.0.0.1:7000 3f2a --json");
   command->callback([options, &selected] {
-    selected.run = [options] { return ReportStatus(ShowStatus(*options)); };
+    selected.run = [options] {
+      return ReportStatus(NameCoordinator(ShowStatus(*options), options->coordinator.address));
+    };
   });
 }
 

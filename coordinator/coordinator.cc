@@ -145,7 +145,7 @@ absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
   const std::lock_guard lock(mutex_);
   ORBWEAVE_ASSIGN_OR_RETURN(HeartbeatReply reply,
                             dispatcher_.Heartbeat(session, leases, clock_.NowSeconds()));
-  reply.shutdown = stopping_;
+  reply.shutdown = reply.shutdown || stopping_;
   return reply;
 }
 
@@ -212,7 +212,7 @@ auto Coordinator::LookAt(const Digest& id, Look&& look)
 absl::StatusOr<JobStatus> Coordinator::GetJob(const Digest& id) {
   return LookAt(id, [this](const Job& job) {
     JobStatus status = job.machine->Status(clock_.NowSeconds());
-    status.workers = dispatcher_.roster().Status(clock_.NowSeconds());
+    status.workers = dispatcher_.WorkerStatuses(clock_.NowSeconds());
     return status;
   });
 }
@@ -224,7 +224,7 @@ absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
   std::vector<JobStatus> jobs;
   for (const auto& [number, id] : dispatcher_.jobs().order()) {
     jobs.push_back(dispatcher_.jobs().At(id).machine->Status(now_s));
-    jobs.back().workers = dispatcher_.roster().Status(now_s);
+    jobs.back().workers = dispatcher_.WorkerStatuses(now_s);
   }
   return jobs;
 }

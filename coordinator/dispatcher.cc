@@ -68,6 +68,16 @@ void Dispatcher::WorkerDied(std::string_view name, double now_s) {
   roster_.End(*session);
 }
 
+std::vector<WorkerStatus> Dispatcher::WorkerStatuses(double now_s) const {
+  std::vector<WorkerStatus> workers = roster_.Status(now_s);
+  const std::map<std::string, uint32_t> leases = book_.CountByWorker();
+  for (WorkerStatus& worker : workers) {
+    const auto it = leases.find(worker.name);
+    if (it != leases.end()) worker.tasks_running = it->second;
+  }
+  return workers;
+}
+
 std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at, double now_s) {
   const std::vector<std::string> serving = roster_.Serving(now_s);
   if (!std::ranges::binary_search(serving, at.worker)) return std::nullopt;

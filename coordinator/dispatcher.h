@@ -48,6 +48,8 @@ class Dispatcher {
   [[nodiscard]] uint64_t Join(const WorkerInfo& worker, double now_s);
   void Leave(uint64_t session, double now_s);
   void WorkerDied(std::string_view name, double now_s);
+  /// Of every worker that ever joined, by name.
+  [[nodiscard]] std::vector<WorkerStatus> WorkerStatuses(double now_s) const;
 
   [[nodiscard]] std::optional<Grant> GrantNext(uint64_t session, uint32_t slot, double now_s);
   /// A lease of an earlier generation, whose holder has one lease time to come back.

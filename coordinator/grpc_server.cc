@@ -3,6 +3,7 @@
 
 #include "coordinator/grpc_server.h"
 
+#include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
@@ -70,6 +71,7 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
     ORBWEAVE_ASSIGN_OR_RETURN(credentials, MakeTlsCredentials({options.tls_folder}, strangers));
   }
   std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(desk)));
+  grpc::EnableDefaultHealthCheckService(true);
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
   if (has_tls) SetConnectionAge(builder);

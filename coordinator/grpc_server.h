@@ -30,8 +30,9 @@ struct ServerOptions {
   FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
 };
 
-/// Serves a CoordinatorApi on an address until destroyed. Before that, whatever keeps calls waiting
-/// in `api` has to let go (Coordinator::BeginShutdown).
+/// Serves a CoordinatorApi on an address until destroyed, and beside it grpc.health.v1.Health,
+/// which answers SERVING for the server as a whole (service ""). Before that, whatever keeps calls
+/// waiting in `api` has to let go (Coordinator::BeginShutdown).
 class GrpcServer {
  public:
   /// `address`: see CheckListenAddress; port 0 lets the system choose. InvalidArgument: not

@@ -71,6 +71,12 @@ std::vector<LeaseEntry> LeaseBook::Adopt(std::string_view worker,
       [&](const LeaseEntry& entry) { return entry.worker == worker && entry.session != session; });
 }
 
+std::map<std::string, uint32_t> LeaseBook::CountByWorker() const {
+  std::map<std::string, uint32_t> counts;
+  for (const auto& [epoch, entry] : entries_) ++counts[entry.worker];
+  return counts;
+}
+
 std::vector<LeaseEntry*> LeaseBook::AwaitingPlace(const Digest& job) {
   std::vector<LeaseEntry*> entries;
   for (auto& [epoch, entry] : entries_) {

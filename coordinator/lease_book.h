@@ -53,6 +53,9 @@ class LeaseBook {
   /// Leases of a job without a place in it; valid until the book changes.
   [[nodiscard]] std::vector<LeaseEntry*> AwaitingPlace(const Digest& job);
 
+  /// How many leases the workers that have any hold.
+  [[nodiscard]] std::map<std::string, uint32_t> CountByWorker() const;
+
   /// Strike out and return, in order of epoch.
   [[nodiscard]] std::vector<LeaseEntry> TakeTask(const Digest& job, TaskRef ref);
   [[nodiscard]] std::vector<LeaseEntry> TakeExpired(double now_s);

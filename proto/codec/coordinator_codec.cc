@@ -68,6 +68,7 @@ v1::WorkerStatus ToProto(const WorkerStatus& worker) {
   proto.set_tasks_done(worker.tasks_done);
   proto.set_alive(worker.alive);
   proto.set_set_aside(worker.set_aside);
+  proto.set_tasks_running(worker.tasks_running);
   proto.set_draining(worker.draining);
   return proto;
 }
@@ -78,7 +79,8 @@ WorkerStatus FromProto(const v1::WorkerStatus& proto) {
           .tasks_done = proto.tasks_done(),
           .alive = proto.alive(),
           .set_aside = proto.set_aside(),
-          .draining = proto.draining()};
+          .draining = proto.draining(),
+          .tasks_running = proto.tasks_running()};
 }
 
 }  // namespace

@@ -24,12 +24,30 @@ JobStatus Example() {
 
 TEST(FormatJobStatus, ShowsWhatWentWrongAndWhoIsThere) {
   const std::string text = FormatJobStatus(Example());
-  EXPECT_THAT(text, ::testing::HasSubstr("failed  1 min 01 s  street"));
+  EXPECT_THAT(text, ::testing::HasSubstr("failed       0 %  1 min 01 s  street\n"));
   EXPECT_THAT(text, ::testing::HasSubstr("no seam"));
-  EXPECT_THAT(text, ::testing::HasSubstr("2 retries"));
-  EXPECT_THAT(text, ::testing::HasSubstr("1 alive of 2"));
-  EXPECT_THAT(text, ::testing::HasSubstr("set aside: a"));
-  EXPECT_THAT(text, ::testing::HasSubstr("leaving: a"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("align +0/1 +0 +0 +2 "));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("merge"))) << "nothing is known of it";
+}
+
+TEST(FormatJobStatus, SaysHowLongARunningJobMayTake) {
+  JobStatus job = Example();
+  job.state = JobState::kRunning;
+  job.stages = {{.stage = "align", .tasks_total = 2, .tasks_done = 1}};
+  EXPECT_THAT(FormatJobLine(job), ::testing::HasSubstr(" 50 %  1 min 01 s  about 1 min 01 s left"));
+  EXPECT_EQ(nlohmann::json::parse(JobStatusToJson(job))["eta_s"], 61.0);
+}
+
+TEST(FormatWorkers, SaysWhoIsThereAndWhoGetsNoMore) {
+  const std::string text =
+      FormatWorkers({{.name = "a", .tasks_done = 4},
+                     {.name = "b", .alive = false},
+                     {.name = "c", .slots = 3, .draining = true, .tasks_running = 2},
+                     {.name = "d", .set_aside = true}});
+  EXPECT_THAT(text, ::testing::ContainsRegex("a +4 +1 +0  at work\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("b +0 +1 +0  gone\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("c +0 +3 +2  draining\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("d +0 +1 +0  set aside"));
 }
 
 TEST(JobStatusToJson, NamesEverything) {
@@ -37,6 +55,7 @@ TEST(JobStatusToJson, NamesEverything) {
   EXPECT_EQ(job["id"], DigestOf("job").ToHex());
   EXPECT_EQ(job["state"], "failed");
   EXPECT_EQ(job["error"], Example().error);
+  EXPECT_TRUE(job["eta_s"].is_null()) << "nothing to go by";
   EXPECT_EQ(job["stages"].size(), 2U);
   EXPECT_EQ(job["stages"][0]["retries"], 2);
   EXPECT_EQ(job["workers"][1]["alive"], false);

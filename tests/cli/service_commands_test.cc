@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `serve`, `work`, `status` and `cancel` as real processes: this executable plays the command, with
-// the stages of the toy job.
+// `serve`, `work`, `status`, `jobs`, `cancel`, `retry` and `drain` as real processes: this
+// executable plays the command, with the stages of the toy job.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cli/cancel_command.h"
+#include "cli/drain_command.h"
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
+#include "cli/jobs_command.h"
+#include "cli/retry_command.h"
 #include "cli/serve_command.h"
 #include "cli/status_command.h"
 #include "cli/work_command.h"
@@ -104,6 +107,38 @@ TEST_F(ServiceCommands, StatusAndCancelFollowAJob) {
             kExitUsage);
 }
 
+TEST_F(ServiceCommands, RetryLetsAnEndedJobGoOn) {
+  GrpcCoordinatorClient client(address_);
+  JobSpec spec{.kind = "sparse", .label = "street"};
+  spec.inputs.push_back(*client.Put("sources"));
+  const auto id = client.SubmitJob(spec);
+  ASSERT_TRUE(id.ok()) << id.status();
+  const std::vector<std::string> retry =
+      Orbweave({"retry", "--coordinator", address_, id->ToShortHex()});
+  EXPECT_EQ(RunCommand(retry).exit_code, kExitUsage) << "it is running";
+  // This worker knows no stage of the job, which fails it.
+  Command worker(Orbweave({"work", "--join", address_, "--name", "w"}));
+  const auto listed = [this](const std::string& state) {
+    return RunCommand(Orbweave({"jobs", "--coordinator", address_})).out.find(state) !=
+           std::string::npos;
+  };
+  ASSERT_TRUE(WaitUntil([&] { return listed("failed"); }, 60.0));
+  worker.Signal(SIGTERM);
+  (void)worker.Wait();
+  const CommandOutcome retried = RunCommand(retry);
+  EXPECT_EQ(retried.exit_code, kExitOk) << retried.err;
+  EXPECT_TRUE(listed("job " + id->ToShortHex() + "  running"));
+}
+
+TEST_F(ServiceCommands, ADrainedWorkerEndsByItself) {
+  const std::vector<std::string> drain = Orbweave({"drain", "--coordinator", address_, "w"});
+  EXPECT_EQ(RunCommand(drain).exit_code, kExitUsage) << "there is no such worker yet";
+  Command worker(Orbweave({"work", "--join", address_, "--name", "w"}));
+  ASSERT_TRUE(WaitUntil([&] { return RunCommand(drain).exit_code == kExitOk; }, 60.0));
+  EXPECT_TRUE(WaitUntil([&] { return !worker.Running(); }, 60.0));
+  EXPECT_EQ(worker.Wait().exit_code, kExitOk);
+}
+
 TEST_F(ServiceCommands, JobsSurviveAKilledCoordinator) {
   const auto submit = [this] {
     GrpcCoordinatorClient client(address_);
@@ -140,6 +175,9 @@ int BeTheCommand(int argc, char** argv) {
   AddExecTasksCommand(app, selected, lookup);
   AddStatusCommand(app, selected);
   AddCancelCommand(app, selected);
+  AddJobsCommand(app, selected);
+  AddRetryCommand(app, selected);
+  AddDrainCommand(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError&) {

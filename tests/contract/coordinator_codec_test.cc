@@ -18,7 +18,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
                                   .label = "street"},
                          .elapsed_s = 1.5,
                          .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}},
-                         .workers = {{"w", 2, 3, false, true, true}}};
+                         .workers = {{"w", 2, 3, false, true, true, 1}}};
   const auto back = FromProto(ToProto(status));
   ASSERT_TRUE(back.ok());
   EXPECT_EQ(back->id, status.id);
@@ -42,6 +42,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   EXPECT_EQ(back->workers.at(0).tasks_done, 3U);
   EXPECT_FALSE(back->workers.at(0).alive);
   EXPECT_TRUE(back->workers.at(0).set_aside);
+  EXPECT_EQ(back->workers.at(0).tasks_running, 1U);
   EXPECT_TRUE(back->workers.at(0).draining);
 }
 

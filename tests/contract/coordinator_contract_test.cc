@@ -14,6 +14,7 @@
 #include "coordinator/grpc_server.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
+#include "tests/support/grpc_health.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
@@ -299,6 +300,15 @@ TEST_P(CoordinatorContract, CancellingTakesTheTasksBack) {
               ElementsAre(lease.task));
 }
 
+TEST_P(CoordinatorContract, TellsHowManyTasksAWorkerHolds) {
+  const Digest job = Submit("1");
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const Lease lease = MustLease(session);
+  EXPECT_EQ(Api().GetJob(job)->workers.at(0).tasks_running, 1U);
+  EXPECT_TRUE(Do(session, lease).ok());
+  EXPECT_EQ(Api().GetJob(job)->workers.at(0).tasks_running, 0U);
+}
+
 TEST_P(CoordinatorContract, SubmittingTheSameJobJoinsIt) {
   const Digest job = Submit("1 2");
   EXPECT_EQ(Submit("1 2"), job);
@@ -327,6 +337,17 @@ TEST(GrpcServer, RefusesAnAddressThatOthersCanReach) {
   const auto coordinator = Coordinator::Open({.state_dir = folder.Path()}, clock);
   ASSERT_TRUE(coordinator.ok());
   EXPECT_TRUE(absl::IsInvalidArgument(GrpcServer::Start(**coordinator, "0.0.0.0:0").status()));
+}
+
+TEST(GrpcServer, AnswersHealthChecks) {
+  const TemporaryFolder folder;
+  const SteadyClock clock;
+  const auto coordinator = Coordinator::Open({.state_dir = folder.Path()}, clock);
+  ASSERT_TRUE(coordinator.ok());
+  const auto server = GrpcServer::Start(**coordinator, "127.0.0.1:0");
+  ASSERT_TRUE(server.ok());
+  EXPECT_EQ(testing::AskHealth((*server)->address()), testing::Health::kServing);
+  EXPECT_EQ(testing::AskHealth("unix:" + (folder / "nobody")), testing::Health::kNoAnswer);
 }
 
 TEST(GrpcServer, SaysSoWhenAPortIsTaken) {

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/jobs_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/coordinator_argument.h"
+#include "cli/exit_code.h"
+#include "cli/format_status.h"
+#include "cli/name_coordinator.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+struct JobsOptions {
+  CoordinatorArgument coordinator{};
+};
+
+absl::Status ListJobs(const JobsOptions& options) {
+  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
+  GrpcCoordinatorClient coordinator(
+      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
+  if (jobs.empty()) std::puts("no jobs");
+  for (const JobStatus& job : jobs) std::fputs(FormatJobLine(job).c_str(), stdout);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddJobsCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("jobs", "List the jobs of a coordinator");
+  const auto options = std::make_shared<JobsOptions>();
+  AddCoordinatorArgument(*command, options->coordinator);
+  command->footer(
+      "Example:\n"
+      "  orbweave jobs --coordinator 127.0.0.1:7000\n"
+      "The oldest comes first, which is the order they are served in.");
+  command->callback([options, &selected] {
+    selected.run = [options] {
+      return ReportStatus(NameCoordinator(ListJobs(*options), options->coordinator.address));
+    };
+  });
+}
+
+}  // namespace orbweave
