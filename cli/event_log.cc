@@ -20,18 +20,6 @@
 namespace orbweave {
 namespace {
 
-const char* LevelName(LogLevel level) {
-  switch (level) {
-    case LogLevel::kInfo:
-      return "info";
-    case LogLevel::kWarning:
-      return "warning";
-    case LogLevel::kError:
-      return "error";
-  }
-  return "unknown";
-}
-
 /// "2026-05-01T09:30:00.125Z".
 std::string FormatTime(double time_s) {
   const auto time_ms = static_cast<int64_t>(std::llround(time_s * 1e3));
@@ -54,7 +42,7 @@ void WriteLine(std::FILE* file, const LogEvent& event) {
 
 std::string LogEventToJson(const LogEvent& event, double time_s) {
   nlohmann::ordered_json line = {
-      {"time", FormatTime(time_s)}, {"level", LevelName(event.level)}, {"event", event.event}};
+      {"time", FormatTime(time_s)}, {"level", LogLevelName(event.level)}, {"event", event.event}};
   if (!event.job.IsZero()) line["job"] = event.job.ToHex();
   if (!event.stage.empty()) line["stage"] = event.stage;
   if (event.part) line["part"] = *event.part;

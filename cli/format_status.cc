@@ -24,20 +24,6 @@ nlohmann::json EtaToJson(const ProgressView& view) {
 
 }  // namespace
 
-std::string_view JobStateName(JobState state) {
-  switch (state) {
-    case JobState::kRunning:
-      return "running";
-    case JobState::kDone:
-      return "done";
-    case JobState::kFailed:
-      return "failed";
-    case JobState::kCancelled:
-      return "cancelled";
-  }
-  return "unknown";
-}
-
 std::string FormatJobLine(const JobStatus& status) {
   const ProgressView view = ViewProgress(status);
   std::string text = absl::StrFormat("job %s  %-9s  %3.0f %%  %s",

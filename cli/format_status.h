@@ -3,15 +3,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/pipeline/coordinator_api.h"
 
 namespace orbweave {
-
-/// "running", "done", "failed" or "cancelled".
-[[nodiscard]] std::string_view JobStateName(JobState state);
 
 /// A job as one line: id, state, how far it is, how long it takes, label.
 [[nodiscard]] std::string FormatJobLine(const JobStatus& status);

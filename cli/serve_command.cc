@@ -17,6 +17,8 @@
 #include "cli/stop_signals.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
+#include "coordinator/journal_meter.h"
+#include "coordinator/metrics_server.h"
 #include "coordinator/postgres_journal.h"
 
 namespace orbweave {
@@ -25,6 +27,7 @@ namespace {
 struct ServeOptions {
   std::string listen{};
   std::string journal{};  ///< of a PostgreSQL database; empty: in the state folder
+  std::string metrics{};  ///< address to serve them on; empty: nowhere
   ServerOptions server{};
   CoordinatorOptions coordinator{};
 };
@@ -37,12 +40,37 @@ void WaitForStop(const std::stop_token& stop) {
 }
 
 /// To stderr for who watches the process, and to a file beside the state for who comes later.
-absl::StatusOr<EventLog> OpenLog(const std::string& state_dir) {
+absl::StatusOr<EventLog> OpenLog(const std::string& state_dir, MetricsCounters& counters) {
   ORBWEAVE_ASSIGN_OR_RETURN(EventLog file, OpenEventLog(CoordinatorLogPath(state_dir)));
-  return [file = std::move(file)](const LogEvent& event) {
+  return [file = std::move(file), &counters](const LogEvent& event) {
+    counters.CountEvent(event);
     file(event);
     LogToStderr(event);
   };
+}
+
+absl::StatusOr<std::unique_ptr<Journal>> OpenMeteredJournal(const ServeOptions& options,
+                                                            MetricsCounters& counters) {
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
+                            options.journal.empty() ? OpenJournal(options.coordinator.state_dir)
+                                                    : OpenPostgresJournal(options.journal));
+  return MeterJournal(
+      std::move(journal),
+      [&counters](std::string_view what, double wait_s, const absl::Status& status) {
+        counters.CountSave(what, wait_s, status);
+      });
+}
+
+/// Null when nobody asked for metrics.
+absl::StatusOr<std::unique_ptr<MetricsServer>> ServeMetrics(Coordinator& coordinator,
+                                                            const MetricsCounters& counters,
+                                                            const std::string& address,
+                                                            const EventLog& log) {
+  if (address.empty()) return nullptr;
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<MetricsServer> server,
+                            MetricsServer::Start(coordinator, counters, address));
+  log({.event = "metrics_ready", .message = absl::StrCat("address=", server->address())});
+  return server;
 }
 
 absl::Status Serve(const ServeOptions& options) {
@@ -50,18 +78,19 @@ absl::Status Serve(const ServeOptions& options) {
   ServerOptions server_options = options.server;
   server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
   const SteadyClock clock;
-  ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir));
+  MetricsCounters counters;
+  ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir, counters));
   CoordinatorOptions coordinator_options = options.coordinator;
   coordinator_options.log = log;
-  if (!options.journal.empty()) {
-    coordinator_options.open_journal = [&options](const std::string&) {
-      return OpenPostgresJournal(options.journal);
-    };
-  }
+  coordinator_options.open_journal = [&](const std::string&) {
+    return OpenMeteredJournal(options, counters);
+  };
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto metrics,
+                            ServeMetrics(*coordinator, counters, options.metrics, log));
   log({.event = "coordinator_ready",
        .message =
            absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
@@ -103,6 +132,8 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
                   options->server.roots,
                   "Folder beneath which clients may name images, instead of sending them "
                   "(repeatable)");
+  command->add_option(
+      "--metrics", options->metrics, "Serve Prometheus metrics at http://ADDRESS/metrics");
   command
       ->add_option("--lease",
                    options->coordinator.lease_s,
@@ -115,6 +146,7 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave serve --listen unix:/tmp/orbweave.sock --state state --lease 60\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state --journal postgresql://db/orbweave\n"
       "  orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state\n"
+      "  orbweave serve --listen 127.0.0.1:7000 --state state --metrics 127.0.0.1:9464\n"
       "Started again on the same state it goes on where it was. The log, one JSON object per line, "
       "goes to stderr and to logs/coordinator.log in the state folder.");
   command->callback(

@@ -2,12 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "core/pipeline/blob_access.h"
 
 namespace orbweave {
+
+/// Bytes of blobs that were put and got.
+struct BlobTraffic {
+  uint64_t bytes_in = 0;
+  uint64_t bytes_out = 0;
+};
 
 /// Blobs in a folder: `<folder>/ab/<hex>` holds the bytes, `<folder>/links/<hex>` the absolute path
 /// of a file outside that holds them. A blob is written once and whole. Every read is verified; a

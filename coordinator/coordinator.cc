@@ -64,9 +64,17 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
 
 Coordinator::~Coordinator() { BeginShutdown(); }
 
-absl::StatusOr<std::string> Coordinator::Get(const Digest& digest) { return blobs_.Get(digest); }
+absl::StatusOr<std::string> Coordinator::Get(const Digest& digest) {
+  absl::StatusOr<std::string> bytes = blobs_.Get(digest);
+  if (bytes.ok()) bytes_out_ += bytes->size();
+  return bytes;
+}
 
-absl::StatusOr<Digest> Coordinator::Put(std::string_view bytes) { return blobs_.Put(bytes); }
+absl::StatusOr<Digest> Coordinator::Put(std::string_view bytes) {
+  absl::StatusOr<Digest> digest = blobs_.Put(bytes);
+  if (digest.ok()) bytes_in_ += bytes.size();
+  return digest;
+}
 
 absl::StatusOr<std::vector<bool>> Coordinator::StatBlobs(const std::vector<Digest>& digests) {
   std::vector<bool> stored;
@@ -227,6 +235,11 @@ absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
     jobs.back().workers = dispatcher_.WorkerStatuses(now_s);
   }
   return jobs;
+}
+
+std::vector<WorkerStatus> Coordinator::ListWorkers() {
+  const std::lock_guard lock(mutex_);
+  return dispatcher_.WorkerStatuses(clock_.NowSeconds());
 }
 
 absl::Status Coordinator::CancelJob(const Digest& id) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -80,6 +81,10 @@ class Coordinator final : public CoordinatorApi {
 
   /// Somebody saw the process of this worker end: its leases are void at once.
   void WorkerDied(std::string_view name);
+  /// Whoever ever joined, by name.
+  [[nodiscard]] std::vector<WorkerStatus> ListWorkers();
+  /// Of workers and clients, since the start.
+  [[nodiscard]] BlobTraffic blob_traffic() const { return {bytes_in_, bytes_out_}; }
   /// Wakes every waiting call, gives no more tasks and tells workers to leave.
   void BeginShutdown();
 
@@ -102,6 +107,8 @@ class Coordinator final : public CoordinatorApi {
   StateLock lock_;
   BlobStore blobs_;
   std::unique_ptr<Journal> journal_;
+  std::atomic<uint64_t> bytes_in_{0};
+  std::atomic<uint64_t> bytes_out_{0};
 
   std::mutex mutex_;
   std::condition_variable changed_;  ///< a task may be ready, or the end is near

@@ -224,6 +224,9 @@ void Dispatcher::EndVoid(const LeaseEntry& entry, const std::string& reason) {
 
 void Dispatcher::ExpireLeases(double now_s) {
   for (const LeaseEntry& entry : book_.TakeExpired(now_s)) {
+    LogEvent event = Describe(entry, "lease_expired");
+    event.level = LogLevel::kWarning;
+    Log(event);
     const bool came_back = entry.session != 0;
     EndAttempt(entry,
                came_back

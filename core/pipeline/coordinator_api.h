@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/stage_context.h"
@@ -24,6 +25,9 @@ struct JobSpec {
 };
 
 enum class JobState : uint8_t { kRunning, kDone, kFailed, kCancelled };
+
+/// "running", "done", "failed" or "cancelled".
+[[nodiscard]] std::string_view JobStateName(JobState state);
 
 /// What is known of a stage of a job.
 struct StageStatus {

@@ -17,6 +17,9 @@ enum class LogLevel : uint8_t {
   kError     ///< somebody has to look
 };
 
+/// "info", "warning" or "error".
+[[nodiscard]] const char* LogLevelName(LogLevel level);
+
 /// One thing that happened in a coordinator or a worker. What does not apply is left empty. Secrets
 /// and the bytes of blobs never get here.
 struct LogEvent {

@@ -17,6 +17,7 @@
 #include "cli/status_command.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
+#include "tests/support/http_get.h"
 #include "tests/support/toy_job.h"
 #include "worker/grpc_coordinator_client.h"
 
@@ -67,6 +68,23 @@ TEST_F(ServiceCommands, ServeRefusesAnAddressThatOthersCanReach) {
       RunCommand(Orbweave({"serve", "--listen", "0.0.0.0:7171", "--state", folder_ / "other"}));
   EXPECT_EQ(open.exit_code, kExitUsage);
   EXPECT_THAT(open.err, HasSubstr("without TLS"));
+}
+
+TEST_F(ServiceCommands, ServesMetricsWhereItIsAskedTo) {
+  Command serve(Orbweave({"serve",
+                          "--listen",
+                          "127.0.0.1:0",
+                          "--state",
+                          folder_ / "other",
+                          "--metrics",
+                          "127.0.0.1:0"}));
+  ASSERT_TRUE(WaitUntil(
+      [&] { return serve.ErrSoFar().find("coordinator_ready") != std::string::npos; }, 60.0));
+  const std::string log = serve.ErrSoFar();
+  const size_t begin = log.find("address=127.0.0.1:") + sizeof("address=") - 1;
+  const std::string address = log.substr(begin, log.find('"', begin) - begin);
+  EXPECT_THAT(testing::HttpGet(address, "/metrics"),
+              HasSubstr("orbweave_events_total{event=\"coordinator_ready\",level=\"info\"} 1\n"));
 }
 
 TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
