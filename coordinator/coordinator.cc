@@ -139,6 +139,15 @@ absl::StatusOr<Lease> Coordinator::HandOut(uint64_t session, const Grant& grant)
   const absl::Status saved = journal_->SaveStart(grant.attempt);
   if (saved.ok()) return grant.lease;
   const std::lock_guard lock(mutex_);
+  dispatcher_.Log({.level = LogLevel::kError,
+                   .event = "start_not_saved",
+                   .job = grant.attempt.job,
+                   .stage = grant.attempt.stage,
+                   .part = grant.attempt.part,
+                   .task = grant.attempt.task,
+                   .worker = grant.attempt.worker,
+                   .epoch = grant.attempt.epoch,
+                   .message = std::string(saved.message())});
   dispatcher_
       .TaskFailed(session,
                   grant.lease,
