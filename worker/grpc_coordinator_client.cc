@@ -58,7 +58,8 @@ v1::JobRequest RequestFor(const Digest& job) {
 GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
                                              std::stop_token stop,
                                              const ClientOptions& options)
-    : stub_(v1::Coordinator::NewStub(OpenChannel(address, options.tls_folder))),
+    : channel_(OpenChannel(address, options.tls_folder)),
+      stub_(v1::Coordinator::NewStub(channel_)),
       stop_(std::move(stop)),
       roots_(options.roots) {}
 
@@ -94,7 +95,14 @@ absl::StatusOr<Digest> GrpcCoordinatorClient::Put(std::string_view bytes) {
   return absl::UnavailableError(absl::StrCat("blob ", digest.ToShortHex(), " arrived damaged"));
 }
 
+void GrpcCoordinatorClient::AwaitConnection() {
+  constexpr std::chrono::seconds kPatience{2};
+  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return;
+  channel_->WaitForConnected(std::chrono::system_clock::now() + kPatience);
+}
+
 absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) {
+  AwaitConnection();
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::JoinReply reply,
                             Call(*stub_, &Stub::Join, ToProto(worker), kQuick_s));
   return FromProto(reply);
@@ -103,6 +111,7 @@ absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) 
 absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t session,
                                                                       uint32_t slot,
                                                                       double wait_s) {
+  AwaitConnection();
   v1::LeaseTaskRequest request;
   request.set_session(session);
   request.set_slot(slot);
@@ -119,6 +128,7 @@ absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t s
 
 absl::StatusOr<HeartbeatReply> GrpcCoordinatorClient::Heartbeat(
     uint64_t session, const std::vector<LeaseProgress>& leases) {
+  AwaitConnection();
   v1::HeartbeatRequest request;
   request.set_session(session);
   for (const LeaseProgress& lease : leases) *request.add_leases() = ToProto(lease);

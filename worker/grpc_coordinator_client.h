@@ -59,6 +59,12 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
 
  private:
+  /// Gives a connection that was lost time to come back. gRPC only drives a handshake while
+  /// somebody waits for the channel: calls that fail at once, with pauses between them, never end
+  /// one that takes several round trips.
+  void AwaitConnection();
+
+  std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::Coordinator::Stub> stub_;
   std::stop_token stop_;
   std::map<std::string, std::string> roots_;

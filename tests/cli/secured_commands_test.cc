@@ -94,7 +94,7 @@ TEST_F(SecuredCommands, AWorkerJoinsWithNothingButATokenAndLaterWithoutIt) {
     EXPECT_TRUE(CoordinatorSays("certificate_given"));
     worker.Signal(SIGTERM);
     EXPECT_EQ(worker.Wait().exit_code, kExitOk);
-    EXPECT_TRUE(CoordinatorSays("worker left"));
+    EXPECT_TRUE(CoordinatorSays("worker_left"));
     EXPECT_THAT(worker.ErrSoFar(), Not(HasSubstr(ReadAll(token))));
   }
   EXPECT_THAT(serve_->ErrSoFar(), Not(HasSubstr(ReadAll(token))));
