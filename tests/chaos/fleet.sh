@@ -75,7 +75,7 @@ start_coordinator() {
   log=$fleet/coordinator.$((++starts)).log
   (become hub coordinator serve --listen "$address" --state "$state" --lease "$lease_s" >"$log" 2>&1) &
   pid_of[coordinator]=$!
-  wait_until "the coordinator" 30 grep -qs "coordinator ready" "$log"
+  wait_until "the coordinator" 30 grep -qs "coordinator_ready" "$log"
 }
 
 start_worker() {
