@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/merging/adjust_globally.h"
+#include "core/merging/adjust_blocks.h"
 #include "core/merging/attach_loose_images.h"
 #include "core/merging/rim.h"
 #include "core/stages/advance_adjustment.h"
@@ -133,16 +133,23 @@ absl::StatusOr<TaskResult> RunJoinSubmodels(const TaskSpec& spec,
                             FetchInput(spec, 1, blobs, DecodeDividedViewGraph));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> clusters,
                             FetchInput(spec, 2, blobs, DecodeCollection));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> rims, LoadRims(spec, 3, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> rim_blobs,
+                            FetchInput(spec, 3, blobs, DecodeCollection));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Submodel> rims, LoadRims(rim_blobs, blobs));
   ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 4, blobs, DecodeAlignment));
   if (alignment.world.size() != rims.size())
     return absl::InvalidArgumentError("join_submodels: the alignment is of other submodels");
   // Options of later steps do not change what is drawn, so that blocks keep their names.
   StageContext seeded = context;
   seeded.seed = spec.inputs[3].ToSeed();
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      JoinedSubmodels joined,
-      JoinSubmodels(rims, alignment, divided.partition, manifest, options.global, seeded));
+  ORBWEAVE_ASSIGN_OR_RETURN(JoinedSubmodels joined,
+                            JoinSubmodels(std::move(rims),
+                                          alignment,
+                                          divided.partition,
+                                          manifest,
+                                          options.align,
+                                          options.global,
+                                          seeded));
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeJoinedWorlds(joined.worlds), blobs, result));
@@ -165,10 +172,9 @@ absl::StatusOr<TaskResult> RunAssembleBlock(const TaskSpec& spec,
                             FetchInput(spec, 0, blobs, DecodeAssembleRecipe));
   ORBWEAVE_ASSIGN_OR_RETURN(const ClusterResult cluster,
                             FetchBlob(recipe.cluster_result, blobs, DecodeClusterResult));
-  std::vector<std::vector<Track>> inner;
+  std::vector<Reconstruction> inner;
   for (const PlacedComponent& placed : recipe.joined.components) {
-    inner.push_back(
-        InnerTracksOf(cluster.reconstruction.components.at(placed.component), recipe.shared));
+    inner.push_back(InnerOf(cluster.reconstruction.components.at(placed.component), recipe.shared));
   }
   const WorldBlock block = AssembleBlock(std::move(recipe.joined), std::move(inner));
   TaskResult result;

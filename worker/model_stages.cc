@@ -8,7 +8,6 @@
 #include "core/graph/build_view_graph.h"
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/partition_view_graph.h"
-#include "core/merging/align_submodels.h"
 #include "core/merging/review_seams.h"
 #include "core/merging/rim.h"
 #include "core/scene/view_edge_of.h"
@@ -153,39 +152,6 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
                                       {"started_globally", cluster.reconstruction.started_globally},
                                       {"start_remark", cluster.reconstruction.start_remark}}
                            .dump();
-  return result;
-}
-
-absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
-                                             BlobAccess& blobs,
-                                             const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Submodel> submodels, LoadRims(spec, 0, blobs));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment,
-                            AlignSubmodels(submodels, options.align, context));
-  TaskResult result;
-  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeAlignment(alignment), blobs, result));
-  result.report_json =
-      nlohmann::json{{"submodels", submodels.size()}, {"seams", alignment.seams.size()}}.dump();
-  return result;
-}
-
-absl::StatusOr<TaskResult> RunReviewSeams(const TaskSpec& spec,
-                                          BlobAccess& blobs,
-                                          const StageContext&) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph divided,
-                            FetchInput(spec, 0, blobs, DecodeDividedViewGraph));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, FetchInput(spec, 1, blobs, DecodeAlignment));
-  ORBWEAVE_ASSIGN_OR_RETURN(const PartitionReview before,
-                            FetchInput(spec, 2, blobs, DecodePartitionReview));
-  const PartitionReview review =
-      ReviewSeams(divided.partition, alignment, before, options.partition);
-  TaskResult result;
-  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodePartitionReview(review), blobs, result));
-  if (review.rounds > before.rounds) result.recipes = result.outputs;
-  result.report_json =
-      nlohmann::json{{"rounds", review.rounds}, {"requests", review.requests.size()}}.dump();
   return result;
 }
 

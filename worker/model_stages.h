@@ -6,7 +6,7 @@
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/task.h"
 
-/// The stages from verified pairs to aligned submodels, as tasks. Inputs and outputs:
+/// The stages from verified pairs to submodels, as tasks. Inputs and outputs:
 /// core/pipeline/job_plan.cc.
 
 namespace orbweave {
@@ -20,14 +20,5 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
 absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
                                                  BlobAccess& blobs,
                                                  const StageContext& context);
-/// Rims -> Alignment.
-absl::StatusOr<TaskResult> RunAlignSubmodels(const TaskSpec& spec,
-                                             BlobAccess& blobs,
-                                             const StageContext& context);
-/// DividedViewGraph, Alignment, PartitionReview of the round before -> PartitionReview; a recipe
-/// when anybody asks for more overlap.
-absl::StatusOr<TaskResult> RunReviewSeams(const TaskSpec& spec,
-                                          BlobAccess& blobs,
-                                          const StageContext& context);
 
 }  // namespace orbweave

@@ -20,19 +20,15 @@ absl::StatusOr<ExtractedBlobs> SplitExtracted(std::string_view collection) {
   return blobs;
 }
 
-absl::StatusOr<std::vector<Submodel>> LoadRims(const TaskSpec& spec,
-                                               size_t index,
-                                               BlobAccess& blobs) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests,
-                            FetchInput(spec, index, blobs, DecodeCollection));
-  std::vector<Submodel> rims;
-  for (const Digest& digest : digests) {
+absl::StatusOr<std::vector<Submodel>> LoadRims(std::span<const Digest> rims, BlobAccess& blobs) {
+  std::vector<Submodel> submodels;
+  for (const Digest& digest : rims) {
     ORBWEAVE_ASSIGN_OR_RETURN(ClusterResult rim, FetchBlob(digest, blobs, DecodeClusterResult));
     uint32_t component = 0;
     for (Reconstruction& reconstruction : rim.reconstruction.components)
-      rims.push_back({rim.cluster, component++, std::move(reconstruction)});
+      submodels.push_back({rim.cluster, component++, std::move(reconstruction)});
   }
-  return rims;
+  return submodels;
 }
 
 }  // namespace orbweave

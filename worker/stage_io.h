@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/status.h"
-#include "core/merging/align_submodels.h"
+#include "core/merging/submodel.h"
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/job_plan.h"
 #include "core/pipeline/task.h"
@@ -65,10 +66,7 @@ struct ExtractedBlobs {
 };
 absl::StatusOr<ExtractedBlobs> SplitExtracted(std::string_view collection);
 
-/// The rims of all submodels, from the collection that is input number `index`: every component of
-/// every cluster, by cluster and then by size.
-absl::StatusOr<std::vector<Submodel>> LoadRims(const TaskSpec& spec,
-                                               size_t index,
-                                               BlobAccess& blobs);
+/// The submodels that rims of clusters hold, by cluster and then by size.
+absl::StatusOr<std::vector<Submodel>> LoadRims(std::span<const Digest> rims, BlobAccess& blobs);
 
 }  // namespace orbweave

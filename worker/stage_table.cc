@@ -2,24 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worker/stage_table.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <map>
 #include <string>
+#include <thread>
 
 #include "worker/adjustment_stages.h"
 #include "worker/image_stages.h"
 #include "worker/model_stages.h"
+#include "worker/seam_stages.h"
 
 namespace orbweave {
 
 namespace {
 
-/// Memory of a process for blocks between two half-steps: 1 GiB.
-constexpr size_t kKeptObservations = (size_t{1} << 30) / KeptBlocks::kBytesPerObservation;
+/// Memory of a process for blocks between two half-steps: where every core has a worker, a quarter
+/// of the machine's for all of them.
+size_t KeptBytes() {
+  const auto pages = static_cast<size_t>(std::max(0L, sysconf(_SC_PHYS_PAGES)));
+  const auto page_bytes = static_cast<size_t>(std::max(0L, sysconf(_SC_PAGESIZE)));
+  return pages * page_bytes / 4 / std::max(1U, std::thread::hardware_concurrency());
+}
 
 absl::StatusOr<TaskResult> AdjustBlockOfThisProcess(const TaskSpec& spec,
                                                     BlobAccess& blobs,
                                                     const StageContext& context) {
-  static auto* const kKept = new KeptBlocks(kKeptObservations);
+  static auto* const kKept = new KeptBlocks(KeptBytes() / KeptBlocks::kBytesPerObservation);
   return RunAdjustBlock(spec, blobs, context, *kKept);
 }
 
@@ -34,6 +44,8 @@ const StageFunction* FindStage(std::string_view stage) {
       {"verify_matches", RunMatchImages},
       {"partition_view_graph", RunPartitionViewGraph},
       {"reconstruct_cluster", RunReconstructCluster},
+      {"list_seams", RunListSeams},
+      {"fit_seams", RunFitSeams},
       {"align_submodels", RunAlignSubmodels},
       {"review_seams", RunReviewSeams},
       {"join_submodels", RunJoinSubmodels},

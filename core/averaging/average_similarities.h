@@ -17,6 +17,8 @@ struct SimilarityEdge {
   SimilarityChart measured{};                   ///< chart.a_from_b is the measurement
   Matrix7d information = Matrix7d::Identity();  ///< inverse covariance in its coordinates
   double strength = 1.0;  ///< which edges to believe first, e.g. a number of inliers
+  /// SimilaritySolver: counts by least squares, whatever the loss of the other edges.
+  bool is_certain = false;
 };
 
 struct SimilarityGraph {

@@ -64,7 +64,9 @@ double SimilaritySolver::Cost(const std::vector<Sim3>& world_from_node,
   const std::vector<double> errors = Errors(world_from_node);
   double cost = 0.0;
   for (size_t e = 0; e < errors.size(); ++e) {
-    if (is_used[e] != 0) cost += loss.Cost(errors[e] * errors[e]);
+    if (is_used[e] == 0) continue;
+    const double squared = errors[e] * errors[e];
+    cost += graph_.edges[e].is_certain ? squared : loss.Cost(squared);
   }
   return cost;
 }
@@ -84,7 +86,8 @@ SimilaritySolver::NormalEquations SimilaritySolver::Linearise(
         LineariseSimilarityEdge(edge.measured,
                                 {world_from_node[edge.a], graph_.node_length[edge.a]},
                                 {world_from_node[edge.b], graph_.node_length[edge.b]});
-    const Matrix7d W = loss.Weight(r.dot(edge.information * r)) * edge.information;
+    const double weight = edge.is_certain ? 1.0 : loss.Weight(r.dot(edge.information * r));
+    const Matrix7d W = weight * edge.information;
     const int a = column_[edge.a];
     const int b = column_[edge.b];
     if (a >= 0) {

@@ -52,12 +52,13 @@ BundleProblem PriorsByFactor(const LinearisedBundle& bundle, const VarianceFacto
   return priors;
 }
 
-std::optional<std::vector<Block6>> InvertDiagonal(ReducedSystem& system) {
+std::optional<std::vector<Block6>> InvertDiagonal(ReducedSystem system) {
   BlockCholesky cholesky(system.S);
   if (!cholesky.Factorize(system.S)) {
     DampPoses(kPoseDamping, system);
     if (!cholesky.Factorize(system.S)) return std::nullopt;
   }
+  system = {};  // the inverse is larger
   return cholesky.InverseDiagonal();
 }
 
@@ -88,7 +89,7 @@ PoseCovariances CovariancesOfSystem(const LinearisedBundle& bundle,
   Scale(1.0 / factors.bearings, bearings);
   AddPriorTerms(PriorsByFactor(bundle, factors), bundle.layout, bundle.state, bearings);
   const double stiffness = AddDistanceSpring(bundle.gauge, bundle.layout, bundle.state, bearings);
-  const std::optional<std::vector<Block6>> blocks = InvertDiagonal(bearings);
+  const std::optional<std::vector<Block6>> blocks = InvertDiagonal(std::move(bearings));
   if (!blocks) {
     result.reason = "the normal equations of the poses are not positive definite";
     return result;

@@ -10,11 +10,8 @@
 #include <utility>
 
 #include "core/base/parallel_for.h"
-#include "core/distributed_bundle/block_solver.h"
+#include "core/distributed_bundle/block_path.h"
 #include "core/distributed_bundle/divide_into_blocks.h"
-#include "core/distributed_bundle/judge_trial.h"
-#include "core/distributed_bundle/separator_tree.h"
-#include "core/distributed_bundle/solve_along_tree.h"
 
 namespace orbweave {
 namespace {
@@ -47,17 +44,14 @@ class BlockwiseSolver {
         num_threads_(num_threads),
         solvers_(blocks.size()),
         states_(blocks.size()),
-        blocks_(blocks) {
-    for (const AdjustmentBlock& block : blocks) separators_.push_back(block.separators);
-    tree_ = MakeSeparatorTree(separators_);
-  }
+        blocks_(blocks) {}
 
   absl::Status Solve(const StageContext& context) {
     Start();
     absl::Status status;
-    while (WantsStep(path_, options_) && (status = context.CheckStop()).ok()) {
+    while (WantsStep(path_.steps, options_) && (status = context.CheckStop()).ok()) {
       TakeStep();
-      if (path_.accepted) report_.accepted_costs.push_back(path_.cost);
+      if (path_.steps.accepted) report_.accepted_costs.push_back(path_.steps.cost);
     }
     return status;
   }
@@ -73,15 +67,15 @@ class BlockwiseSolver {
   [[nodiscard]] BlockwiseReport Report(size_t num_biases) const {
     BlockwiseReport report = report_;
     report.bundle.initial_cost = report.accepted_costs.front();
-    report.bundle.final_cost = path_.cost;
-    report.bundle.iterations = path_.iterations;
-    report.bundle.converged = path_.converged;
+    report.bundle.final_cost = path_.steps.cost;
+    report.bundle.iterations = path_.steps.iterations;
+    report.bundle.converged = path_.steps.converged;
     report.bundle.biases_m.assign(num_biases, Eigen::Vector3d::Zero());
     for (size_t b = 0; b < blocks_.size(); ++b) {
       for (size_t i = 0; i < blocks_[b].bias_ids.size(); ++i) {
         report.bundle.biases_m[blocks_[b].bias_ids[i]] = states_[b].variables.biases[i];
       }
-      report.separators_of_block.push_back(static_cast<uint32_t>(separators_[b].size()));
+      report.separators_of_block.push_back(static_cast<uint32_t>(blocks_[b].separators.size()));
     }
     return report;
   }
@@ -100,27 +94,24 @@ class BlockwiseSolver {
       costs[b] = start.cost.cost;
       states_[b] = std::move(start.state);
     });
-    double cost = 0.0;
-    for (const double block_cost : costs) cost += block_cost;
-    path_ = StartLevenbergMarquardt(cost, options_);
-    report_.accepted_costs.push_back(cost);
+    std::vector<std::vector<SeparatorId>> separators;
+    for (const AdjustmentBlock& block : blocks_) separators.push_back(block.separators);
+    path_ = StartBlockPath(costs, std::move(separators), options_);
+    report_.accepted_costs.push_back(path_.steps.cost);
     report_.message_bytes_of_block.assign(blocks_.size(), 0);
     start_distance_ = HeldDistance();
   }
 
   void TakeStep() {
     std::vector<SeparatorSystem> systems(blocks_.size());
-    ForEachBlock([&](size_t b) { systems[b] = solvers_[b]->Linearize(states_[b], path_.control); });
+    ForEachBlock(
+        [&](size_t b) { systems[b] = solvers_[b]->Linearize(states_[b], path_.steps.control); });
     for (size_t b = 0; b < systems.size(); ++b) {
       report_.message_bytes_of_block[b] =
           std::max(report_.message_bytes_of_block[b], PayloadBytes(systems[b]));
     }
-    const std::optional<SeparatorSolution> solution =
-        SolveAlongTree(tree_, std::move(systems), path_.control.lambda);
-    if (!solution) {
-      path_ = AfterFailure(path_);
-      return;
-    }
+    const std::optional<SeparatorSolution> solution = SolveBlockStep(path_, std::move(systems));
+    if (!solution) return;
     report_.largest_node_bytes = std::max(report_.largest_node_bytes, solution->largest_node_bytes);
     TryStep(*solution);
   }
@@ -133,11 +124,10 @@ class BlockwiseSolver {
       trials[b] = std::move(trial.state);
       costs[b] = std::move(trial.cost);
     });
-    const JudgedTrial judged = JudgeTrial(separators_, costs, solution.predicted_decrease);
-    path_ = AfterTrial(path_, judged.cost, judged.predicted_decrease, options_);
-    if (!path_.accepted) return;
+    JudgeBlockStep(path_, costs, options_);
+    if (!path_.steps.accepted) return;
     ForEachBlock([&](size_t b) {
-      states_[b] = Accepted(blocks_[b], std::move(trials[b]), judged.shortened);
+      states_[b] = Accepted(blocks_[b], std::move(trials[b]), path_.shortened);
     });
   }
 
@@ -155,9 +145,7 @@ class BlockwiseSolver {
   std::vector<std::unique_ptr<BlockSolver>> solvers_;
   std::vector<EvaluatedState> states_;
   const std::vector<AdjustmentBlock>& blocks_;
-  std::vector<std::vector<SeparatorId>> separators_{};
-  SeparatorTree tree_{};
-  LevenbergMarquardt path_{};
+  BlockPath path_{};
   double start_distance_ = 0.0;
   BlockwiseReport report_{};
 };

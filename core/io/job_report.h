@@ -55,7 +55,7 @@ struct ReportCluster {
 enum class SeamVerdict { kUnknown, kGood, kDoubtful, kBad };
 
 /// How far apart the two sides would put the images of the overlap, and what noise explains.
-struct SeamFit {
+struct ReportSeamFit {
   uint32_t images = 0;  ///< that both sides can place; 0: unknown
   double position_jump_m = 0.0;
   double rotation_jump_deg = 0.0;
@@ -86,7 +86,7 @@ struct ReportSeam {
   double rotation_jump_deg = 0.0;
   bool used = true;
   std::string reason{};  ///< why it is not used
-  SeamFit after{};       ///< the global adjustment
+  ReportSeamFit after{};       ///< the global adjustment
 };
 
 struct ReportGnss {

@@ -30,7 +30,7 @@ Json Clusters(const JobReport& report) {
   return list;
 }
 
-Json SeamAfter(const SeamFit& after) {
+Json SeamAfter(const ReportSeamFit& after) {
   if (after.images == 0) return nullptr;
   return {{"images", after.images},
           {"position_jump_m", after.position_jump_m},

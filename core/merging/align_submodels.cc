@@ -12,10 +12,7 @@
 #include <utility>
 
 #include "core/averaging/average_similarities.h"
-#include "core/base/parallel_for.h"
 #include "core/geometry/rotation.h"
-#include "core/merging/find_common_view.h"
-#include "core/merging/fit_seam.h"
 #include "core/merging/quantile.h"
 
 namespace orbweave {
@@ -28,31 +25,15 @@ constexpr double kMaxCondition = 1e6;
 constexpr uint32_t kMinDecidingTracks = 16;
 constexpr double kMinAgreeingShare = 0.25;
 
-using FeatureIndexes = std::vector<std::vector<TrackedFeature>>;
-
-struct FittedSeam {
+// A seam between submodels known by their position, and what becomes of it.
+struct Candidate {
   SeamReport report{};
-  std::vector<ImageId> images{};
-  SeamFit fit{};
+  const FittedSeam* seam = nullptr;
 };
-
-// Every two submodels with an image in common.
-std::vector<std::pair<uint32_t, uint32_t>> FindSeams(const std::vector<Submodel>& submodels) {
-  std::map<ImageId, std::vector<uint32_t>> holders;
-  for (uint32_t m = 0; m < submodels.size(); ++m) {
-    for (const auto& [id, image] : submodels[m].reconstruction.images) holders[id].push_back(m);
-  }
-  std::set<std::pair<uint32_t, uint32_t>> seams;
-  for (const auto& [id, models] : holders) {
-    for (size_t i = 0; i < models.size(); ++i) {
-      for (size_t j = i + 1; j < models.size(); ++j) seams.emplace(models[i], models[j]);
-    }
-  }
-  return {seams.begin(), seams.end()};
-}
 
 // Why the fit cannot be used; empty when it can.
 std::string FindFault(const SeamReport& report, const SeamFit& fit, const AlignOptions& options) {
+  if (report.common_images == 0) return "all common images are loose";
   const bool tracks_decide = report.common_tracks >= kMinDecidingTracks;
   if (!tracks_decide && report.common_images < static_cast<uint32_t>(options.min_common_images)) {
     return std::to_string(report.common_images) + " common images and " +
@@ -70,59 +51,60 @@ std::string FindFault(const SeamReport& report, const SeamFit& fit, const AlignO
   return "";
 }
 
-FittedSeam FitOneSeam(const std::vector<Submodel>& submodels,
-                      const FeatureIndexes& indexes,
-                      std::pair<uint32_t, uint32_t> pair,
-                      const AlignOptions& options) {
-  const Reconstruction& a = submodels[pair.first].reconstruction;
-  const Reconstruction& b = submodels[pair.second].reconstruction;
-  const CommonView view = FindCommonView(a, indexes[pair.first], b, indexes[pair.second]);
-  FittedSeam seam{.report = {.submodel_a = pair.first, .submodel_b = pair.second},
-                  .images = view.images};
-  SeamReport& report = seam.report;
-  report.common_images = static_cast<uint32_t>(view.images.size());
-  report.common_tracks = static_cast<uint32_t>(view.tracks.size());
-  if (view.images.empty()) {
-    report.used = false;
-    report.reason = "all common images are loose";
-    return seam;
-  }
-  seam.fit = FitSeam(GatherSeamEvidence(a, indexes[pair.first], b, view), options.max_error_px);
-  report.inlier_tracks = seam.fit.inlier_tracks;
-  report.condition_number = seam.fit.condition_number;
+Candidate MakeCandidate(const FittedSeam& seam,
+                        uint32_t submodel_a,
+                        uint32_t submodel_b,
+                        const AlignOptions& options) {
+  SeamReport report{.submodel_a = submodel_a,
+                    .submodel_b = submodel_b,
+                    .common_images = static_cast<uint32_t>(seam.shared.size()),
+                    .common_tracks = seam.common_tracks,
+                    .inlier_tracks = seam.fit.inlier_tracks,
+                    .condition_number = seam.fit.condition_number};
   report.reason = FindFault(report, seam.fit, options);
   report.used = report.reason.empty();
-  return seam;
+  return {std::move(report), &seam};
 }
 
-// Largest distance of a camera centre from a point.
-double ExtentFrom(const Eigen::Vector3d& point, const Reconstruction& reconstruction) {
-  double extent = 0.0;
-  for (const auto& [id, image] : reconstruction.images) {
-    extent = std::max(extent, (image.cam_from_world.Centre() - point).norm());
+using Outlines = std::vector<const SubmodelOutline*>;
+
+Outlines OutlinesOf(std::span<const SeamsOfCluster> clusters) {
+  Outlines outlines;
+  for (const SeamsOfCluster& cluster : clusters) {
+    for (const SubmodelOutline& outline : cluster.submodels) outlines.push_back(&outline);
   }
-  return extent;
+  return outlines;
 }
 
-double NodeLength(const Reconstruction& reconstruction) {
-  if (reconstruction.images.empty()) return 1.0;
-  const Eigen::Vector3d first = reconstruction.images.begin()->second.cam_from_world.Centre();
-  const double extent = ExtentFrom(first, reconstruction);
-  return extent > 0.0 ? extent : 1.0;
+// All seams, sorted by the positions of their submodels.
+absl::StatusOr<std::vector<Candidate>> FindCandidates(std::span<const SeamsOfCluster> clusters,
+                                                      const Outlines& outlines,
+                                                      const AlignOptions& options) {
+  std::map<SubmodelName, uint32_t> position;
+  for (const SubmodelOutline* outline : outlines)
+    position.emplace(outline->name, static_cast<uint32_t>(position.size()));
+  std::vector<Candidate> candidates;
+  for (const SeamsOfCluster& cluster : clusters) {
+    for (const FittedSeam& seam : cluster.seams) {
+      const auto a = position.find(seam.a);
+      const auto b = position.find(seam.b);
+      if (a == position.end() || b == position.end())
+        return absl::InvalidArgumentError(
+            "align_submodels: a seam of a submodel that is not there");
+      candidates.push_back(MakeCandidate(seam, a->second, b->second, options));
+    }
+  }
+  std::ranges::stable_sort(candidates, {}, [](const Candidate& candidate) {
+    return std::pair(candidate.report.submodel_a, candidate.report.submodel_b);
+  });
+  return candidates;
 }
 
 // Inverse of the fit's covariance plus what the submodels may bend and stretch.
-Matrix7d InformationWithDrift(const FittedSeam& seam,
-                              const std::vector<Submodel>& submodels,
-                              const AlignOptions& options) {
-  const SimilarityChart& chart = seam.fit.chart;
-  const double extent_a = ExtentFrom(chart.a_from_b * chart.anchor_in_b,
-                                     submodels[seam.report.submodel_a].reconstruction);
-  const double extent_b =
-      chart.a_from_b.scale *
-      ExtentFrom(chart.anchor_in_b, submodels[seam.report.submodel_b].reconstruction);
+Matrix7d InformationWithDrift(const FittedSeam& seam, const AlignOptions& options) {
   const double bend = options.drift_deg / kDegPerRad;
-  const double stretch = options.drift_share * std::max(extent_a, extent_b) / chart.length_in_a;
+  const double stretch =
+      options.drift_share * std::max(seam.extent_a, seam.extent_b) / seam.fit.chart.length_in_a;
   Vector7d variance;
   variance.head<3>().setConstant(bend * bend);
   variance[3] = options.drift_share * options.drift_share;
@@ -132,33 +114,31 @@ Matrix7d InformationWithDrift(const FittedSeam& seam,
   return covariance.inverse();
 }
 
-SimilarityGraph MakeGraph(const std::vector<Submodel>& submodels,
-                          const std::vector<FittedSeam>& seams,
+SimilarityGraph MakeGraph(const Outlines& outlines,
+                          const std::vector<Candidate>& candidates,
                           const AlignOptions& options) {
   SimilarityGraph graph;
-  for (const Submodel& submodel : submodels) {
-    graph.node_length.push_back(NodeLength(submodel.reconstruction));
-    graph.node_weight.push_back(static_cast<double>(submodel.reconstruction.images.size()));
+  for (const SubmodelOutline* outline : outlines) {
+    graph.node_length.push_back(outline->length);
+    graph.node_weight.push_back(static_cast<double>(outline->images.size()));
   }
-  for (const FittedSeam& seam : seams) {
-    if (!seam.report.used) continue;
+  for (const auto& [report, seam] : candidates) {
+    if (!report.used) continue;
     graph.edges.push_back(
-        {.a = seam.report.submodel_a,
-         .b = seam.report.submodel_b,
-         .measured = seam.fit.chart,
-         .information = InformationWithDrift(seam, submodels, options),
-         .strength = static_cast<double>(seam.fit.inlier_tracks + seam.fit.inlier_cameras)});
+        {.a = report.submodel_a,
+         .b = report.submodel_b,
+         .measured = seam->fit.chart,
+         .information = InformationWithDrift(*seam, options),
+         .strength = static_cast<double>(seam->fit.inlier_tracks + seam->fit.inlier_cameras)});
   }
   return graph;
 }
 
 // Worlds in order of their number of images (then of their first submodel).
-std::vector<uint32_t> RankWorlds(const std::vector<Submodel>& submodels,
-                                 const std::vector<uint32_t>& part) {
+std::vector<uint32_t> RankWorlds(const Outlines& outlines, const std::vector<uint32_t>& part) {
   std::vector<std::set<ImageId>> images(part.size());
-  for (size_t m = 0; m < submodels.size(); ++m) {
-    for (const auto& [id, image] : submodels[m].reconstruction.images) images[part[m]].insert(id);
-  }
+  for (size_t m = 0; m < outlines.size(); ++m)
+    images[part[m]].insert(outlines[m]->images.begin(), outlines[m]->images.end());
   std::vector<uint32_t> order(part.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
@@ -171,74 +151,59 @@ std::vector<uint32_t> RankWorlds(const std::vector<Submodel>& submodels,
   return world;
 }
 
-void SwitchOffContradicted(const AveragedSimilarities& averaged, std::vector<FittedSeam>& seams) {
+void SwitchOffContradicted(const AveragedSimilarities& averaged,
+                           std::vector<Candidate>& candidates) {
   size_t e = 0;
-  for (FittedSeam& seam : seams) {
-    if (!seam.report.used) continue;
+  for (auto& [report, seam] : candidates) {
+    if (!report.used) continue;
     if (averaged.is_used[e] == 0) {
-      seam.report.used = false;
-      seam.report.contradicted = true;
-      seam.report.reason = "contradicted by loops: off by " +
-                           std::to_string(std::lround(averaged.error[e])) +
-                           " times the expected drift";
+      report.used = false;
+      report.contradicted = true;
+      report.reason = "contradicted by loops: off by " +
+                      std::to_string(std::lround(averaged.error[e])) + " times the expected drift";
     }
     ++e;
   }
 }
 
-void MeasureJumps(const std::vector<Submodel>& submodels,
-                  const Alignment& alignment,
-                  FittedSeam& seam) {
-  const uint32_t a = seam.report.submodel_a;
-  const uint32_t b = seam.report.submodel_b;
+void MeasureJumps(const Alignment& alignment, Candidate& candidate) {
+  const uint32_t a = candidate.report.submodel_a;
+  const uint32_t b = candidate.report.submodel_b;
   if (alignment.world[a] != alignment.world[b]) return;
   std::vector<double> distances;
   std::vector<double> angles_deg;
-  for (const ImageId id : seam.images) {
-    const Rigid3 from_a = TransformCamera(alignment.world_from_submodel[a],
-                                          submodels[a].reconstruction.images.at(id).cam_from_world);
-    const Rigid3 from_b = TransformCamera(alignment.world_from_submodel[b],
-                                          submodels[b].reconstruction.images.at(id).cam_from_world);
+  for (const FittedSeam::SharedPose& shared : candidate.seam->shared) {
+    const Rigid3 from_a = TransformCamera(alignment.world_from_submodel[a], shared.cam_from_a);
+    const Rigid3 from_b = TransformCamera(alignment.world_from_submodel[b], shared.cam_from_b);
     distances.push_back((from_a.Centre() - from_b.Centre()).norm());
     angles_deg.push_back(kDegPerRad * RotationAngle(from_a.rotation * from_b.rotation.conjugate()));
   }
-  seam.report.position_jump_m = Quantile(std::move(distances), 0.5);
-  seam.report.rotation_jump_deg = Quantile(std::move(angles_deg), 0.5);
+  candidate.report.position_jump_m = Quantile(std::move(distances), 0.5);
+  candidate.report.rotation_jump_deg = Quantile(std::move(angles_deg), 0.5);
 }
 
 }  // namespace
 
-absl::StatusOr<Alignment> AlignSubmodels(const std::vector<Submodel>& submodels,
+absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> clusters,
                                          const AlignOptions& options,
                                          const StageContext& context) {
-  FeatureIndexes indexes(submodels.size());
-  ParallelFor(submodels.size(), context.num_threads, [&](size_t m) {
-    indexes[m] = IndexFeatures(submodels[m].reconstruction);
-  });
-
-  const auto pairs = FindSeams(submodels);
-  std::vector<FittedSeam> seams(pairs.size());
-  ParallelFor(pairs.size(), context.num_threads, [&](size_t s) {
-    if (!context.stop.stop_requested()) {
-      seams[s] = FitOneSeam(submodels, indexes, pairs[s], options);
-    }
-  });
-  ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
-
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      AveragedSimilarities averaged,
-      AverageSimilarities(
-          MakeGraph(submodels, seams, options), {.max_error = options.max_contradiction}, context));
-  SwitchOffContradicted(averaged, seams);
+  const Outlines outlines = OutlinesOf(clusters);
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Candidate> candidates,
+                            FindCandidates(clusters, outlines, options));
+  ORBWEAVE_ASSIGN_OR_RETURN(AveragedSimilarities averaged,
+                            AverageSimilarities(MakeGraph(outlines, candidates, options),
+                                                {.max_error = options.max_contradiction},
+                                                context));
+  SwitchOffContradicted(averaged, candidates);
   Alignment alignment{.world_from_submodel = std::move(averaged.world_from_node),
-                      .world = RankWorlds(submodels, averaged.part)};
-  for (const Submodel& submodel : submodels) {
+                      .world = RankWorlds(outlines, averaged.part)};
+  for (const SubmodelOutline* outline : outlines) {
     alignment.submodels.push_back(
-        {submodel.cluster, static_cast<uint32_t>(submodel.reconstruction.images.size())});
+        {outline->name.cluster, static_cast<uint32_t>(outline->images.size())});
   }
-  for (FittedSeam& seam : seams) {
-    MeasureJumps(submodels, alignment, seam);
-    alignment.seams.push_back(std::move(seam.report));
+  for (Candidate& candidate : candidates) {
+    MeasureJumps(alignment, candidate);
+    alignment.seams.push_back(std::move(candidate.report));
   }
   return alignment;
 }

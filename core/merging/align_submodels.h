@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/options.h"
 #include "core/base/stage_context.h"
 #include "core/geometry/sim3.h"
-#include "core/scene/image_manifest.h"
-#include "core/scene/reconstruction.h"
+#include "core/merging/fit_seams.h"
 
 namespace orbweave {
 
@@ -46,13 +45,6 @@ struct AlignOptions {
   }
 };
 
-/// One submodel to be placed: component `component` of cluster `cluster`.
-struct Submodel {
-  uint32_t cluster = 0;
-  uint32_t component = 0;
-  Reconstruction reconstruction{};
-};
-
 /// How well two submodels fit; indices into the submodel list, a < b.
 struct SeamReport {
   uint32_t submodel_a = 0;
@@ -85,10 +77,10 @@ struct Alignment {
 
 /// Places all submodels, whose frames and scales are their own.
 ///
-/// Seam by seam: a robust relative Sim3 from common images (rotation, centre) and common tracks
-/// (FitSeam), in units of the bearings' standard deviations, hence independent of any scale. A seam
-/// is used when enough images or tracks agree on it and its information matrix is well-conditioned;
-/// otherwise its report says why not.
+/// Seam by seam FitSeams has found a robust relative Sim3 from common images (rotation, centre) and
+/// common tracks, in units of the bearings' standard deviations, hence independent of any scale. A
+/// seam is used when enough images or tracks agree on it and its information matrix is
+/// well-conditioned; otherwise its report says why not.
 ///
 /// All seams together: one robust pose graph (AverageSimilarities). A seam itself is known to
 /// millimetres, the submodels between two seams bend and stretch by more: each seam's covariance is
@@ -97,9 +89,10 @@ struct Alignment {
 /// off.
 ///
 /// World 0 holds most images; submodels that no used seam joins are worlds of their own. A world
-/// has the frame and scale of its submodel with most images. GNSS enters in AdjustGlobally.
-/// Cancelled when asked to stop.
-[[nodiscard]] absl::StatusOr<Alignment> AlignSubmodels(const std::vector<Submodel>& submodels,
+/// has the frame and scale of its submodel with most images. GNSS enters when they are joined.
+/// `clusters`: in order; memory grows with images and seams, not with points. InvalidArgument: a
+/// seam of a submodel that is not there. Cancelled when asked to stop.
+[[nodiscard]] absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> clusters,
                                                        const AlignOptions& options,
                                                        const StageContext& context);
 

@@ -90,11 +90,13 @@ class PoseSystem {
     if (held && farthest) gauge_.farthest = PoseOf(*farthest);
   }
 
-  [[nodiscard]] PoseCovariances Covariances(const SeparatorSystem& bearings,
+  [[nodiscard]] PoseCovariances Covariances(SeparatorSystem bearings,
                                             const VarianceFactors& factors) const {
     const BundleLayout layout = MakeBundleLayout(problem_.bundle, gauge_);
+    ReducedSystem system = SystemOf(bearings, layout);
+    bearings = {};  // as large as the system
     return CovariancesOfSystem(
-        {problem_.bundle, layout, state_, gauge_}, factors, SystemOf(bearings, layout));
+        {problem_.bundle, layout, state_, gauge_}, factors, std::move(system));
   }
 
   [[nodiscard]] const BundleState& state() const { return state_; }
@@ -183,9 +185,10 @@ AssessedWorld WorldAssessment::Finish(const GlobalProblem& problem,
                                       const ImageManifest& manifest) && {
   AssessedWorld assessed;
   SeparatorSystem sum = AddSystems(bearings_);
+  bearings_ = {};
   const auto num_split = static_cast<double>(
       std::ranges::count(sum.variables, SeparatorId::Kind::kPoint, &SeparatorId::kind));
-  const SeparatorSystem bearings = WithoutPoints(std::move(sum));
+  SeparatorSystem bearings = WithoutPoints(std::move(sum));
   if (!bearings.is_definite || bearings.variables.empty()) {
     assessed.report.reason = "the normal equations of the poses are not positive definite";
     return assessed;
@@ -195,7 +198,7 @@ AssessedWorld WorldAssessment::Finish(const GlobalProblem& problem,
   const double redundancy = redundancy_ + GaugeFreedoms(problem, farthest_.has_value()) -
                             3.0 * num_split - 6.0 * static_cast<double>(bearings.variables.size());
   const PoseCovariances covariances =
-      poses.Covariances(bearings,
+      poses.Covariances(std::move(bearings),
                         {.bearings = BearingVarianceFactor(sum_of_squares_, redundancy),
                          .positions = PositionVarianceFactors(problem.bundle, poses.state())});
   UncertaintyReport& report = assessed.report;

@@ -3,87 +3,177 @@
 
 #include "core/merging/join_submodels.h"
 
+#include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 
+#include "core/merging/bend_world.h"
+#include "core/merging/carry_point.h"
 #include "core/merging/divide_world.h"
+#include "core/merging/place_clusters.h"
 
 namespace orbweave {
 namespace {
 
-/// The cluster that answers for each image of a world: the one whose interior it is in, where that
+/// Per world the cluster that answers for each image: the one whose interior it is in, where that
 /// has it, else the first that has it.
-std::map<ImageId, uint32_t> OwnersIn(uint32_t world,
-                                     const std::vector<Submodel>& rims,
-                                     const Alignment& alignment,
-                                     const Partition& partition) {
-  std::map<ImageId, uint32_t> owners;
+std::vector<std::map<ImageId, uint32_t>> OwnersInWorlds(const std::vector<Submodel>& rims,
+                                                        const Alignment& alignment,
+                                                        const Partition& partition) {
+  std::vector<std::map<ImageId, uint32_t>> owners;
   for (size_t m = 0; m < rims.size(); ++m) {
-    if (alignment.world[m] != world) continue;
+    const uint32_t world = alignment.world[m];
+    if (world >= owners.size()) owners.resize(world + 1);
     const std::vector<ImageId>& interior = partition.clusters[rims[m].cluster].interior;
     for (const auto& [id, image] : rims[m].reconstruction.images) {
-      const auto [owner, is_new] = owners.emplace(id, rims[m].cluster);
+      const auto [owner, is_new] = owners[world].emplace(id, rims[m].cluster);
       if (std::ranges::binary_search(interior, id)) owner->second = rims[m].cluster;
     }
   }
+  std::erase_if(owners, [](const auto& of_world) { return of_world.empty(); });
   return owners;
 }
 
-std::vector<PlacedComponent> ComponentsOf(const WorldBlock& block,
-                                          const std::vector<Submodel>& rims,
-                                          const Alignment& alignment,
-                                          const JoinedWorld& world) {
-  const Sim3 enu_from_world = world.georeference.enu_from_world.value_or(Sim3{});
-  std::vector<PlacedComponent> components;
+using ComponentsOfCluster = std::map<uint32_t, std::vector<PlacedComponent>>;
+
+/// Per world and cluster where its components lie in the frame that the alignment chose.
+std::vector<ComponentsOfCluster> PlaceComponents(const std::vector<Submodel>& rims,
+                                                 const Alignment& alignment) {
+  std::vector<ComponentsOfCluster> placed;
   for (size_t m = 0; m < rims.size(); ++m) {
-    if (alignment.world[m] != block.world || rims[m].cluster != block.cluster) continue;
-    components.push_back(
-        {.component = rims[m].component,
-         .world_from_component = enu_from_world * alignment.world_from_submodel[m]});
+    const uint32_t world = alignment.world[m];
+    if (world >= placed.size()) placed.resize(world + 1);
+    if (rims[m].reconstruction.images.empty()) continue;
+    placed[world][rims[m].cluster].push_back(
+        {.component = rims[m].component, .world_from_component = alignment.world_from_submodel[m]});
   }
-  return components;
+  std::erase_if(placed, [](const auto& of_world) { return of_world.empty(); });
+  return placed;
+}
+
+/// The seams of a world that the alignment used, where their images lie.
+std::vector<WorldSeam> SeamsOf(uint32_t world,
+                               const Reconstruction& scene,
+                               const Alignment& alignment,
+                               const Partition& partition) {
+  std::set<std::pair<uint32_t, uint32_t>> used;
+  for (const SeamReport& seam : alignment.seams) {
+    if (!seam.used || alignment.world[seam.submodel_a] != world) continue;
+    used.emplace(alignment.submodels[seam.submodel_a].cluster,
+                 alignment.submodels[seam.submodel_b].cluster);
+  }
+  std::vector<WorldSeam> seams;
+  for (const Seam& seam : partition.seams) {
+    if (!used.contains({seam.cluster_a, seam.cluster_b})) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double count = 0.0;
+    for (const ImageId id : seam.shared) {
+      const auto image = scene.images.find(id);
+      if (image == scene.images.end() || image->second.loose) continue;
+      sum += image->second.cam_from_world.Centre();
+      count += 1.0;
+    }
+    if (count > 0.0) seams.push_back({seam.cluster_a, seam.cluster_b, sum / count});
+  }
+  return seams;
+}
+
+/// A world in east-north-up metres where GNSS allows, and how its clusters came there.
+struct PlacedWorld {
+  Reconstruction scene{};
+  Georeference georeference{};
+  std::map<uint32_t, Sim3> enu_from_world{};  ///< per cluster; others by `for_others`
+  Sim3 for_others{};
+
+  [[nodiscard]] const Sim3& Of(uint32_t cluster) const {
+    const auto found = enu_from_world.find(cluster);
+    return found == enu_from_world.end() ? for_others : found->second;
+  }
+};
+
+absl::StatusOr<PlacedWorld> PlaceWorld(Reconstruction scene,
+                                       const std::map<ImageId, uint32_t>& owners,
+                                       const std::vector<WorldSeam>& seams,
+                                       const ImageManifest& manifest,
+                                       GnssUse use,
+                                       const AlignOptions& align,
+                                       const StageContext& context) {
+  PlacedWorld placed;
+  ORBWEAVE_ASSIGN_OR_RETURN(placed.georeference,
+                            GeoreferenceReconstruction(scene, manifest, use, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      placed.enu_from_world,
+      PlaceClusters({scene, owners, seams}, placed.georeference, manifest, use, align, context));
+  if (!placed.enu_from_world.empty()) {
+    scene = BendWorld(std::move(scene), owners, seams, placed.enu_from_world);
+    ORBWEAVE_ASSIGN_OR_RETURN(placed.georeference,
+                              GeoreferenceReconstruction(scene, manifest, use, context));
+  }
+  if (placed.georeference.enu_from_world) {
+    const Sim3& enu_from_scene = *placed.georeference.enu_from_world;
+    scene = Transformed(enu_from_scene, std::move(scene));
+    for (auto& [cluster, place] : placed.enu_from_world) place = enu_from_scene * place;
+    placed.for_others = enu_from_scene;
+  }
+  placed.scene = std::move(scene);
+  return placed;
 }
 
 }  // namespace
 
-absl::StatusOr<JoinedSubmodels> JoinSubmodels(const std::vector<Submodel>& rims,
+absl::StatusOr<JoinedSubmodels> JoinSubmodels(std::vector<Submodel> rims,
                                               const Alignment& alignment,
                                               const Partition& partition,
                                               const ImageManifest& manifest,
+                                              const AlignOptions& align,
                                               const GlobalAdjustOptions& options,
                                               const StageContext& context) {
+  const auto owners = OwnersInWorlds(rims, alignment, partition);
+  const auto components = PlaceComponents(rims, alignment);
   JoinedSubmodels joined;
-  for (MergedWorld& merged : MergeSubmodels(rims, alignment)) {
+  for (MergedWorld& merged : MergeSubmodels(std::move(rims), alignment)) {
     const auto number = static_cast<uint32_t>(joined.worlds.size());
     JoinedWorld world{.merge = merged.report,
                       .num_images = static_cast<uint32_t>(merged.reconstruction.images.size())};
-    Reconstruction scene = std::move(merged.reconstruction);
-    ORBWEAVE_ASSIGN_OR_RETURN(world.georeference,
-                              GeoreferenceReconstruction(scene, manifest, options.gnss, context));
-    if (world.georeference.enu_from_world) {
-      scene = Transformed(*world.georeference.enu_from_world, std::move(scene));
-    }
-    const auto owners = OwnersIn(number, rims, alignment, partition);
-    for (WorldBlock& block : DivideWorld(std::move(scene),
+    const std::vector<WorldSeam> seams =
+        SeamsOf(number, merged.reconstruction, alignment, partition);
+    ORBWEAVE_ASSIGN_OR_RETURN(PlacedWorld placed,
+                              PlaceWorld(std::move(merged.reconstruction),
+                                         owners[number],
+                                         seams,
+                                         manifest,
+                                         options.gnss,
+                                         align,
+                                         context));
+    for (WorldBlock& block : DivideWorld(std::move(placed.scene),
                                          number,
-                                         owners,
-                                         world.georeference,
+                                         owners[number],
+                                         placed.georeference,
                                          manifest,
                                          options.gnss_bias_sigma_m)) {
-      std::vector<PlacedComponent> components = ComponentsOf(block, rims, alignment, world);
-      joined.blocks.push_back({std::move(block), std::move(components)});
+      JoinedBlock& whole = joined.blocks.emplace_back();
+      whole.components = components[number].at(block.cluster);
+      for (PlacedComponent& component : whole.components)
+        component.world_from_component = placed.Of(block.cluster) * component.world_from_component;
+      whole.block = std::move(block);
       ++world.num_blocks;
     }
+    world.georeference = std::move(placed.georeference);
     joined.worlds.push_back(std::move(world));
   }
   return joined;
 }
 
-WorldBlock AssembleBlock(JoinedBlock joined, std::vector<std::vector<Track>> inner) {
+WorldBlock AssembleBlock(JoinedBlock joined, std::vector<Reconstruction> inner) {
   ORBWEAVE_CHECK(inner.size() == joined.components.size());
   WorldBlock block = std::move(joined.block);
   for (size_t i = 0; i < inner.size(); ++i) {
-    for (Track& track : inner[i]) {
-      track.point_in_world = joined.components[i].world_from_component * track.point_in_world;
+    const Sim3& world_from_component = joined.components[i].world_from_component;
+    for (Track& track : inner[i].tracks) {
+      track.point_in_world =
+          CarryPoint(track, inner[i].images, block.scene.images, world_from_component.scale)
+              .value_or(world_from_component * track.point_in_world);
       block.scene.tracks.push_back(std::move(track));
     }
   }

@@ -41,19 +41,22 @@ struct JoinedSubmodels {
 };
 
 /// Brings submodels together, from their rims alone (RimOf): MergeSubmodels, then a robust
-/// georeference of each world (GeoreferenceReconstruction, unless options.gnss is off), then the
-/// division of each world into blocks. A panorama is owned by the cluster it is interior to, or the
+/// georeference of each world (GeoreferenceReconstruction, unless options.gnss is off), of one that
+/// GNSS shows to be bent cluster by cluster (PlaceClusters, BendWorld), then the division of each
+/// world into blocks. A panorama is owned by the cluster it is interior to, or the
 /// first that has it. A track that several owners' panoramas see goes where AssignTracks puts it;
 /// panoramas seen from two blocks are separators. Worlds are in east-north-up metres where
 /// georeferenced. Cancelled when asked to stop.
-[[nodiscard]] absl::StatusOr<JoinedSubmodels> JoinSubmodels(const std::vector<Submodel>& rims,
+[[nodiscard]] absl::StatusOr<JoinedSubmodels> JoinSubmodels(std::vector<Submodel> rims,
                                                             const Alignment& alignment,
                                                             const Partition& partition,
                                                             const ImageManifest& manifest,
+                                                            const AlignOptions& align,
                                                             const GlobalAdjustOptions& options,
                                                             const StageContext& context);
 
-/// The whole block: `inner[i]` are the inner tracks (InnerTracksOf) of components[i], in its frame.
-[[nodiscard]] WorldBlock AssembleBlock(JoinedBlock joined, std::vector<std::vector<Track>> inner);
+/// The whole block: `inner[i]` are components[i]'s images and inner tracks (InnerOf), in its frame.
+/// Points go along with the images that see them (CarryPoint), wherever the merge put those.
+[[nodiscard]] WorldBlock AssembleBlock(JoinedBlock joined, std::vector<Reconstruction> inner);
 
 }  // namespace orbweave

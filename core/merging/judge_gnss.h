@@ -5,8 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/merging/adjust_globally.h"
+#include "core/merging/global_options.h"
 #include "core/merging/global_problem.h"
+#include "core/scene/image_manifest.h"
 
 namespace orbweave {
 

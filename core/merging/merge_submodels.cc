@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "core/merging/fuse_poses.h"
 #include "core/merging/unite_tracks.h"
@@ -29,16 +30,22 @@ void CollectOpinions(const Reconstruction& in_world, PoseOpinions& opinions) {
   }
 }
 
-MergedWorld MergeWorld(const std::vector<Submodel>& submodels,
+// Takes the submodels of this world out of the list.
+MergedWorld MergeWorld(std::vector<Submodel>& submodels,
                        const Alignment& alignment,
                        uint32_t world,
                        const MergeOptions& options) {
   PoseOpinions opinions;
   std::vector<Track> tracks;
+  size_t num_tracks = 0;
+  for (size_t m = 0; m < submodels.size(); ++m) {
+    if (alignment.world[m] == world) num_tracks += submodels[m].reconstruction.tracks.size();
+  }
+  tracks.reserve(num_tracks);
   for (size_t m = 0; m < submodels.size(); ++m) {
     if (alignment.world[m] != world) continue;
     Reconstruction in_world =
-        Transformed(alignment.world_from_submodel[m], submodels[m].reconstruction);
+        Transformed(alignment.world_from_submodel[m], std::move(submodels[m].reconstruction));
     CollectOpinions(in_world, opinions);
     std::move(in_world.tracks.begin(), in_world.tracks.end(), std::back_inserter(tracks));
   }
@@ -53,7 +60,7 @@ MergedWorld MergeWorld(const std::vector<Submodel>& submodels,
 
 }  // namespace
 
-std::vector<MergedWorld> MergeSubmodels(const std::vector<Submodel>& submodels,
+std::vector<MergedWorld> MergeSubmodels(std::vector<Submodel> submodels,
                                         const Alignment& alignment,
                                         const MergeOptions& options) {
   std::vector<MergedWorld> worlds;

@@ -27,7 +27,7 @@ struct MergedWorld {
 /// One reconstruction per world of the alignment that has images, in world order: poses of shared
 /// images averaged robustly (FusePoses), tracks united by (image, feature) with conflict checks
 /// (UniteTracks). A good start for bundle adjustment, which removes what the seams leave.
-[[nodiscard]] std::vector<MergedWorld> MergeSubmodels(const std::vector<Submodel>& submodels,
+[[nodiscard]] std::vector<MergedWorld> MergeSubmodels(std::vector<Submodel> submodels,
                                                       const Alignment& alignment,
                                                       const MergeOptions& options = {});
 

@@ -25,10 +25,9 @@ Reconstruction RimOf(const Reconstruction& submodel, const std::vector<ImageId>&
   return rim;
 }
 
-std::vector<Track> InnerTracksOf(const Reconstruction& submodel,
-                                 const std::vector<ImageId>& shared) {
-  std::vector<Track> inner;
-  std::ranges::copy_if(submodel.tracks, std::back_inserter(inner), [&](const Track& track) {
+Reconstruction InnerOf(const Reconstruction& submodel, const std::vector<ImageId>& shared) {
+  Reconstruction inner{.images = submodel.images};
+  std::ranges::copy_if(submodel.tracks, std::back_inserter(inner.tracks), [&](const Track& track) {
     return !IsOnRim(track, shared);
   });
   return inner;

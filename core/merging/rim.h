@@ -15,8 +15,8 @@ namespace orbweave {
 [[nodiscard]] Reconstruction RimOf(const Reconstruction& submodel,
                                    const std::vector<ImageId>& shared);
 
-/// The other tracks of the submodel, without images.
-[[nodiscard]] std::vector<Track> InnerTracksOf(const Reconstruction& submodel,
-                                               const std::vector<ImageId>& shared);
+/// All poses, and the other tracks.
+[[nodiscard]] Reconstruction InnerOf(const Reconstruction& submodel,
+                                     const std::vector<ImageId>& shared);
 
 }  // namespace orbweave

@@ -7,9 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/distributed_bundle/judge_trial.h"
-#include "core/distributed_bundle/solve_along_tree.h"
-
 namespace orbweave {
 namespace {
 
@@ -25,7 +22,7 @@ class Steering {
     if (path_.asked == Work::kFilter && path_.is_done) return {std::move(path_), {}};
     if (path_.asked == Work::kTry) return TakeTrial(answers);
     if (path_.asked != Work::kLinearise) Start(answers);
-    if (!WantsStep(path_.path, PhaseBundle())) return EndPhase(false, answers.size());
+    if (!WantsStep(path_.path.steps, PhaseBundle())) return EndPhase(false, answers.size());
     return TakeSystems(answers);
   }
 
@@ -38,8 +35,8 @@ class Steering {
 
   [[nodiscard]] BlockOrder Order(Work work) const {
     return {.work = work,
-            .shortened = path_.shortened,
-            .control = path_.path.control,
+            .shortened = path_.path.shortened,
+            .control = path_.path.steps.control,
             .loss = PhaseBundle().loss};
   }
 
@@ -49,16 +46,16 @@ class Steering {
   }
 
   void Start(std::span<const BlockAnswer> answers) {
-    double cost = 0.0;
-    path_.separators_of_block.clear();
+    std::vector<double> costs;
+    std::vector<std::vector<SeparatorId>> separators;
     path_.report.num_observations = 0;
     for (const BlockAnswer& answer : answers) {
-      cost += answer.cost;
+      costs.push_back(answer.cost);
+      separators.push_back(answer.separators);
       path_.report.num_observations += answer.num_observations;
-      path_.separators_of_block.push_back(answer.separators);
     }
-    path_.shortened.clear();
-    path_.path = StartLevenbergMarquardt(cost, PhaseBundle());
+    path_.path = StartBlockPath(costs, std::move(separators), PhaseBundle());
+    const double cost = path_.path.steps.cost;
     path_.report.adjustments.push_back({.initial_cost = cost, .final_cost = cost});
     path_.report.accepted_costs.push_back({cost});
   }
@@ -71,15 +68,12 @@ class Steering {
       systems.push_back(answers[b].system);
       bytes[b] = std::max<uint64_t>(bytes[b], PayloadBytes(systems.back()));
     }
-    const SeparatorTree tree = MakeSeparatorTree(path_.separators_of_block);
     const std::optional<SeparatorSolution> solution =
-        SolveAlongTree(tree, std::move(systems), path_.path.control.lambda);
+        SolveBlockStep(path_.path, std::move(systems));
     if (!solution) {
-      path_.path = AfterFailure(path_.path);
-      if (!WantsStep(path_.path, PhaseBundle())) return EndPhase(false, answers.size());
+      if (!WantsStep(path_.path.steps, PhaseBundle())) return EndPhase(false, answers.size());
       return AskAll(Order(Work::kLinearise), answers.size());
     }
-    path_.separators_decrease = solution->predicted_decrease;
     SteeredRound round = AskAll(Order(Work::kTry), answers.size());
     for (size_t b = 0; b < answers.size(); ++b) round.orders[b].step = solution->step_of_block[b];
     return round;
@@ -88,21 +82,16 @@ class Steering {
   SteeredRound TakeTrial(std::span<const BlockAnswer> answers) {
     std::vector<TrialCost> costs;
     for (const BlockAnswer& answer : answers) costs.push_back(answer.trial);
-    const JudgedTrial judged =
-        JudgeTrial(path_.separators_of_block, costs, path_.separators_decrease);
-    path_.path = AfterTrial(path_.path, judged.cost, judged.predicted_decrease, PhaseBundle());
-    const bool accepted = path_.path.accepted;
-    if (accepted) {
-      path_.shortened = judged.shortened;
-      path_.report.accepted_costs.back().push_back(judged.cost);
-    }
+    JudgeBlockStep(path_.path, costs, PhaseBundle());
+    const LevenbergMarquardt& steps = path_.path.steps;
+    if (steps.accepted) path_.report.accepted_costs.back().push_back(steps.cost);
     BundleReport& report = path_.report.adjustments.back();
-    report.final_cost = path_.path.cost;
-    report.iterations = path_.path.iterations;
-    report.converged = path_.path.converged;
-    if (!WantsStep(path_.path, PhaseBundle())) return EndPhase(accepted, answers.size());
+    report.final_cost = steps.cost;
+    report.iterations = steps.iterations;
+    report.converged = steps.converged;
+    if (!WantsStep(steps, PhaseBundle())) return EndPhase(steps.accepted, answers.size());
     BlockOrder order = Order(Work::kLinearise);
-    order.takes_trial = accepted;
+    order.takes_trial = steps.accepted;
     return AskAll(order, answers.size());
   }
 
@@ -110,7 +99,7 @@ class Steering {
     const bool is_last = path_.phase == options_.rounds;
     ++path_.phase;
     path_.is_done = is_last;
-    path_.path = {.control = StartLevenbergMarquardt(0.0, bundle_).control};
+    path_.path.steps = {.control = StartLevenbergMarquardt(0.0, bundle_).control};
     BlockOrder order = Order(Work::kFilter);
     order.takes_trial = takes_trial;
     order.begins_again = !is_last;
@@ -134,8 +123,8 @@ class Steering {
 SteeredRound BeginAdjustment(size_t num_blocks,
                              const GlobalAdjustOptions& options,
                              const BundleOptions& bundle) {
-  WorldPath path{.path = StartLevenbergMarquardt(0.0, bundle)};
-  const BlockOrder order{.control = path.path.control,
+  WorldPath path{.path = {.steps = StartLevenbergMarquardt(0.0, bundle)}};
+  const BlockOrder order{.control = path.path.steps.control,
                          .loss = options.rounds == 0 ? BundleLoss::kLeastSquares : bundle.loss};
   return {std::move(path), std::vector<BlockOrder>(num_blocks, order)};
 }

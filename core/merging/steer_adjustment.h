@@ -6,22 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "core/bundle/levenberg_marquardt.h"
+#include "core/distributed_bundle/block_path.h"
 #include "core/merging/adjust_block.h"
 #include "core/merging/global_options.h"
 
 namespace orbweave {
 
-/// Where the adjustment of one world stands between two rounds of its blocks: a plain value that
-/// grows with the number of blocks and separators, not of points.
+/// Where the adjustment of one world stands between two rounds of its blocks: a plain value.
 struct WorldPath {
   int phase = 0;  ///< rounds with the robust loss, then one of least squares
   BlockOrder::Work asked = BlockOrder::Work::kBegin;
   bool is_done = false;
-  LevenbergMarquardt path{};
-  double separators_decrease = 0.0;         ///< predicted of the step that is being tried
-  std::vector<ShortenedPoint> shortened{};  ///< in the state that counts
-  std::vector<std::vector<SeparatorId>> separators_of_block{};
+  BlockPath path{};
   GlobalAdjustReport report{};
 };
 

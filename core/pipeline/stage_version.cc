@@ -9,18 +9,20 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kVersions = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersions = {{
     {"ingest_images", "1"},
     {"extract_features", "1"},
     {"select_image_pairs", "1"},
     {"match_images", "2"},
     {"verify_matches", "2"},
-    {"partition_view_graph", "3"},
+    {"partition_view_graph", "4"},
     {"reconstruct_cluster", "3"},
-    {"align_submodels", "3"},
+    {"list_seams", "1"},
+    {"fit_seams", "1"},
+    {"align_submodels", "4"},
     {"review_seams", "1"},
-    {"join_submodels", "1"},
-    {"assemble_block", "1"},
+    {"join_submodels", "2"},
+    {"assemble_block", "2"},
     {"steer_adjustment", "1"},
     {"adjust_block", "1"},
     {"conclude_adjustment", "2"},

@@ -12,7 +12,7 @@ namespace orbweave {
 namespace {
 
 /// What the stages of a job on images usually cost, in percent of the whole.
-constexpr std::array<std::pair<std::string_view, double>, 12> kWeights = {{
+constexpr std::array<std::pair<std::string_view, double>, 14> kWeights = {{
     {"ingest_images", 1.0},
     {"extract_features", 30.0},
     {"select_image_pairs", 3.0},
@@ -20,7 +20,9 @@ constexpr std::array<std::pair<std::string_view, double>, 12> kWeights = {{
     {"verify_matches", 10.0},
     {"partition_view_graph", 1.0},
     {"reconstruct_cluster", 28.0},
-    {"align_submodels", 1.0},
+    {"list_seams", 0.1},
+    {"fit_seams", 1.0},
+    {"align_submodels", 0.1},
     {"join_submodels", 0.5},
     {"assemble_block", 0.5},
     {"steer_adjustment", 1.0},

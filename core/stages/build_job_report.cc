@@ -136,7 +136,7 @@ std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   return rows;
 }
 
-SeamFit FitAfter(const JobResults& results, const ReportSeam& seam) {
+ReportSeamFit FitAfter(const JobResults& results, const ReportSeam& seam) {
   for (const SeamCertificate& certificate : results.certificates) {
     if (certificate.cluster_a != seam.cluster_a || certificate.cluster_b != seam.cluster_b)
       continue;

@@ -75,4 +75,12 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
   return recipes;
 }
 
+std::vector<std::vector<Digest>> PlanSeams(const Partition& partition,
+                                           const std::vector<Digest>& rims) {
+  std::vector<std::vector<Digest>> recipes;
+  for (const Digest& rim : rims) recipes.push_back({rim});
+  for (const Seam& seam : partition.seams) recipes[seam.cluster_a].push_back(rims[seam.cluster_b]);
+  return recipes;
+}
+
 }  // namespace orbweave

@@ -30,4 +30,9 @@ namespace orbweave {
     const std::vector<Digest>& features,
     const std::map<ImagePair, Digest>& blob_of_pair);
 
+/// Per cluster what FitSeams reads of it: its rim, then those of the later clusters that it has a
+/// seam with, ascending. `rims`: per cluster.
+[[nodiscard]] std::vector<std::vector<Digest>> PlanSeams(const Partition& partition,
+                                                         const std::vector<Digest>& rims);
+
 }  // namespace orbweave

@@ -84,15 +84,15 @@ void ToProto(const WorldPath& path, v1::WorldPath* proto) {
   proto->set_phase(path.phase);
   proto->set_asked(static_cast<uint32_t>(path.asked));
   proto->set_is_done(path.is_done);
-  ToProto(path.path.control, proto->mutable_control());
-  proto->set_growth(path.path.growth);
-  proto->set_cost(path.path.cost);
-  proto->set_iterations(path.path.iterations);
-  proto->set_converged(path.path.converged);
-  proto->set_accepted(path.path.accepted);
-  proto->set_separators_decrease(path.separators_decrease);
-  codec::ToProto(path.shortened, proto->mutable_shortened());
-  for (const std::vector<SeparatorId>& ids : path.separators_of_block)
+  ToProto(path.path.steps.control, proto->mutable_control());
+  proto->set_growth(path.path.steps.growth);
+  proto->set_cost(path.path.steps.cost);
+  proto->set_iterations(path.path.steps.iterations);
+  proto->set_converged(path.path.steps.converged);
+  proto->set_accepted(path.path.steps.accepted);
+  proto->set_separators_decrease(path.path.separators_decrease);
+  codec::ToProto(path.path.shortened, proto->mutable_shortened());
+  for (const std::vector<SeparatorId>& ids : path.path.separators_of_block)
     codec::ToProto(ids, proto->add_separators_of_block());
   ToProto(path.report, proto->mutable_report());
 }
@@ -106,18 +106,18 @@ absl::StatusOr<BlockOrder::Work> WorkOf(uint32_t number) {
 absl::StatusOr<WorldPath> FromProto(const v1::WorldPath& proto) {
   WorldPath path{.phase = proto.phase(),
                  .is_done = proto.is_done(),
-                 .path = {.control = FromProto(proto.control()),
-                          .growth = proto.growth(),
-                          .cost = proto.cost(),
-                          .iterations = proto.iterations(),
-                          .converged = proto.converged(),
-                          .accepted = proto.accepted()},
-                 .separators_decrease = proto.separators_decrease()};
+                 .path = {.steps = {.control = FromProto(proto.control()),
+                                    .growth = proto.growth(),
+                                    .cost = proto.cost(),
+                                    .iterations = proto.iterations(),
+                                    .converged = proto.converged(),
+                                    .accepted = proto.accepted()},
+                          .separators_decrease = proto.separators_decrease()}};
   ORBWEAVE_ASSIGN_OR_RETURN(path.asked, WorkOf(proto.asked()));
-  ORBWEAVE_ASSIGN_OR_RETURN(path.shortened, codec::FromProto(proto.shortened()));
+  ORBWEAVE_ASSIGN_OR_RETURN(path.path.shortened, codec::FromProto(proto.shortened()));
   for (const v1::SeparatorIds& ids : proto.separators_of_block()) {
     ORBWEAVE_ASSIGN_OR_RETURN(auto separators, codec::FromProto(ids));
-    path.separators_of_block.push_back(std::move(separators));
+    path.path.separators_of_block.push_back(std::move(separators));
   }
   ORBWEAVE_RETURN_IF_ERROR(FromProto(proto.report(), path.report));
   return path;

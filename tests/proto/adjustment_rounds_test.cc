@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "core/merging/adjust_globally.h"
+#include "core/merging/adjust_blocks.h"
 #include "core/merging/divide_world.h"
 #include "core/stages/advance_adjustment.h"
 #include "proto/codec/adjustment_codec.h"

@@ -61,7 +61,7 @@ TEST(HardCases, TunnelMaySplitTheStreetButNotBendIt) {
   const Orientated result = Orientate(corridor);
   EXPECT_GE(result.NumRegistered(), 57U);
   EXPECT_LE(result.worlds.size(), 3U);
-  for (const GloballyAdjusted& world : result.worlds) {
+  for (const testing::GloballyAdjusted& world : result.worlds) {
     EXPECT_LT(ErrorsOf(corridor, world.reconstruction).position_rmse_m, 0.2);
   }
 }
@@ -141,7 +141,7 @@ TEST(HardCases, RepeatedFacadesWithoutGnssAreNeverWrongInSilence) {
                                             .repeat_after = 20,
                                             .repeat_share = share});
     const Orientated result = Orientate(corridor);
-    for (const GloballyAdjusted& world : result.worlds) {
+    for (const testing::GloballyAdjusted& world : result.worlds) {
       if (ErrorsOf(corridor, world.reconstruction).position_rmse_m < 0.05) continue;
       EXPECT_TRUE(result.NamesAContradiction()) << share;
     }

@@ -11,18 +11,19 @@
 #include "core/graph/build_view_graph.h"
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/partition_view_graph.h"
-#include "core/merging/adjust_globally.h"
 #include "core/merging/merge_submodels.h"
 #include "core/scene/view_edge_of.h"
 #include "core/stages/assemble_cluster.h"
 #include "core/stages/match_image_pair.h"
 #include "core/synthetic/corridor.h"
+#include "tests/core/merging/adjust_globally.h"
+#include "tests/core/merging/align_all.h"
 
 namespace orbweave {
 
 /// What a job on the matches of a corridor comes to, and what its report would say.
 struct Orientated {
-  std::vector<GloballyAdjusted> worlds{};
+  std::vector<testing::GloballyAdjusted> worlds{};
   std::vector<ImagePair> contradicted_pairs{};
   std::vector<NotRegistered> not_registered{};  ///< per cluster
   std::vector<DroppedEdge> dropped_edges{};
@@ -108,11 +109,12 @@ inline Orientated Orientate(const Corridor& corridor) {
     std::ranges::copy(cluster.contradicted_pairs, std::back_inserter(result.contradicted_pairs));
     std::ranges::copy(cluster.not_registered, std::back_inserter(result.not_registered));
   }
-  const Alignment alignment = AlignSubmodels(submodels, {}, {}).value();
+  const Alignment alignment = testing::AlignAll(submodels).value();
   result.seams = alignment.seams;
   for (MergedWorld& world : MergeSubmodels(submodels, alignment)) {
     result.worlds.push_back(
-        AdjustGlobally(std::move(world.reconstruction), corridor.manifest, {}, {}, {}).value());
+        testing::AdjustGlobally(std::move(world.reconstruction), corridor.manifest, {}, {}, {})
+            .value());
   }
   return result;
 }

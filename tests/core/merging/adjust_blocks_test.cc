@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "core/merging/adjust_blocks.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "core/merging/adjust_globally.h"
 #include "core/merging/divide_world.h"
 #include "tests/core/merging/corridor_model.h"
 

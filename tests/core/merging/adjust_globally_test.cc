@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/merging/adjust_globally.h"
+#include "tests/core/merging/adjust_globally.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,10 @@
 namespace orbweave {
 namespace {
 
+using testing::AdjustGlobally;
 using testing::DisturbedModel;
 using ::testing::ElementsAre;
+using testing::GloballyAdjusted;
 using ::testing::HasSubstr;
 using testing::RandomDirection;
 using testing::TrueModel;

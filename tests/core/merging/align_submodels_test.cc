@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/merging/align_all.h"
 #include "tests/core/merging/split_world.h"
 
 namespace orbweave {
@@ -13,7 +14,7 @@ namespace {
 using testing::SplitWorld;
 
 Alignment Aligned(const std::vector<Submodel>& submodels, const StageContext& context = {}) {
-  const auto alignment = AlignSubmodels(submodels, {}, context);
+  const auto alignment = testing::AlignAll(submodels, {}, context);
   EXPECT_TRUE(alignment.ok()) << alignment.status();
   return alignment.ok() ? *alignment : Alignment{};
 }
@@ -223,15 +224,24 @@ TEST(AlignSubmodels, AcceptsNothingOneAndEmptySubmodels) {
   SplitWorld world = StraightWorld(0.0, 18);
   world.submodels.resize(1);
   EXPECT_EQ(Aligned(world.submodels).world, (std::vector<uint32_t>{0}));
+  world.submodels.front().cluster = 1;
   world.submodels.insert(world.submodels.begin(), Submodel{});
   EXPECT_EQ(Aligned(world.submodels).world, (std::vector<uint32_t>{1, 0}));
+}
+
+TEST(AlignSubmodels, RefusesASeamOfASubmodelThatIsNotThere) {
+  const SplitWorld world = StraightWorld(0.0, 20);
+  const std::span<const Submodel> all = world.submodels;
+  std::vector<SeamsOfCluster> clusters{FitSeams(all.first(1), all.subspan(1), 8.0, {}).value()};
+  ASSERT_FALSE(clusters[0].seams.empty());
+  EXPECT_EQ(AlignSubmodels(clusters, {}, {}).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 TEST(AlignSubmodels, StopsOnRequest) {
   std::stop_source stop;
   stop.request_stop();
   const auto alignment =
-      AlignSubmodels(StraightWorld(0.0, 19).submodels, {}, {.stop = stop.get_token()});
+      testing::AlignAll(StraightWorld(0.0, 19).submodels, {}, {.stop = stop.get_token()});
   EXPECT_EQ(alignment.status().code(), absl::StatusCode::kCancelled);
 }
 

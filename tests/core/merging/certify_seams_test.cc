@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/merging/adjust_globally.h"
+#include "core/merging/adjust_blocks.h"
 #include "core/merging/divide_world.h"
 #include "tests/core/merging/corridor_model.h"
 

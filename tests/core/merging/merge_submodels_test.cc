@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "tests/core/merging/align_all.h"
 #include "tests/core/merging/split_world.h"
 
 namespace orbweave {
@@ -21,7 +22,7 @@ SplitWorld StraightWorld(double noise_m, uint64_t seed) {
 }
 
 std::vector<MergedWorld> AlignedAndMerged(const std::vector<Submodel>& submodels) {
-  const auto alignment = AlignSubmodels(submodels, {}, {});
+  const auto alignment = testing::AlignAll(submodels);
   EXPECT_TRUE(alignment.ok()) << alignment.status();
   return alignment.ok() ? MergeSubmodels(submodels, *alignment) : std::vector<MergedWorld>{};
 }

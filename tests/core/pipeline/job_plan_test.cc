@@ -25,6 +25,8 @@ TEST(FindJobPlan, SparseLeadsFromImagesToAModel) {
                                      "match_images",
                                      "partition_view_graph",
                                      "reconstruct_cluster",
+                                     "list_seams",
+                                     "fit_seams",
                                      "align_submodels",
                                      "review_seams",
                                      "join_submodels",

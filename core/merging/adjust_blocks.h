@@ -8,8 +8,6 @@
 #include "core/bundle/adjust_bundle.h"
 #include "core/merging/conclude_adjustment.h"
 #include "core/merging/global_options.h"
-#include "core/scene/image_manifest.h"
-#include "core/scene/reconstruction.h"
 
 namespace orbweave {
 
@@ -27,21 +25,5 @@ struct AdjustedBlocks {
                                                           const GlobalAdjustOptions& options,
                                                           const BundleOptions& bundle,
                                                           const StageContext& context);
-
-struct GloballyAdjusted {
-  Reconstruction reconstruction{};  ///< east-north-up metres when report.gnss.used
-  GlobalAdjustReport report{};
-};
-
-/// A whole reconstruction in one process, as one block: georeferences robustly
-/// (GeoreferenceReconstruction; ChooseLocalFrame where GNSS cannot carry a scale and must not bend
-/// the model), then `rounds` times adjusts all poses and points with the given loss and robust GNSS
-/// terms and filters (FilterBlock), and finishes with least squares, a last filter and the poses'
-/// uncertainty. Loose images follow the frame but take no part. Cancelled when asked to stop.
-[[nodiscard]] absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruction,
-                                                              const ImageManifest& manifest,
-                                                              const GlobalAdjustOptions& options,
-                                                              const BundleOptions& bundle,
-                                                              const StageContext& context);
 
 }  // namespace orbweave

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/status.h"
+#include "core/merging/fit_seams.h"
+
+namespace orbweave {
+
+[[nodiscard]] std::string EncodeSeamsOfCluster(const SeamsOfCluster& seams);
+/// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a
+/// similarity that is none.
+[[nodiscard]] absl::StatusOr<SeamsOfCluster> DecodeSeamsOfCluster(std::string_view bytes);
+
+}  // namespace orbweave

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "core/merging/adjust_blocks.h"
+#include "core/merging/divide_world.h"
+#include "core/merging/georeference_reconstruction.h"
+
+namespace orbweave::testing {
+
+struct GloballyAdjusted {
+  Reconstruction reconstruction{};  // east-north-up metres when report.gnss.used
+  GlobalAdjustReport report{};
+};
+
+// All that the stages do to a world after the merge, for one that is a single block.
+inline absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruction,
+                                                       const ImageManifest& manifest,
+                                                       const GlobalAdjustOptions& options,
+                                                       const BundleOptions& bundle,
+                                                       const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const Georeference georeference,
+      GeoreferenceReconstruction(reconstruction, manifest, options.gnss, context));
+  if (georeference.enu_from_world)
+    reconstruction = Transformed(*georeference.enu_from_world, std::move(reconstruction));
+  std::map<ImageId, uint32_t> one_owner;
+  for (const auto& [id, image] : reconstruction.images) one_owner[id] = 0;
+  ORBWEAVE_ASSIGN_OR_RETURN(AdjustedBlocks adjusted,
+                            AdjustBlocks(DivideWorld(std::move(reconstruction),
+                                                     0,
+                                                     one_owner,
+                                                     georeference,
+                                                     manifest,
+                                                     options.gnss_bias_sigma_m),
+                                         options,
+                                         bundle,
+                                         context));
+  WorldInspection inspection = BeginInspection(adjusted.summaries, {});
+  for (const WorldBlock& block : adjusted.blocks) inspection.Add(block, context.num_threads);
+  const ConcludedWorld world = ConcludeAdjustment(adjusted.summaries,
+                                                  std::move(inspection),
+                                                  std::move(adjusted.report),
+                                                  georeference,
+                                                  manifest,
+                                                  options);
+  return GloballyAdjusted{GatherWorld(world, std::move(adjusted.blocks)), world.report};
+}
+
+}  // namespace orbweave::testing
