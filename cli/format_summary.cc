@@ -13,10 +13,12 @@ constexpr size_t kNamesShown = 5;
 
 std::string GnssLine(const ReportGnss& gnss) {
   if (!gnss.used) return gnss.reason.empty() ? "none" : absl::StrCat("not used: ", gnss.reason);
-  return absl::StrFormat("%u of %u positions agree, %.2f m RMS",
-                         gnss.num_inliers,
-                         gnss.num_priors,
-                         gnss.residual_rms_inliers_m);
+  const std::string agreement = absl::StrFormat("%u of %u positions agree, %.2f m RMS",
+                                                gnss.num_inliers,
+                                                gnss.num_priors,
+                                                gnss.residual_rms_inliers_m);
+  if (gnss.bend_m == 0.0) return agreement;
+  return agreement + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.bend_m);
 }
 
 std::string SigmaLine(const JobReport& report) {

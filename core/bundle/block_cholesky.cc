@@ -153,7 +153,13 @@ void BlockCholesky::Analyze(const SymmetricBlockMatrix& pattern) {
       for (uint32_t p = column_start_[child]; p < column_start_[child + 1]; ++p) add(rows_[p]);
     }
     std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(first), rows_.end());
-    if (rows_.size() > first + 1) children[rows_[first + 1]].push_back(j);
+    // What is left to do for an eliminated column is its parent's; kept ones have no parent, and
+    // each takes its share.
+    const bool is_eliminated = j < num_eliminated_;
+    for (size_t p = first + 1; is_eliminated && p < rows_.size(); ++p) {
+      children[rows_[p]].push_back(j);
+      if (rows_[p] < num_eliminated_) break;
+    }
     column_start_.push_back(static_cast<uint32_t>(rows_.size()));
     entries_.insert(entries_.end(), entries[j].begin(), entries[j].end());
     entry_start_.push_back(static_cast<uint32_t>(entries_.size()));

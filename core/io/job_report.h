@@ -96,6 +96,7 @@ struct ReportGnss {
   uint32_t num_inliers = 0;
   double residual_median_m = 0.0;
   double residual_rms_inliers_m = 0.0;
+  double bend_m = 0.0;  ///< that the model was bent to the positions, at most; 0: it was rigid
   std::vector<std::string> outliers{};  ///< names
 };
 

@@ -205,7 +205,11 @@ std::string Gnss(const JobReport& report) {
                          ShortText(gnss.residual_median_m),
                          " m, rms of those that agree ",
                          ShortText(gnss.residual_rms_inliers_m),
-                         " m.")
+                         " m.",
+                         gnss.bend_m > 0.0 ? absl::StrCat(" The model was bent to them by up to ",
+                                                          ShortText(gnss.bend_m),
+                                                          " m.")
+                                           : "")
           : absl::StrCat(
                 CountText(gnss.num_priors), " positions, not used: ", EscapeHtml(gnss.reason));
   std::string names;

@@ -65,6 +65,7 @@ Json Gnss(const ReportGnss& gnss) {
           {"inliers", gnss.num_inliers},
           {"residual_median_m", gnss.residual_median_m},
           {"residual_rms_inliers_m", gnss.residual_rms_inliers_m},
+          {"bend_m", gnss.bend_m},
           {"outliers", gnss.outliers}};
 }
 

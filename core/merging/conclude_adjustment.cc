@@ -97,6 +97,7 @@ ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
   world.report.uncertainty = std::move(assessed.report);
   if (georeference.enu_from_world) {
     world.report.gnss = JudgeGnss(problem, biases_m, manifest);
+    world.report.gnss.bend_m = georeference.bend_m;
     world.report.adjustments.back().biases_m = biases_m;
   } else {
     world.report.gnss.reason = georeference.reason;

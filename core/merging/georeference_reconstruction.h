@@ -25,6 +25,9 @@ struct Georeference {
   double vertical_scatter_m = 0.0;
   /// Standard deviation of the scale over the scale, from scatter and extent.
   double scale_uncertainty = 0.0;
+  /// Where the world was bent to GNSS (BendWorld): the farthest that an image went from where one
+  /// similarity for all would put it.
+  double bend_m = 0.0;
 };
 
 /// Robust similarity from camera centres to their GNSS positions. Centres of a straight street

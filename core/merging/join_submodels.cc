@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/estimators/estimate_similarity.h"
 #include "core/merging/bend_world.h"
 #include "core/merging/carry_point.h"
 #include "core/merging/divide_world.h"
@@ -92,6 +93,23 @@ struct PlacedWorld {
   }
 };
 
+/// The largest distance of an image from where one similarity would put it.
+double BendOf(const Reconstruction& before, const Reconstruction& after) {
+  std::vector<Eigen::Vector3d> from;
+  std::vector<Eigen::Vector3d> to;
+  for (const auto& [id, image] : before.images) {
+    if (image.loose) continue;
+    from.push_back(image.cam_from_world.Centre());
+    to.push_back(after.images.at(id).cam_from_world.Centre());
+  }
+  const std::optional<Sim3> rigid = FitSimilarity(from, to, {});
+  double largest = 0.0;
+  if (!rigid) return largest;
+  for (size_t i = 0; i < from.size(); ++i)
+    largest = std::max(largest, (*rigid * from[i] - to[i]).norm());
+  return largest;
+}
+
 absl::StatusOr<PlacedWorld> PlaceWorld(Reconstruction scene,
                                        const std::map<ImageId, uint32_t>& owners,
                                        const std::vector<WorldSeam>& seams,
@@ -106,9 +124,11 @@ absl::StatusOr<PlacedWorld> PlaceWorld(Reconstruction scene,
       placed.enu_from_world,
       PlaceClusters({scene, owners, seams}, placed.georeference, manifest, use, align, context));
   if (!placed.enu_from_world.empty()) {
+    const Reconstruction straight{.images = scene.images};
     scene = BendWorld(std::move(scene), owners, seams, placed.enu_from_world);
     ORBWEAVE_ASSIGN_OR_RETURN(placed.georeference,
                               GeoreferenceReconstruction(scene, manifest, use, context));
+    placed.georeference.bend_m = BendOf(straight, scene);
   }
   if (placed.georeference.enu_from_world) {
     const Sim3& enu_from_scene = *placed.georeference.enu_from_world;

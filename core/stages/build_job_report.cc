@@ -191,6 +191,7 @@ ReportGnss GnssRow(const GnssReport& gnss) {
           .num_inliers = gnss.num_inliers,
           .residual_median_m = gnss.residual_median_m,
           .residual_rms_inliers_m = gnss.residual_rms_inliers_m,
+          .bend_m = gnss.bend_m,
           .outliers = gnss.outliers};
 }
 

@@ -192,6 +192,7 @@ std::string EncodeJoinedWorlds(const std::vector<JoinedWorld>& worlds) {
     georeference->set_horizontal_scatter_m(world.georeference.horizontal_scatter_m);
     georeference->set_vertical_scatter_m(world.georeference.vertical_scatter_m);
     georeference->set_scale_uncertainty(world.georeference.scale_uncertainty);
+    georeference->set_bend_m(world.georeference.bend_m);
     out->set_united_tracks(world.merge.united_tracks);
     out->set_conflicting_tracks(world.merge.conflicting_tracks);
     out->set_num_images(world.num_images);
@@ -215,6 +216,7 @@ absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view byt
     out.georeference.horizontal_scatter_m = georeference.horizontal_scatter_m();
     out.georeference.vertical_scatter_m = georeference.vertical_scatter_m();
     out.georeference.scale_uncertainty = georeference.scale_uncertainty();
+    out.georeference.bend_m = georeference.bend_m();
     out.merge = {world.united_tracks(), world.conflicting_tracks()};
     out.num_images = world.num_images();
     out.num_blocks = world.num_blocks();
