@@ -46,5 +46,16 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
   EXPECT_EQ(recipes[1].matches, std::vector<Digest>{DigestOf("second")});
 }
 
+TEST(PlanSeams, GivesEachClusterItsRimAndThoseOfLaterNeighbours) {
+  const Partition partition{.clusters = std::vector<Cluster>(4),
+                            .seams = {{.cluster_a = 0, .cluster_b = 1},
+                                      {.cluster_a = 0, .cluster_b = 3},
+                                      {.cluster_a = 1, .cluster_b = 3}}};
+  const std::vector<Digest> rims = SomeDigests(4);
+  const std::vector<std::vector<Digest>> expected{
+      {rims[0], rims[1], rims[3]}, {rims[1], rims[3]}, {rims[2]}, {rims[3]}};
+  EXPECT_EQ(PlanSeams(partition, rims), expected);
+}
+
 }  // namespace
 }  // namespace orbweave
