@@ -54,11 +54,24 @@ void BlobStore::Forget(const Digest& digest) const {
 }
 
 absl::StatusOr<std::string> BlobStore::Get(const Digest& digest) {
+  std::string bytes;
+  ORBWEAVE_RETURN_IF_ERROR(Read(digest, [&bytes](std::string_view piece) {
+    bytes += piece;
+    return absl::OkStatus();
+  }));
+  return bytes;
+}
+
+absl::Status BlobStore::Read(const Digest& digest, const TakePiece& take) {
   const std::string path = FileOf(digest);
   if (path.empty())
     return absl::NotFoundError(absl::StrCat(DescribeBlob(digest), " is not stored"));
-  ORBWEAVE_ASSIGN_OR_RETURN(std::string bytes, ReadWholeFile(path));
-  if (DigestOf(bytes) == digest) return bytes;
+  DigestBuilder builder;
+  ORBWEAVE_RETURN_IF_ERROR(ReadInPieces(path, [&](std::string_view piece) {
+    builder.Add(piece);
+    return take(piece);
+  }));
+  if (builder.Finish() == digest) return absl::OkStatus();
   Forget(digest);
   return absl::DataLossError(
       absl::StrCat(DescribeBlob(digest), " is damaged: ", path, " has other bytes"));
@@ -71,6 +84,24 @@ absl::StatusOr<Digest> BlobStore::Put(std::string_view bytes) {
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(fs::path(path).parent_path().string()));
   ORBWEAVE_RETURN_IF_ERROR(WriteFileDurably(ScratchDir(), path, bytes));
   return digest;
+}
+
+absl::Status BlobStore::Write(const Digest& digest, uint64_t size_bytes, const NextPiece& next) {
+  const std::string path = BlobPath(digest);
+  if (IsFile(path)) return absl::OkStatus();
+  ORBWEAVE_RETURN_IF_ERROR(MakeFolder(fs::path(path).parent_path().string()));
+  ORBWEAVE_ASSIGN_OR_RETURN(DurableFile file, DurableFile::Create(ScratchDir()));
+  DigestBuilder builder;
+  uint64_t received_bytes = 0;
+  while (received_bytes <= size_bytes) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string_view piece, next());
+    if (piece.empty()) break;
+    received_bytes += piece.size();
+    builder.Add(piece);
+    ORBWEAVE_RETURN_IF_ERROR(file.Append(piece));
+  }
+  if (received_bytes == size_bytes && builder.Finish() == digest) return file.MoveTo(path);
+  return absl::DataLossError(absl::StrCat("not the bytes of ", DescribeBlob(digest)));
 }
 
 bool BlobStore::Has(const Digest& digest) const { return !FileOf(digest).empty(); }

@@ -25,6 +25,10 @@ class BlobStore final : public BlobAccess {
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
+  [[nodiscard]] absl::Status Read(const Digest& digest, const TakePiece& take) override;
+  [[nodiscard]] absl::Status Write(const Digest& digest,
+                                   uint64_t size_bytes,
+                                   const NextPiece& next) override;
 
   /// Whether the blob, or the file it links to, is there; its bytes are not looked at.
   [[nodiscard]] bool Has(const Digest& digest) const;

@@ -76,6 +76,21 @@ absl::StatusOr<Digest> Coordinator::Put(std::string_view bytes) {
   return digest;
 }
 
+absl::Status Coordinator::Read(const Digest& digest, const TakePiece& take) {
+  return blobs_.Read(digest, [&](std::string_view piece) {
+    bytes_out_ += piece.size();
+    return take(piece);
+  });
+}
+
+absl::Status Coordinator::Write(const Digest& digest, uint64_t size_bytes, const NextPiece& next) {
+  return blobs_.Write(digest, size_bytes, [&]() -> absl::StatusOr<std::string_view> {
+    absl::StatusOr<std::string_view> piece = next();
+    if (piece.ok()) bytes_in_ += piece->size();
+    return piece;
+  });
+}
+
 absl::StatusOr<std::vector<bool>> Coordinator::StatBlobs(const std::vector<Digest>& digests) {
   std::vector<bool> stored;
   for (const Digest& digest : digests) stored.push_back(blobs_.Has(digest));

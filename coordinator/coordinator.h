@@ -51,6 +51,10 @@ class Coordinator final : public CoordinatorApi {
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
+  [[nodiscard]] absl::Status Read(const Digest& digest, const TakePiece& take) override;
+  [[nodiscard]] absl::Status Write(const Digest& digest,
+                                   uint64_t size_bytes,
+                                   const NextPiece& next) override;
 
   [[nodiscard]] absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) override;
   [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,

@@ -10,9 +10,9 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "core/base/file_descriptor.h"
 
 namespace orbweave {
 namespace {
@@ -35,19 +35,6 @@ absl::Status SystemError(int error, std::string_view doing, const std::string& p
   }
 }
 
-absl::Status WriteAndSync(const std::string& path, std::string_view bytes) {
-  const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (!file.IsOpen()) return SystemError(errno, "cannot create", path);
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return SystemError(errno, "cannot write", path);
-    bytes.remove_prefix(static_cast<size_t>(written));
-  }
-  if (::fsync(file.get()) != 0) return SystemError(errno, "cannot write", path);
-  return absl::OkStatus();
-}
-
 absl::Status SyncFolder(const std::string& path) {
   const FileDescriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder.IsOpen() || ::fsync(folder.get()) != 0)
@@ -57,38 +44,65 @@ absl::Status SyncFolder(const std::string& path) {
 
 }  // namespace
 
-absl::Status WriteFileDurably(const std::string& scratch_dir,
-                              const std::string& path,
-                              std::string_view bytes) {
+absl::StatusOr<DurableFile> DurableFile::Create(const std::string& scratch_dir) {
   static std::atomic<uint64_t> counter{0};
-  const std::string scratch = absl::StrCat(scratch_dir, "/", ::getpid(), ".", counter.fetch_add(1));
-  absl::Status status = WriteAndSync(scratch, bytes);
-  if (status.ok() && ::rename(scratch.c_str(), path.c_str()) != 0) {
-    status = SystemError(errno, "cannot write", path);
+  std::string path = absl::StrCat(scratch_dir, "/", ::getpid(), ".", counter.fetch_add(1));
+  FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (!file.IsOpen()) return SystemError(errno, "cannot create", path);
+  return DurableFile(std::move(path), std::move(file));
+}
+
+DurableFile::~DurableFile() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+DurableFile::DurableFile(DurableFile&& other) noexcept
+    : path_(std::exchange(other.path_, {})), file_(std::move(other.file_)) {}
+
+absl::Status DurableFile::Append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return SystemError(errno, "cannot write", path_);
+    bytes.remove_prefix(static_cast<size_t>(written));
   }
-  if (!status.ok()) {
-    ::unlink(scratch.c_str());
-    return status;
-  }
+  return absl::OkStatus();
+}
+
+absl::Status DurableFile::MoveTo(const std::string& path) {
+  if (::fsync(file_.get()) != 0 || ::rename(path_.c_str(), path.c_str()) != 0)
+    return SystemError(errno, "cannot write", path);
+  path_.clear();
   return SyncFolder(std::filesystem::path(path).parent_path().string());
 }
 
-absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
+absl::Status WriteFileDurably(const std::string& scratch_dir,
+                              const std::string& path,
+                              std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(DurableFile file, DurableFile::Create(scratch_dir));
+  ORBWEAVE_RETURN_IF_ERROR(file.Append(bytes));
+  return file.MoveTo(path);
+}
+
+absl::Status ReadInPieces(const std::string& path, const TakePiece& take) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.IsOpen()) return SystemError(errno, "cannot open", path);
-  const off_t size = ::lseek(file.get(), 0, SEEK_END);
-  if (size < 0) return SystemError(errno, "cannot read", path);
-  std::string bytes(static_cast<size_t>(size), '\0');
-  size_t filled = 0;
-  while (filled < bytes.size()) {
-    const ssize_t got = ::pread(
-        file.get(), bytes.data() + filled, bytes.size() - filled, static_cast<off_t>(filled));
+  std::string piece(kPieceBytes, '\0');
+  while (true) {
+    const ssize_t got = ::read(file.get(), piece.data(), piece.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return SystemError(errno, "cannot read", path);
-    if (got == 0) break;
-    filled += static_cast<size_t>(got);
+    if (got == 0) return absl::OkStatus();
+    ORBWEAVE_RETURN_IF_ERROR(take(std::string_view(piece.data(), static_cast<size_t>(got))));
   }
-  bytes.resize(filled);
+}
+
+absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
+  std::string bytes;
+  ORBWEAVE_RETURN_IF_ERROR(ReadInPieces(path, [&bytes](std::string_view piece) {
+    bytes += piece;
+    return absl::OkStatus();
+  }));
   return bytes;
 }
 

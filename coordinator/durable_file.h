@@ -4,17 +4,45 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/status.h"
+#include "core/pipeline/blob_access.h"
 
 namespace orbweave {
 
-/// Writes `bytes` to `path` so that a crash at any moment leaves the old file, none, or the whole
-/// new one: temporary file in `scratch_dir` (same file system), fsync, rename, fsync of the folder.
-/// ResourceExhausted: disk full. PermissionDenied, Unavailable: the system's reason, with the path.
+/// A file in the making. A crash at any moment leaves the old file under its name, none, or the
+/// whole new one: it is a temporary file until MoveTo, and removed when that does not come. Errors
+/// of all: ResourceExhausted: disk full. PermissionDenied, Unavailable: the system's reason, with
+/// the path.
+class DurableFile {
+ public:
+  /// `scratch_dir` is on the file system of the name it is to have.
+  [[nodiscard]] static absl::StatusOr<DurableFile> Create(const std::string& scratch_dir);
+  ~DurableFile();
+  DurableFile(DurableFile&& other) noexcept;
+  DurableFile& operator=(DurableFile&& other) = delete;
+
+  [[nodiscard]] absl::Status Append(std::string_view bytes);
+  /// The last call: fsync, rename, fsync of the folder.
+  [[nodiscard]] absl::Status MoveTo(const std::string& path);
+
+ private:
+  DurableFile(std::string path, FileDescriptor file)
+      : path_(std::move(path)), file_(std::move(file)) {}
+
+  std::string path_;  ///< empty: it has its name
+  FileDescriptor file_;
+};
+
+/// A DurableFile of these bytes.
 [[nodiscard]] absl::Status WriteFileDurably(const std::string& scratch_dir,
                                             const std::string& path,
                                             std::string_view bytes);
+
+/// The file in pieces. NotFound when there is none; errors of `take`.
+[[nodiscard]] absl::Status ReadInPieces(const std::string& path, const TakePiece& take);
 
 /// The whole file. NotFound when there is none.
 [[nodiscard]] absl::StatusOr<std::string> ReadWholeFile(const std::string& path);

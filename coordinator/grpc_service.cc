@@ -3,7 +3,6 @@
 
 #include "coordinator/grpc_service.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -14,8 +13,8 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kChunkBytes = size_t{512} << 10;
-constexpr size_t kMaxBlobBytes = size_t{8} << 30;
+constexpr uint64_t kMaxBlobBytes = uint64_t{8} << 30;
+
 grpc::Status ReaderLeft() { return {grpc::StatusCode::CANCELLED, "the reader left"}; }
 
 }  // namespace
@@ -180,27 +179,30 @@ grpc::Status GrpcService::GetBlob(Context*,
                                   const v1::GetBlobRequest* request,
                                   grpc::ServerWriter<v1::BlobChunk>* writer) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::string bytes, api_.Get(digest));
-  for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
+  return OnWire(api_.Read(digest, [writer](std::string_view piece) {
     v1::BlobChunk chunk;
-    chunk.set_data(bytes.data() + offset, std::min(kChunkBytes, bytes.size() - offset));
-    if (!writer->Write(chunk)) return ReaderLeft();
-  }
-  return grpc::Status::OK;
+    chunk.set_data(piece.data(), piece.size());
+    return writer->Write(chunk) ? absl::OkStatus() : absl::CancelledError("the reader left");
+  }));
 }
 
 grpc::Status GrpcService::PutBlob(Context* context,
                                   grpc::ServerReader<v1::BlobChunk>* reader,
                                   v1::PutBlobReply* reply) {
-  std::string bytes;
   v1::BlobChunk chunk;
-  while (reader->Read(&chunk)) {
-    bytes += chunk.data();
-    if (bytes.size() > kMaxBlobBytes)
-      return OnWire(absl::InvalidArgumentError("a blob of more than 8 GiB"));
-  }
-  if (context->IsCancelled()) return {grpc::StatusCode::CANCELLED, "the writer left"};
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, api_.Put(bytes));
+  if (!reader->Read(&chunk)) return OnWire(absl::InvalidArgumentError("a blob without a name"));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(chunk.digest()));
+  const uint64_t size_bytes = chunk.size_bytes();
+  if (size_bytes > kMaxBlobBytes)
+    return OnWire(absl::InvalidArgumentError("a blob of more than 8 GiB"));
+  bool is_first = true;
+  const auto next = [&]() -> absl::StatusOr<std::string_view> {
+    if (std::exchange(is_first, false) && !chunk.data().empty()) return chunk.data();
+    if (reader->Read(&chunk)) return chunk.data();
+    if (context->IsCancelled()) return absl::CancelledError("the writer left");
+    return std::string_view();
+  };
+  ORBWEAVE_GRPC_RETURN_IF_ERROR(api_.Write(digest, size_bytes, next));
   reply->set_digest(ToProto(digest));
   return grpc::Status::OK;
 }

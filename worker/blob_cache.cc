@@ -6,6 +6,16 @@
 #include "worker/retry.h"
 
 namespace orbweave {
+namespace {
+
+absl::StatusOr<SharedBytes> Fetch(BlobAccess& source, const Digest& digest) {
+  SharedBytesBuilder bytes;
+  ORBWEAVE_RETURN_IF_ERROR(
+      source.Read(digest, [&bytes](std::string_view piece) { return bytes.Append(piece); }));
+  return bytes.Finish();
+}
+
+}  // namespace
 
 absl::StatusOr<SharedBytes> BlobCache::Get(const Digest& digest) {
   {
@@ -16,9 +26,8 @@ absl::StatusOr<SharedBytes> BlobCache::Get(const Digest& digest) {
       return it->second->second;
     }
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(std::string got,
-                            RetryWhileUnavailable(stop_, [&] { return source_.Get(digest); }));
-  const SharedBytes bytes = SharedBytes::Of(std::move(got));
+  ORBWEAVE_ASSIGN_OR_RETURN(const SharedBytes bytes,
+                            RetryWhileUnavailable(stop_, [&] { return Fetch(source_, digest); }));
   Keep(digest, bytes);
   return bytes;
 }

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "proto/codec/coordinator_codec.h"
+#include "worker/grpc_blob_transfer.h"
 #include "worker/grpc_channel.h"
 #include "worker/grpc_status.h"
 
@@ -18,14 +19,12 @@ namespace {
 
 using Stub = v1::Coordinator::Stub;
 
-constexpr size_t kChunkBytes = size_t{512} << 10;
 /// Digests per StatBlobs message.
 constexpr size_t kMaxDigests = 65536;
 
-/// A call that is answered at once, one that reads or writes a file, one that moves a blob.
+/// A call that is answered at once, one that reads or writes a file.
 constexpr double kQuick_s = 30.0;
 constexpr double kFile_s = 300.0;
-constexpr double kBlob_s = 1800.0;
 
 void SetDeadline(grpc::ClientContext& context, double seconds) {
   context.set_deadline(std::chrono::system_clock::now() +
@@ -64,35 +63,28 @@ GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
       roots_(options.roots) {}
 
 absl::StatusOr<std::string> GrpcCoordinatorClient::Get(const Digest& digest) {
-  grpc::ClientContext context;
-  SetDeadline(context, kBlob_s);
-  v1::GetBlobRequest request;
-  request.set_digest(ToProto(digest));
-  const auto reader = stub_->GetBlob(&context, request);
   std::string bytes;
-  v1::BlobChunk chunk;
-  while (reader->Read(&chunk)) bytes += chunk.data();
-  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
-  if (DigestOf(bytes) == digest) return bytes;
-  return absl::UnavailableError(absl::StrCat("blob ", digest.ToShortHex(), " arrived damaged"));
+  ORBWEAVE_RETURN_IF_ERROR(Read(digest, [&bytes](std::string_view piece) {
+    bytes += piece;
+    return absl::OkStatus();
+  }));
+  return bytes;
 }
 
 absl::StatusOr<Digest> GrpcCoordinatorClient::Put(std::string_view bytes) {
-  grpc::ClientContext context;
-  SetDeadline(context, kBlob_s);
-  v1::PutBlobReply reply;
-  const auto writer = stub_->PutBlob(&context, &reply);
-  for (size_t offset = 0; offset < bytes.size(); offset += kChunkBytes) {
-    v1::BlobChunk chunk;
-    chunk.set_data(bytes.data() + offset, std::min(kChunkBytes, bytes.size() - offset));
-    if (!writer->Write(chunk)) break;  // Finish says why
-  }
-  writer->WritesDone();
-  ORBWEAVE_RETURN_IF_ERROR(FromWire(writer->Finish()));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest stored, DigestFromProto(reply.digest()));
   const Digest digest = DigestOf(bytes);
-  if (stored == digest) return digest;
-  return absl::UnavailableError(absl::StrCat("blob ", digest.ToShortHex(), " arrived damaged"));
+  ORBWEAVE_RETURN_IF_ERROR(Write(digest, bytes.size(), PiecesOf(bytes)));
+  return digest;
+}
+
+absl::Status GrpcCoordinatorClient::Read(const Digest& digest, const TakePiece& take) {
+  return ReceiveBlob(*stub_, digest, take);
+}
+
+absl::Status GrpcCoordinatorClient::Write(const Digest& digest,
+                                          uint64_t size_bytes,
+                                          const NextPiece& next) {
+  return SendBlob(*stub_, digest, size_bytes, next);
 }
 
 void GrpcCoordinatorClient::AwaitConnection() {

@@ -28,11 +28,16 @@ bool WriteAll(int fd, std::string_view bytes) {
   return true;
 }
 
+FileDescriptor MakeMemoryFile() {
+  return FileDescriptor(::memfd_create("orbweave-blob", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+}
+
+bool Seal(const FileDescriptor& file) { return ::fcntl(file.get(), F_ADD_SEALS, kSeals) == 0; }
+
 /// Nothing when the system has no room for it.
 std::optional<FileDescriptor> WriteMemoryFile(std::string_view bytes) {
-  FileDescriptor file(::memfd_create("orbweave-blob", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  if (!file.IsOpen() || !WriteAll(file.get(), bytes)) return std::nullopt;
-  if (::fcntl(file.get(), F_ADD_SEALS, kSeals) != 0) return std::nullopt;
+  FileDescriptor file = MakeMemoryFile();
+  if (!file.IsOpen() || !WriteAll(file.get(), bytes) || !Seal(file)) return std::nullopt;
   return file;
 }
 
@@ -99,5 +104,25 @@ std::string_view SharedBytes::View() const {
 }
 
 int SharedBytes::descriptor() const { return file_ ? file_->descriptor() : -1; }
+
+absl::Status SharedBytesBuilder::Append(std::string_view piece) {
+  if (!file_.IsOpen()) {
+    text_ += piece;
+    if (text_.size() < SharedBytes::kLeastFileBytes) return absl::OkStatus();
+    file_ = MakeMemoryFile();
+    if (!file_.IsOpen()) return absl::OkStatus();
+    piece = text_;
+  }
+  if (!WriteAll(file_.get(), piece))
+    return absl::ResourceExhaustedError("no memory left for the bytes of a blob");
+  std::string().swap(text_);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<SharedBytes> SharedBytesBuilder::Finish() {
+  if (!file_.IsOpen()) return SharedBytes::Of(std::move(text_));
+  if (!Seal(file_)) return absl::ResourceExhaustedError("cannot seal the bytes of a blob");
+  return SharedBytes::FromFile(std::move(file_));
+}
 
 }  // namespace orbweave

@@ -40,4 +40,17 @@ class SharedBytes {
   std::shared_ptr<const std::string> text_;
 };
 
+/// Gathers bytes in pieces, however many come, without ever holding them twice.
+class SharedBytesBuilder {
+ public:
+  /// ResourceExhausted: the system has no room for them.
+  [[nodiscard]] absl::Status Append(std::string_view piece);
+  /// All that was appended. The last call.
+  [[nodiscard]] absl::StatusOr<SharedBytes> Finish();
+
+ private:
+  std::string text_;     ///< while there is no file
+  FileDescriptor file_;  ///< from SharedBytes::kLeastFileBytes on, where the system gives one
+};
+
 }  // namespace orbweave

@@ -18,6 +18,7 @@
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
+#include "worker/peak_memory.h"
 
 namespace orbweave {
 namespace {
@@ -166,6 +167,52 @@ TEST_P(CoordinatorContract, KeepsBlobsOfEverySize) {
     ASSERT_TRUE(back.ok()) << back.status();
     EXPECT_TRUE(*back == bytes) << size;
   }
+}
+
+TEST_P(CoordinatorContract, HoldsOnlyPiecesOfALargeBlob) {
+  constexpr uint64_t kPieces = 512;
+  const std::string piece(kPieceBytes, 'x');
+  DigestBuilder name;
+  for (uint64_t i = 0; i < kPieces; ++i) name.Add(piece);
+  const Digest digest = name.Finish();
+  uint64_t given = 0;
+  uint64_t taken_bytes = 0;
+  RestartPeakMemory();
+  const uint64_t before_bytes = PeakMemoryBytes();
+  const auto next = [&]() -> absl::StatusOr<std::string_view> {
+    return given++ < kPieces ? std::string_view(piece) : std::string_view();
+  };
+  const absl::Status written = Api().Write(digest, kPieces * piece.size(), next);
+  ASSERT_TRUE(written.ok()) << written;
+  const absl::Status read = Api().Read(digest, [&taken_bytes](std::string_view got) {
+    taken_bytes += got.size();
+    return absl::OkStatus();
+  });
+  ASSERT_TRUE(read.ok()) << read;
+  EXPECT_EQ(taken_bytes, kPieces * piece.size());
+  EXPECT_LT(PeakMemoryBytes() - before_bytes, taken_bytes / 2);
+}
+
+TEST_P(CoordinatorContract, StoresNoOtherPiecesThanThoseThatWereNamed) {
+  const Digest digest = DigestOf("precious");
+  EXPECT_FALSE(Api().Write(digest, 8, PiecesOf("presious")).ok());
+  EXPECT_FALSE(Api().Write(digest, 9, PiecesOf("precious")).ok());
+  EXPECT_THAT(*Api().StatBlobs({digest, DigestOf("presious")}), ElementsAre(false, false));
+  EXPECT_TRUE(Api().Write(digest, 8, PiecesOf("precious")).ok());
+  EXPECT_EQ(*Api().Get(digest), "precious");
+}
+
+TEST_P(CoordinatorContract, WhoCannotTakeOrGiveAPieceSaysWhy) {
+  const Digest digest = *Api().Put(std::string(3 * kPieceBytes, 'x'));
+  int pieces = 0;
+  const auto full = [&pieces](std::string_view) {
+    return ++pieces < 2 ? absl::OkStatus() : absl::ResourceExhaustedError("full");
+  };
+  EXPECT_TRUE(absl::IsResourceExhausted(Api().Read(digest, full)));
+  const auto lost = []() -> absl::StatusOr<std::string_view> {
+    return absl::NotFoundError("the file is gone");
+  };
+  EXPECT_TRUE(absl::IsNotFound(Api().Write(DigestOf("precious"), 8, lost)));
 }
 
 TEST_P(CoordinatorContract, SaysWhichBlobsAreStored) {

@@ -93,6 +93,45 @@ TEST(BlobStore, RefusesToLinkWhatIsNotTheFile) {
   EXPECT_TRUE(absl::IsInvalidArgument(store->LinkFile(DigestOf("pixels"), "image.jpg")));
 }
 
+TEST(BlobStore, TakesAndGivesABlobInPieces) {
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
+  ASSERT_TRUE(store.ok());
+  const std::string bytes(3 * kPieceBytes + 1, 'x');
+  const Digest digest = DigestOf(bytes);
+  ASSERT_TRUE(store->Write(digest, bytes.size(), PiecesOf(bytes)).ok());
+  std::string back;
+  ASSERT_TRUE(store
+                  ->Read(digest,
+                         [&back](std::string_view piece) {
+                           EXPECT_LE(piece.size(), kPieceBytes);
+                           back += piece;
+                           return absl::OkStatus();
+                         })
+                  .ok());
+  EXPECT_TRUE(back == bytes);
+  const auto nobody_asks = []() -> absl::StatusOr<std::string_view> {
+    return absl::InternalError("it is stored");
+  };
+  EXPECT_TRUE(store->Write(digest, bytes.size(), nobody_asks).ok());
+}
+
+TEST(BlobStore, StoresOnlyThePiecesThatWereNamed) {
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
+  ASSERT_TRUE(store.ok());
+  const Digest digest = DigestOf("precious");
+  EXPECT_TRUE(absl::IsDataLoss(store->Write(digest, 8, PiecesOf("presious"))));
+  EXPECT_TRUE(absl::IsDataLoss(store->Write(digest, 7, PiecesOf("precious"))));
+  EXPECT_TRUE(absl::IsDataLoss(store->Write(digest, 9, PiecesOf("precious"))));
+  const auto cut_off = []() -> absl::StatusOr<std::string_view> {
+    return absl::CancelledError("the writer left");
+  };
+  EXPECT_TRUE(absl::IsCancelled(store->Write(digest, 8, cut_off)));
+  EXPECT_FALSE(store->Has(digest));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
+}
+
 TEST(BlobStore, LeavesNoScratchFilesBehind) {
   const TemporaryFolder folder;
   ASSERT_TRUE(BlobStore::Open(folder.Path()).ok());

@@ -50,6 +50,27 @@ TEST(Limits, AChunkOfABlobIsAMessageToo) {
   EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
+TEST(Limits, ABlobHasItsSizeAndItsName) {
+  TlsServer server;
+  const auto stub =
+      v1::Coordinator::NewStub(OpenChannel(server.address(), server.keys() + "/client"));
+  const auto put = [&stub](const v1::BlobChunk& chunk) {
+    grpc::ClientContext context;
+    v1::PutBlobReply reply;
+    const auto writer = stub->PutBlob(&context, &reply);
+    writer->Write(chunk);
+    writer->WritesDone();
+    return writer->Finish().error_code();
+  };
+  v1::BlobChunk chunk;
+  chunk.set_data("bytes");
+  EXPECT_EQ(put(chunk), grpc::StatusCode::INVALID_ARGUMENT) << "it has no name";
+  chunk.set_digest(std::string(32, 'd'));
+  EXPECT_EQ(put(chunk), grpc::StatusCode::DATA_LOSS) << "more bytes than were said";
+  chunk.set_size_bytes((uint64_t{8} << 30) + 1);
+  EXPECT_EQ(put(chunk), grpc::StatusCode::INVALID_ARGUMENT) << "more than a blob may have";
+}
+
 TEST(Limits, RunningJobsAreCounted) {
   TlsServer server({}, {.max_running_jobs = 2});
   const auto client = server.As("client");

@@ -72,6 +72,19 @@ TEST(SharedBytes, RefusesAFileThatMayStillChange) {
   EXPECT_TRUE(absl::IsInvalidArgument(SharedBytes::FromFile(std::move(file)).status()));
 }
 
+TEST(SharedBytes, AreGatheredPieceByPiece) {
+  for (const size_t size : {size_t{0}, size_t{7}, SharedBytes::kLeastFileBytes + 5}) {
+    const std::string bytes(size, 'a');
+    SharedBytesBuilder builder;
+    for (size_t begin = 0; begin < size; begin += 1000)
+      ASSERT_TRUE(builder.Append(std::string_view(bytes).substr(begin, 1000)).ok());
+    const absl::StatusOr<SharedBytes> gathered = builder.Finish();
+    ASSERT_TRUE(gathered.ok()) << gathered.status();
+    EXPECT_TRUE(gathered->View() == bytes);
+    EXPECT_EQ(gathered->descriptor() >= 0, size >= SharedBytes::kLeastFileBytes);
+  }
+}
+
 TEST(SharedBytes, NobodyCanChangeThem) {
   const SharedBytes bytes = SharedBytes::CopyOf(std::string(SharedBytes::kLeastFileBytes, 'a'));
   ASSERT_GE(bytes.descriptor(), 0);
