@@ -9,32 +9,15 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/journal_rows.h"
+#include "coordinator/journal_tables.h"
 #include "proto/codec/coordinator_codec.h"
 
 namespace orbweave {
 namespace {
 
-/// Raised when the tables change.
-constexpr int64_t kFormat = 1;
 /// Tasks looked up by one statement.
 constexpr size_t kLookup = 64;
-
-constexpr const char* kTables[] = {
-    "CREATE TABLE IF NOT EXISTS orbweave (format BIGINT NOT NULL, generation BIGINT NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS orbweave_job (id BYTEA PRIMARY KEY, number BIGINT NOT NULL, "
-    "state BIGINT NOT NULL, error TEXT NOT NULL, spec BYTEA NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS orbweave_attempt (epoch BIGINT PRIMARY KEY, task BYTEA NOT NULL, "
-    "job BYTEA NOT NULL, stage TEXT NOT NULL, part BIGINT NOT NULL, worker TEXT NOT NULL, "
-    "slot BIGINT NOT NULL, started_s DOUBLE PRECISION NOT NULL, ended_s DOUBLE PRECISION, "
-    "reason TEXT)",
-    "CREATE INDEX IF NOT EXISTS orbweave_attempt_task ON orbweave_attempt (task)",
-    "CREATE INDEX IF NOT EXISTS orbweave_attempt_open ON orbweave_attempt (epoch) "
-    "WHERE ended_s IS NULL",
-    "CREATE TABLE IF NOT EXISTS orbweave_result (task BYTEA PRIMARY KEY, digest BYTEA NOT NULL, "
-    "content BYTEA NOT NULL)"};
-
-constexpr const char* kAttemptColumns =
-    "epoch, task, job, stage, part, worker, slot, started_s, ended_s, reason";
 
 double SecondsSince1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -47,32 +30,12 @@ std::string Parameters(size_t count) {
   return text;
 }
 
-absl::StatusOr<Attempt> AttemptFrom(const SqlRow& row) {
-  Attempt attempt{.epoch = static_cast<uint64_t>(row.Integer(0)),
-                  .stage = std::string(row.Bytes(3)),
-                  .part = static_cast<uint32_t>(row.Integer(4)),
-                  .worker = std::string(row.Bytes(5)),
-                  .slot = static_cast<uint32_t>(row.Integer(6))};
-  ORBWEAVE_ASSIGN_OR_RETURN(attempt.task, DigestFromProto(row.Bytes(1)));
-  ORBWEAVE_ASSIGN_OR_RETURN(attempt.job, DigestFromProto(row.Bytes(2)));
-  return attempt;
-}
-
-/// The result in a row (task, digest, content), unless it is damaged.
-std::optional<TaskResult> ResultFrom(const SqlRow& row) {
-  v1::TaskResult proto;
-  const std::string content(row.Bytes(2));
-  if (ToProto(DigestOf(content)) != row.Bytes(1) || !proto.ParseFromString(content)) return {};
-  absl::StatusOr<TaskResult> result = FromProto(proto);
-  return result.ok() ? std::optional(*std::move(result)) : std::nullopt;
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Journal>> SqlJournal::Open(std::unique_ptr<SqlDatabase> writer,
                                                           std::unique_ptr<SqlDatabase> reader) {
   std::unique_ptr<SqlJournal> journal(new SqlJournal(std::move(writer), std::move(reader)));
-  ORBWEAVE_RETURN_IF_ERROR(journal->Begin());
+  ORBWEAVE_ASSIGN_OR_RETURN(journal->generation_, BeginGeneration(*journal->writer_));
   return journal;
 }
 
@@ -80,28 +43,6 @@ SqlJournal::SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlD
     : writer_(std::move(writer)),
       reader_(std::move(reader)),
       commit_([this](const auto& writes) { return Transact(writes); }) {}
-
-absl::Status SqlJournal::Begin() {
-  return writer_->Transact([this]() -> absl::Status {
-    for (const char* table : kTables) ORBWEAVE_RETURN_IF_ERROR(writer_->Execute(table));
-    ORBWEAVE_RETURN_IF_ERROR(
-        writer_->Execute("INSERT INTO orbweave SELECT CAST($1 AS BIGINT), 0 "
-                         "WHERE NOT EXISTS (SELECT 1 FROM orbweave)",
-                         {kFormat}));
-    ORBWEAVE_RETURN_IF_ERROR(writer_->Execute("UPDATE orbweave SET generation = generation + 1"));
-    return writer_->Query(
-        "SELECT format, generation FROM orbweave", {}, [this](const SqlRow& row) -> absl::Status {
-          generation_ = static_cast<uint64_t>(row.Integer(1));
-          if (row.Integer(0) == kFormat) return absl::OkStatus();
-          return absl::FailedPreconditionError(
-              absl::StrCat("the journal has format ",
-                           row.Integer(0),
-                           ", this version of orbweave writes ",
-                           kFormat,
-                           ": use the version that wrote it, or another state folder"));
-        });
-  });
-}
 
 absl::Status SqlJournal::Transact(const std::vector<const GroupCommit::Write*>& writes) {
   return writer_->Transact([&]() -> absl::Status {
@@ -137,21 +78,13 @@ absl::Status SqlJournal::SaveJob(const JobEntry& job) {
 absl::StatusOr<std::vector<JobEntry>> SqlJournal::LoadJobs() {
   const std::lock_guard lock(reading_mutex_);
   std::vector<JobEntry> jobs;
-  ORBWEAVE_RETURN_IF_ERROR(reader_->Query(
-      "SELECT number, state, error, spec FROM orbweave_job ORDER BY number",
-      {},
-      [&jobs](const SqlRow& row) -> absl::Status {
-        JobEntry job{.error = std::string(row.Bytes(2)),
-                     .number = static_cast<uint64_t>(row.Integer(0))};
-        ORBWEAVE_ASSIGN_OR_RETURN(job.state,
-                                  JobStateFromProto(static_cast<uint32_t>(row.Integer(1))));
-        v1::JobSpec spec;
-        if (!spec.ParseFromString(std::string(row.Bytes(3))))
-          return absl::DataLossError(absl::StrCat("job ", job.number, " is damaged"));
-        ORBWEAVE_ASSIGN_OR_RETURN(job.spec, FromProto(spec));
-        jobs.push_back(std::move(job));
-        return absl::OkStatus();
-      }));
+  ORBWEAVE_RETURN_IF_ERROR(
+      reader_->Query(absl::StrCat("SELECT ", kJobColumns, " FROM orbweave_job ORDER BY number"),
+                     {},
+                     [&jobs](const SqlRow& row) -> absl::Status {
+                       ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(), JobFrom(row));
+                       return absl::OkStatus();
+                     }));
   return jobs;
 }
 
@@ -202,10 +135,8 @@ absl::Status SqlJournal::SaveEnds(const std::vector<AttemptEnd>& ends) {
 
 absl::StatusOr<std::vector<std::optional<TaskResult>>> SqlJournal::LoadResults(
     const std::vector<Digest>& tasks) {
-  static const std::string sql =
-      absl::StrCat("SELECT task, digest, content FROM orbweave_result WHERE task IN (",
-                   Parameters(kLookup),
-                   ")");
+  static const std::string sql = absl::StrCat(
+      "SELECT ", kResultColumns, " FROM orbweave_result WHERE task IN (", Parameters(kLookup), ")");
   std::map<std::string, TaskResult, std::less<>> found;
   std::vector<std::string> keys;
   for (const Digest& task : tasks) keys.push_back(ToProto(task));
@@ -248,12 +179,7 @@ absl::StatusOr<std::vector<AttemptRecord>> SqlJournal::LoadAttempts(const Digest
   std::vector<AttemptRecord> records;
   ORBWEAVE_RETURN_IF_ERROR(
       reader_->Query(sql, {SqlBytes{key}}, [&records](const SqlRow& row) -> absl::Status {
-        AttemptRecord& record = records.emplace_back();
-        ORBWEAVE_ASSIGN_OR_RETURN(record.attempt, AttemptFrom(row));
-        record.started_s = row.Number(7);
-        if (row.IsNull(8)) return absl::OkStatus();
-        record.ended_s = row.Number(8);
-        record.reason = std::string(row.Bytes(9));
+        ORBWEAVE_ASSIGN_OR_RETURN(records.emplace_back(), AttemptRecordFrom(row));
         return absl::OkStatus();
       }));
   return records;

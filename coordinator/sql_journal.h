@@ -11,9 +11,8 @@
 
 namespace orbweave {
 
-/// A journal in the tables of a database: `orbweave` (format and generation), `orbweave_job`,
-/// `orbweave_attempt`, `orbweave_result`. Writers share transactions (GroupCommit); readers have a
-/// connection of their own and do not wait for them.
+/// A journal in the tables of a database (journal_tables.h). Writers share transactions
+/// (GroupCommit); readers have a connection of their own and do not wait for them.
 class SqlJournal final : public Journal {
  public:
   /// Makes the tables that are missing and begins a generation. FailedPrecondition: the tables are
@@ -37,7 +36,6 @@ class SqlJournal final : public Journal {
 
  private:
   SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
-  [[nodiscard]] absl::Status Begin();
   /// All writes of a batch in one transaction, if this is still the journal's last generation.
   [[nodiscard]] absl::Status Transact(const std::vector<const GroupCommit::Write*>& writes);
   [[nodiscard]] absl::Status EndAttempt(uint64_t epoch, std::string_view reason);
