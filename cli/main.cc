@@ -13,6 +13,8 @@
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
+#include "cli/forget_command.h"
+#include "cli/gc_command.h"
 #include "cli/jobs_command.h"
 #include "cli/keys_command.h"
 #include "cli/options_command.h"
@@ -57,6 +59,8 @@ int main(int argc, char** argv) {
   orbweave::AddCancelCommand(app, selected);
   orbweave::AddRetryCommand(app, selected);
   orbweave::AddDrainCommand(app, selected);
+  orbweave::AddForgetCommand(app, selected);
+  orbweave::AddGcCommand(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,7 +3,12 @@
 
 #include "coordinator/blob_store.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <chrono>
 #include <filesystem>
+#include <map>
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/durable_file.h"
@@ -80,7 +85,7 @@ absl::Status BlobStore::Read(const Digest& digest, const TakePiece& take) {
 absl::StatusOr<Digest> BlobStore::Put(std::string_view bytes) {
   const Digest digest = DigestOf(bytes);
   const std::string path = BlobPath(digest);
-  if (IsFile(path)) return digest;
+  if (Use(digest)) return digest;
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(fs::path(path).parent_path().string()));
   ORBWEAVE_RETURN_IF_ERROR(WriteFileDurably(ScratchDir(), path, bytes));
   return digest;
@@ -88,7 +93,7 @@ absl::StatusOr<Digest> BlobStore::Put(std::string_view bytes) {
 
 absl::Status BlobStore::Write(const Digest& digest, uint64_t size_bytes, const NextPiece& next) {
   const std::string path = BlobPath(digest);
-  if (IsFile(path)) return absl::OkStatus();
+  if (Use(digest)) return absl::OkStatus();
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(fs::path(path).parent_path().string()));
   ORBWEAVE_ASSIGN_OR_RETURN(DurableFile file, DurableFile::Create(ScratchDir()));
   DigestBuilder builder;
@@ -105,6 +110,49 @@ absl::Status BlobStore::Write(const Digest& digest, uint64_t size_bytes, const N
 }
 
 bool BlobStore::Has(const Digest& digest) const { return !FileOf(digest).empty(); }
+
+bool BlobStore::Use(const Digest& digest) const {
+  const std::lock_guard lock(*using_);
+  const bool is_own = ::utimensat(AT_FDCWD, BlobPath(digest).c_str(), nullptr, 0) == 0;
+  if (!is_own) ::utimensat(AT_FDCWD, LinkPath(digest).c_str(), nullptr, 0);
+  return Has(digest);
+}
+
+absl::StatusOr<std::vector<StoredBlob>> BlobStore::List() const {
+  std::map<Digest, uint64_t> sizes;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder_, error), end; !error && it != end;
+       it.increment(error)) {
+    const absl::StatusOr<Digest> digest = Digest::FromHex(it->path().filename().string());
+    std::error_code gone;
+    if (!digest.ok() || !it->is_regular_file(gone)) continue;
+    const bool is_link = it->path().parent_path().filename() == "links";
+    const uint64_t size_bytes = is_link ? 0 : it->file_size(gone);
+    if (!gone) sizes[*digest] += size_bytes;
+  }
+  if (error)
+    return absl::UnavailableError(absl::StrCat("cannot read ", folder_, ": ", error.message()));
+  std::vector<StoredBlob> blobs;
+  for (const auto& [digest, size_bytes] : sizes) blobs.push_back({digest, size_bytes});
+  return blobs;
+}
+
+bool BlobStore::IsUnused(const Digest& digest, double unused_s) const {
+  const auto since = fs::file_time_type::clock::now() - std::chrono::duration<double>(unused_s);
+  for (const std::string& path : {BlobPath(digest), LinkPath(digest)}) {
+    std::error_code gone;
+    const fs::file_time_type used = fs::last_write_time(path, gone);
+    if (!gone && used > since) return false;
+  }
+  return true;
+}
+
+bool BlobStore::RemoveUnused(const Digest& digest, double unused_s) {
+  const std::lock_guard lock(*using_);
+  if (!IsUnused(digest, unused_s)) return false;
+  Forget(digest);
+  return true;
+}
 
 bool BlobStore::Verify(const Digest& digest) {
   const std::string path = FileOf(digest);
@@ -124,6 +172,7 @@ absl::Status BlobStore::LinkFile(const Digest& digest, const std::string& path) 
     return absl::DataLossError(
         absl::StrCat(path, " is not ", DescribeBlob(digest), ": it has other bytes"));
   }
+  const std::lock_guard lock(*using_);
   return WriteFileDurably(ScratchDir(), LinkPath(digest), path);
 }
 

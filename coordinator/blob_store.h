@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/pipeline/blob_access.h"
 
@@ -16,9 +19,16 @@ struct BlobTraffic {
   uint64_t bytes_out = 0;
 };
 
+/// A file of the store.
+struct StoredBlob {
+  Digest digest{};
+  uint64_t size_bytes = 0;  ///< 0: the bytes are in a file outside
+};
+
 /// Blobs in a folder: `<folder>/ab/<hex>` holds the bytes, `<folder>/links/<hex>` the absolute path
 /// of a file outside that holds them. A blob is written once and whole. Every read is verified; a
-/// blob that is not what its name says is removed, so that it can be made again. Thread-safe.
+/// blob that is not what its name says is removed, so that it can be made again. The time of its
+/// file says when it was last put or used. Thread-safe; one process has the folder.
 class BlobStore final : public BlobAccess {
  public:
   [[nodiscard]] static absl::StatusOr<BlobStore> Open(const std::string& folder);
@@ -32,10 +42,19 @@ class BlobStore final : public BlobAccess {
 
   /// Whether the blob, or the file it links to, is there; its bytes are not looked at.
   [[nodiscard]] bool Has(const Digest& digest) const;
+  /// Has; and if so, it counts as used now.
+  [[nodiscard]] bool Use(const Digest& digest) const;
   /// Whether it is there and its bytes are right (otherwise it is removed).
   [[nodiscard]] bool Verify(const Digest& digest);
   /// See CoordinatorApi::LinkFile. InvalidArgument: the path is not absolute.
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path);
+
+  /// All blobs, by digest. Unavailable, PermissionDenied: the folder cannot be read.
+  [[nodiscard]] absl::StatusOr<std::vector<StoredBlob>> List() const;
+  /// Whether nobody put or used the blob within the last `unused_s` seconds.
+  [[nodiscard]] bool IsUnused(const Digest& digest, double unused_s) const;
+  /// Removes the blob if it is unused; whether it was.
+  [[nodiscard]] bool RemoveUnused(const Digest& digest, double unused_s);
 
  private:
   explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
@@ -47,6 +66,8 @@ class BlobStore final : public BlobAccess {
   void Forget(const Digest& digest) const;
 
   std::string folder_;
+  /// Between looking when a blob was used and removing it nobody begins to use it.
+  std::unique_ptr<std::mutex> using_ = std::make_unique<std::mutex>();
 };
 
 }  // namespace orbweave

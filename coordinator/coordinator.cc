@@ -64,43 +64,6 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
 
 Coordinator::~Coordinator() { BeginShutdown(); }
 
-absl::StatusOr<std::string> Coordinator::Get(const Digest& digest) {
-  absl::StatusOr<std::string> bytes = blobs_.Get(digest);
-  if (bytes.ok()) bytes_out_ += bytes->size();
-  return bytes;
-}
-
-absl::StatusOr<Digest> Coordinator::Put(std::string_view bytes) {
-  absl::StatusOr<Digest> digest = blobs_.Put(bytes);
-  if (digest.ok()) bytes_in_ += bytes.size();
-  return digest;
-}
-
-absl::Status Coordinator::Read(const Digest& digest, const TakePiece& take) {
-  return blobs_.Read(digest, [&](std::string_view piece) {
-    bytes_out_ += piece.size();
-    return take(piece);
-  });
-}
-
-absl::Status Coordinator::Write(const Digest& digest, uint64_t size_bytes, const NextPiece& next) {
-  return blobs_.Write(digest, size_bytes, [&]() -> absl::StatusOr<std::string_view> {
-    absl::StatusOr<std::string_view> piece = next();
-    if (piece.ok()) bytes_in_ += piece->size();
-    return piece;
-  });
-}
-
-absl::StatusOr<std::vector<bool>> Coordinator::StatBlobs(const std::vector<Digest>& digests) {
-  std::vector<bool> stored;
-  for (const Digest& digest : digests) stored.push_back(blobs_.Has(digest));
-  return stored;
-}
-
-absl::Status Coordinator::LinkFile(const Digest& digest, const std::string& path) {
-  return blobs_.LinkFile(digest, path);
-}
-
 absl::StatusOr<JoinReply> Coordinator::Join(const WorkerInfo& worker) {
   ORBWEAVE_RETURN_IF_ERROR(CheckVersion(worker));
   const std::lock_guard lock(mutex_);
@@ -186,7 +149,7 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
                                        const TaskResult& result) {
   for (const auto* blobs : {&result.outputs, &result.recipes}) {
     for (const Digest& blob : *blobs) {
-      if (blobs_.Has(blob)) continue;
+      if (blobs_.Use(blob)) continue;
       return absl::InvalidArgumentError(absl::StrCat("the result of task ",
                                                      lease.task.ToShortHex(),
                                                      " names blob ",
@@ -224,7 +187,7 @@ absl::Status Coordinator::FailTask(uint64_t session,
 
 absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
   for (const Digest& input : spec.inputs) {
-    if (blobs_.Has(input)) continue;
+    if (blobs_.Use(input)) continue;
     return absl::NotFoundError(
         absl::StrCat("the job's input blob ", input.ToShortHex(), " is not stored"));
   }
@@ -274,6 +237,8 @@ absl::Status Coordinator::CancelJob(const Digest& id) {
   if (cancelled.ok()) desk_.SaveEnd(id);
   return cancelled.status();
 }
+
+absl::Status Coordinator::ForgetJob(const Digest& id) { return desk_.Forget(id); }
 
 absl::StatusOr<std::vector<TaskOutcome>> Coordinator::GetOutcomes(const Digest& id) {
   return LookAt(id, [](const Job& job) { return job.machine->Outcomes(); });

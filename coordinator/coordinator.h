@@ -75,6 +75,7 @@ class Coordinator final : public CoordinatorApi {
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
+  [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<MeasuredTask>> GetCosts(const Digest& job) override;
@@ -82,6 +83,8 @@ class Coordinator final : public CoordinatorApi {
   [[nodiscard]] absl::StatusOr<std::vector<bool>> StatBlobs(
       const std::vector<Digest>& digests) override;
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
+  [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(
+      const GarbageOptions& options) override;
 
   /// Somebody saw the process of this worker end: its leases are void at once.
   void WorkerDied(std::string_view name);
@@ -114,6 +117,7 @@ class Coordinator final : public CoordinatorApi {
   std::atomic<uint64_t> bytes_in_{0};
   std::atomic<uint64_t> bytes_out_{0};
 
+  std::mutex collecting_mutex_;  ///< one collection of garbage at a time; taken before all others
   std::mutex mutex_;
   std::condition_variable changed_;  ///< a task may be ready, or the end is near
   Dispatcher dispatcher_;

@@ -37,6 +37,11 @@ void Dispatcher::CancelJob(const Digest& id, double now_s) {
   if (!jobs_.At(id).IsRunning()) VoidLeases(id, "the job was cancelled");
 }
 
+void Dispatcher::ForgetJob(const Digest& id) {
+  VoidLeases(id, "the job was forgotten");
+  jobs_.Forget(id);
+}
+
 uint64_t Dispatcher::Join(const WorkerInfo& worker, double now_s) {
   const uint64_t session = ++last_session_;
   roster_.Join(worker, session, now_s);

@@ -43,6 +43,8 @@ class Dispatcher {
   /// Lets a job begin (anew): what was leased of it before is void.
   Job& BeginJob(const JobSpec& spec, JobPlan plan, uint64_t number, double now_s);
   void CancelJob(const Digest& id, double now_s);
+  /// Takes a job that has ended out of the table.
+  void ForgetJob(const Digest& id);
 
   /// Begins a session. The worker goes on with the leases it lists; others it had are void.
   [[nodiscard]] uint64_t Join(const WorkerInfo& worker, double now_s);

@@ -9,6 +9,7 @@
 #include "coordinator/grpc_peer.h"
 #include "coordinator/grpc_status.h"
 #include "proto/codec/coordinator_codec.h"
+#include "proto/codec/garbage_codec.h"
 
 namespace orbweave {
 namespace {
@@ -123,6 +124,20 @@ grpc::Status GrpcService::DrainWorker(Context*, const v1::DrainWorkerRequest* re
 grpc::Status GrpcService::CancelJob(Context*, const v1::JobRequest* request, v1::Empty*) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
   return OnWire(api_.CancelJob(id));
+}
+
+grpc::Status GrpcService::ForgetJob(Context*, const v1::JobRequest* request, v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
+  return OnWire(api_.ForgetJob(id));
+}
+
+grpc::Status GrpcService::CollectGarbage(Context*,
+                                         const v1::GarbageRequest* request,
+                                         v1::GarbageReport* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const GarbageReport report,
+                                 api_.CollectGarbage(FromProto(*request)));
+  *reply = ToProto(report);
+  return grpc::Status::OK;
 }
 
 grpc::Status GrpcService::GetOutcomes(Context*,

@@ -37,6 +37,8 @@ class GrpcService final : public v1::Coordinator::Service {
   grpc::Status ListJobs(Context*, const v1::Empty*, v1::ListJobsReply*) override;
   grpc::Status DrainWorker(Context*, const v1::DrainWorkerRequest*, v1::Empty*) override;
   grpc::Status CancelJob(Context*, const v1::JobRequest*, v1::Empty*) override;
+  grpc::Status ForgetJob(Context*, const v1::JobRequest*, v1::Empty*) override;
+  grpc::Status CollectGarbage(Context*, const v1::GarbageRequest*, v1::GarbageReport*) override;
   grpc::Status GetOutcomes(Context*,
                            const v1::JobRequest*,
                            grpc::ServerWriter<v1::TaskOutcome>*) override;

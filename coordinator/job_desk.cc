@@ -86,13 +86,31 @@ absl::StatusOr<Digest> JobDesk::Submit(const JobSpec& spec) {
   return id;
 }
 
+absl::Status JobDesk::Forget(const Digest& id) {
+  const std::lock_guard saving(saving_mutex_);
+  const auto check = [&]() -> absl::Status {
+    const std::lock_guard lock(mutex_);
+    const Job* job = dispatcher_.jobs().Find(id);
+    if (job == nullptr) return absl::NotFoundError("there is no job " + id.ToShortHex());
+    if (!job->IsRunning()) return absl::OkStatus();
+    return absl::FailedPreconditionError("job " + id.ToShortHex() + " runs: cancel it first");
+  };
+  ORBWEAVE_RETURN_IF_ERROR(check());
+  ORBWEAVE_RETURN_IF_ERROR(journal_.ForgetJob(id));
+  const std::lock_guard lock(mutex_);
+  dispatcher_.ForgetJob(id);
+  dispatcher_.Log({.event = "job_forgotten", .job = id});
+  return absl::OkStatus();
+}
+
 void JobDesk::SaveEnd(const Digest& id) {
   const std::lock_guard saving(saving_mutex_);
   std::unique_lock lock(mutex_);
-  Job& job = dispatcher_.jobs().At(id);
-  if (job.is_saved || job.IsRunning()) return;
-  const JobEntry entry{job.machine->spec(), job.machine->state(), job.machine->error(), job.number};
-  job.is_saved = true;
+  Job* job = dispatcher_.jobs().Find(id);
+  if (job == nullptr || job->is_saved || job->IsRunning()) return;
+  const JobMachine& machine = *job->machine;
+  const JobEntry entry{machine.spec(), machine.state(), machine.error(), job->number};
+  job->is_saved = true;
   dispatcher_.Log(DescribeEnd(id, entry));
   lock.unlock();
   // When this fails the job is found running after a restart, and its results end it again at once.

@@ -38,6 +38,8 @@ class JobDesk {
   [[nodiscard]] absl::Status Resume(bool leases_survive);
   /// See CoordinatorApi::SubmitJob.
   [[nodiscard]] absl::StatusOr<Digest> Submit(const JobSpec& spec);
+  /// See CoordinatorApi::ForgetJob.
+  [[nodiscard]] absl::Status Forget(const Digest& id);
   /// Notes in the journal how a job ended, unless that was done.
   void SaveEnd(const Digest& id);
 

@@ -20,6 +20,11 @@ Job& JobTable::Begin(
   return job;
 }
 
+void JobTable::Forget(const Digest& id) {
+  order_.erase(jobs_.at(id).number);
+  jobs_.erase(id);
+}
+
 Job* JobTable::Find(const Digest& id) {
   const auto it = jobs_.find(id);
   return it == jobs_.end() ? nullptr : &it->second;

@@ -31,6 +31,8 @@ class JobTable {
   Job& Begin(
       const JobSpec& spec, JobPlan plan, uint64_t number, const RetryPolicy& retry, double now_s);
 
+  void Forget(const Digest& id);
+
   /// nullptr: there is none.
   [[nodiscard]] Job* Find(const Digest& id);
   [[nodiscard]] Job& At(const Digest& id) { return jobs_.at(id); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ struct AttemptRecord {
   std::string reason{};  ///< empty when it ended with a result
 };
 
+/// Whether the result of a task may be forgotten.
+using IsGarbage = std::function<bool(const Digest& task, const TaskResult& result)>;
+
 /// What the coordinator must not forget: jobs, attempts, results, and how often it was started.
 /// Whatever a call has saved is durable when it returns OK, and saving it again changes nothing.
 /// One coordinator has a journal at a time. Thread-safe.
@@ -62,6 +66,8 @@ class Journal {
   [[nodiscard]] virtual absl::Status SaveJob(const JobEntry& job) = 0;
   /// In order of submission.
   [[nodiscard]] virtual absl::StatusOr<std::vector<JobEntry>> LoadJobs() = 0;
+  /// Forgets a job and the attempts made for it. Results stay: other jobs may have them too.
+  [[nodiscard]] virtual absl::Status ForgetJob(const Digest& job) = 0;
 
   /// A task is handed out.
   [[nodiscard]] virtual absl::Status SaveStart(const Attempt& attempt) = 0;
@@ -74,6 +80,9 @@ class Journal {
   /// One answer per task: nothing where none was saved, or what was saved is damaged.
   [[nodiscard]] virtual absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
       const std::vector<Digest>& tasks) = 0;
+  /// Forgets results; how many. `is_garbage` is asked about each, and again, while nothing is
+  /// saved, about those that are to go. It does not call the journal.
+  [[nodiscard]] virtual absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) = 0;
   /// Attempts that started and did not end, in order of epoch.
   [[nodiscard]] virtual absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() = 0;
   /// All attempts at a task, in order of epoch.

@@ -29,6 +29,13 @@ class JournalMeter final : public Journal {
     return Time("ends", [&] { return journal_->SaveEnds(ends); });
   }
 
+  absl::Status ForgetJob(const Digest& job) override {
+    return Time("forget", [&] { return journal_->ForgetJob(job); });
+  }
+  absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override {
+    return journal_->ForgetResults(is_garbage);
+  }
+
   absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
   absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
       const std::vector<Digest>& tasks) override {

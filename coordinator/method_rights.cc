@@ -11,7 +11,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<MethodRight, 20> kRights = {{
+constexpr std::array<MethodRight, 22> kRights = {{
     {.method = "/orbweave.v1.Coordinator/Join", .worker = true},
     {.method = "/orbweave.v1.Coordinator/LeaseTask", .worker = true},
     {.method = "/orbweave.v1.Coordinator/Heartbeat", .worker = true},
@@ -32,7 +32,10 @@ constexpr std::array<MethodRight, 20> kRights = {{
     {.method = "/orbweave.v1.Coordinator/GetBlob", .worker = true, .client = true},
     {.method = "/orbweave.v1.Coordinator/PutBlob", .worker = true, .client = true},
 
-    {.method = "/orbweave.v1.Coordinator/DrainWorker"},  // an admin's
+    // An admin's.
+    {.method = "/orbweave.v1.Coordinator/DrainWorker"},
+    {.method = "/orbweave.v1.Coordinator/ForgetJob"},
+    {.method = "/orbweave.v1.Coordinator/CollectGarbage"},
 
     {.method = "/orbweave.v1.Enrollment/Enroll", .stranger = true},
     {.method = "/orbweave.v1.Enrollment/Renew", .worker = true},

@@ -54,16 +54,17 @@ void Planner::SaveEnds(const std::vector<AttemptEnd>& ends) {
 
 void Planner::PlanNextStage(const Digest& id, const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  const uint64_t run = dispatcher_.jobs().At(id).run;
-  const uint64_t early_results = dispatcher_.early_results();
-  const std::optional<uint32_t> stage = dispatcher_.jobs().At(id).machine->StageToPlan();
+  const Job* job = dispatcher_.jobs().Find(id);
+  const std::optional<uint32_t> stage = job == nullptr ? std::nullopt : job->machine->StageToPlan();
   if (!stage) return;
+  const uint64_t run = job->run;
+  const uint64_t early_results = dispatcher_.early_results();
   const JobSnapshot snapshot = dispatcher_.jobs().Snapshot(id, *stage);
   lock.unlock();
   absl::StatusOr<PreparedStage> prepared = Prepare(snapshot, stop);
   lock.lock();
-  const Job& job = dispatcher_.jobs().At(id);
-  if (job.run != run || !job.IsRunning() || stop.stop_requested()) return;
+  job = dispatcher_.jobs().Find(id);
+  if (job == nullptr || job->run != run || !job->IsRunning() || stop.stop_requested()) return;
   if (dispatcher_.early_results() != early_results) return;  // once more, with that result
   if (prepared.ok()) {
     dispatcher_.StageBegins(id, *std::move(prepared), clock_.NowSeconds());

@@ -11,7 +11,7 @@ namespace orbweave {
 namespace {
 
 absl::StatusOr<std::vector<Digest>> ReadListedRecipes(const JobSnapshot& snapshot,
-                                                      BlobStore& blobs) {
+                                                      BlobAccess& blobs) {
   const std::optional<uint32_t> input = snapshot.plan.stages[snapshot.stage].parts_listed_in;
   if (!input) return std::vector<Digest>{};
   if (*input >= snapshot.spec.inputs.size()) {
@@ -23,7 +23,7 @@ absl::StatusOr<std::vector<Digest>> ReadListedRecipes(const JobSnapshot& snapsho
 
 bool IsComplete(const TaskResult& result, bool verify, BlobStore& blobs) {
   const auto is_there = [&](const Digest& blob) {
-    return verify ? blobs.Verify(blob) : blobs.Has(blob);
+    return blobs.Use(blob) && (!verify || blobs.Verify(blob));
   };
   return std::all_of(result.outputs.begin(), result.outputs.end(), is_there) &&
          std::all_of(result.recipes.begin(), result.recipes.end(), is_there);
@@ -31,13 +31,15 @@ bool IsComplete(const TaskResult& result, bool verify, BlobStore& blobs) {
 
 }  // namespace
 
+absl::StatusOr<StagePlan> PlanSnapshot(const JobSnapshot& snapshot, BlobAccess& blobs) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed, ReadListedRecipes(snapshot, blobs));
+  return PlanStage(snapshot.plan, snapshot.stage, snapshot.spec, snapshot.results, listed);
+}
+
 absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
                                            BlobStore& blobs,
                                            Journal& journal) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed, ReadListedRecipes(snapshot, blobs));
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      StagePlan plan,
-      PlanStage(snapshot.plan, snapshot.stage, snapshot.spec, snapshot.results, listed));
+  ORBWEAVE_ASSIGN_OR_RETURN(StagePlan plan, PlanSnapshot(snapshot, blobs));
   for (const std::string& collection : plan.collections) {
     ORBWEAVE_RETURN_IF_ERROR(blobs.Put(collection).status());
   }

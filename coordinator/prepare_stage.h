@@ -27,6 +27,11 @@ struct JobSnapshot {
       true;  ///< read every blob of a found result; otherwise look only whether it is there
 };
 
+/// The tasks of stage `snapshot.stage`. Errors: those of PlanStage and of the store, from which the
+/// list of its parts is read where the job brings one.
+[[nodiscard]] absl::StatusOr<StagePlan> PlanSnapshot(const JobSnapshot& snapshot,
+                                                     BlobAccess& blobs);
+
 /// Plans stage `snapshot.stage`, stores the collections it reads, and looks up each task in the
 /// journal. A result counts as found when all its blobs are there (and, with `verify`, are right).
 /// Errors: those of PlanStage and of the store.

@@ -30,6 +30,13 @@ std::string Parameters(size_t count) {
   return text;
 }
 
+/// A damaged result is none that anybody has.
+bool IsGarbageRow(const SqlRow& row, const IsGarbage& is_garbage) {
+  const absl::StatusOr<Digest> task = DigestFromProto(row.Bytes(0));
+  const std::optional<TaskResult> result = ResultFrom(row);
+  return !task.ok() || !result || is_garbage(*task, *result);
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Journal>> SqlJournal::Open(std::unique_ptr<SqlDatabase> writer,
@@ -86,6 +93,15 @@ absl::StatusOr<std::vector<JobEntry>> SqlJournal::LoadJobs() {
                        return absl::OkStatus();
                      }));
   return jobs;
+}
+
+absl::Status SqlJournal::ForgetJob(const Digest& job) {
+  const std::string id = ToProto(job);
+  return commit_.Commit([&]() -> absl::Status {
+    ORBWEAVE_RETURN_IF_ERROR(
+        writer_->Execute("DELETE FROM orbweave_attempt WHERE job = $1", {SqlBytes{id}}));
+    return writer_->Execute("DELETE FROM orbweave_job WHERE id = $1", {SqlBytes{id}});
+  });
 }
 
 absl::Status SqlJournal::SaveStart(const Attempt& attempt) {
@@ -157,6 +173,48 @@ absl::StatusOr<std::vector<std::optional<TaskResult>>> SqlJournal::LoadResults(
     results.push_back(it == found.end() ? std::nullopt : std::optional(it->second));
   }
   return results;
+}
+
+absl::StatusOr<uint64_t> SqlJournal::ForgetResults(const IsGarbage& is_garbage) {
+  static const std::string sql =
+      absl::StrCat("SELECT ", kResultColumns, " FROM orbweave_result ORDER BY task");
+  std::vector<std::string> candidates;
+  {
+    const std::lock_guard lock(reading_mutex_);
+    ORBWEAVE_RETURN_IF_ERROR(reader_->Query(sql, {}, [&](const SqlRow& row) {
+      if (IsGarbageRow(row, is_garbage)) candidates.emplace_back(row.Bytes(0));
+      return absl::OkStatus();
+    }));
+  }
+  uint64_t forgotten = 0;
+  for (size_t begin = 0; begin < candidates.size(); begin += kLookup) {
+    uint64_t in_batch = 0;
+    ORBWEAVE_RETURN_IF_ERROR(commit_.Commit([&]() -> absl::Status {
+      in_batch = 0;
+      for (size_t i = begin; i < std::min(begin + kLookup, candidates.size()); ++i) {
+        ORBWEAVE_ASSIGN_OR_RETURN(const bool gone, ForgetResult(candidates[i], is_garbage));
+        in_batch += gone ? 1 : 0;
+      }
+      return absl::OkStatus();
+    }));
+    forgotten += in_batch;
+  }
+  return forgotten;
+}
+
+absl::StatusOr<bool> SqlJournal::ForgetResult(const std::string& task,
+                                              const IsGarbage& is_garbage) {
+  static const std::string sql =
+      absl::StrCat("SELECT ", kResultColumns, " FROM orbweave_result WHERE task = $1");
+  bool goes = false;
+  ORBWEAVE_RETURN_IF_ERROR(writer_->Query(sql, {SqlBytes{task}}, [&](const SqlRow& row) {
+    goes = IsGarbageRow(row, is_garbage);
+    return absl::OkStatus();
+  }));
+  if (!goes) return false;
+  ORBWEAVE_RETURN_IF_ERROR(
+      writer_->Execute("DELETE FROM orbweave_result WHERE task = $1", {SqlBytes{task}}));
+  return true;
 }
 
 absl::StatusOr<std::vector<Attempt>> SqlJournal::LoadOpenAttempts() {

@@ -23,6 +23,7 @@ class SqlJournal final : public Journal {
   [[nodiscard]] uint64_t generation() const override { return generation_; }
   [[nodiscard]] absl::Status SaveJob(const JobEntry& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobEntry>> LoadJobs() override;
+  [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::Status SaveStart(const Attempt& attempt) override;
   [[nodiscard]] absl::Status SaveResult(uint64_t epoch,
                                         const Digest& task,
@@ -30,6 +31,7 @@ class SqlJournal final : public Journal {
   [[nodiscard]] absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override;
   [[nodiscard]] absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
       const std::vector<Digest>& tasks) override;
+  [[nodiscard]] absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override;
   [[nodiscard]] absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override;
   [[nodiscard]] absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(
       const Digest& task) override;
@@ -38,6 +40,9 @@ class SqlJournal final : public Journal {
   SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
   /// All writes of a batch in one transaction, if this is still the journal's last generation.
   [[nodiscard]] absl::Status Transact(const std::vector<const GroupCommit::Write*>& writes);
+  /// In a transaction; whether it was garbage.
+  [[nodiscard]] absl::StatusOr<bool> ForgetResult(const std::string& task,
+                                                  const IsGarbage& is_garbage);
   [[nodiscard]] absl::Status EndAttempt(uint64_t epoch, std::string_view reason);
 
   std::unique_ptr<SqlDatabase> writer_;  ///< of whoever leads a commit

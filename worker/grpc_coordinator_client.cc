@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "proto/codec/coordinator_codec.h"
+#include "proto/codec/garbage_codec.h"
 #include "worker/grpc_blob_transfer.h"
 #include "worker/grpc_channel.h"
 #include "worker/grpc_status.h"
@@ -22,9 +23,10 @@ using Stub = v1::Coordinator::Stub;
 /// Digests per StatBlobs message.
 constexpr size_t kMaxDigests = 65536;
 
-/// A call that is answered at once, one that reads or writes a file.
+/// A call that is answered at once, one that reads or writes a file, one that looks at all files.
 constexpr double kQuick_s = 30.0;
 constexpr double kFile_s = 300.0;
+constexpr double kFolder_s = 3600.0;
 
 void SetDeadline(grpc::ClientContext& context, double seconds) {
   context.set_deadline(std::chrono::system_clock::now() +
@@ -44,6 +46,21 @@ absl::StatusOr<Reply> Call(Stub& stub,
   Reply reply;
   ORBWEAVE_RETURN_IF_ERROR(FromWire((stub.*method)(&context, request, &reply)));
   return reply;
+}
+
+/// All values of a stream; the first that cannot be decoded says why.
+template <typename Value, typename Proto>
+absl::StatusOr<std::vector<Value>> ReadAll(grpc::ClientReader<Proto>& reader) {
+  std::vector<Value> values;
+  absl::Status decoded;
+  for (Proto proto; reader.Read(&proto);) {
+    absl::StatusOr<Value> value = FromProto(proto);
+    decoded.Update(value.status());
+    if (value.ok()) values.push_back(*std::move(value));
+  }
+  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader.Finish()));
+  ORBWEAVE_RETURN_IF_ERROR(decoded);
+  return values;
 }
 
 v1::JobRequest RequestFor(const Digest& job) {
@@ -188,43 +205,32 @@ absl::Status GrpcCoordinatorClient::CancelJob(const Digest& job) {
   return Call(*stub_, &Stub::CancelJob, RequestFor(job), kFile_s).status();
 }
 
+absl::Status GrpcCoordinatorClient::ForgetJob(const Digest& job) {
+  return Call(*stub_, &Stub::ForgetJob, RequestFor(job), kFile_s).status();
+}
+
+absl::StatusOr<GarbageReport> GrpcCoordinatorClient::CollectGarbage(const GarbageOptions& options) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::GarbageReport reply,
+                            Call(*stub_, &Stub::CollectGarbage, ToProto(options), kFolder_s));
+  return FromProto(reply);
+}
+
 absl::StatusOr<std::vector<TaskOutcome>> GrpcCoordinatorClient::GetOutcomes(const Digest& job) {
   grpc::ClientContext context;
   SetDeadline(context, kFile_s);
-  const auto reader = stub_->GetOutcomes(&context, RequestFor(job));
-  std::vector<TaskOutcome> outcomes;
-  v1::TaskOutcome proto;
-  absl::Status decoded;
-  while (reader->Read(&proto)) {
-    absl::StatusOr<TaskOutcome> outcome = FromProto(proto);
-    decoded.Update(outcome.status());
-    if (outcome.ok()) outcomes.push_back(*std::move(outcome));
-  }
-  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
-  ORBWEAVE_RETURN_IF_ERROR(decoded);
-  return outcomes;
+  return ReadAll<TaskOutcome>(*stub_->GetOutcomes(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<TaskTiming>> GrpcCoordinatorClient::GetTimings(const Digest& job) {
   grpc::ClientContext context;
   SetDeadline(context, kFile_s);
-  const auto reader = stub_->GetTimings(&context, RequestFor(job));
-  std::vector<TaskTiming> timings;
-  v1::TaskTiming proto;
-  while (reader->Read(&proto)) timings.push_back(FromProto(proto));
-  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
-  return timings;
+  return ReadAll<TaskTiming>(*stub_->GetTimings(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<MeasuredTask>> GrpcCoordinatorClient::GetCosts(const Digest& job) {
   grpc::ClientContext context;
   SetDeadline(context, kFile_s);
-  const auto reader = stub_->GetCosts(&context, RequestFor(job));
-  std::vector<MeasuredTask> tasks;
-  v1::MeasuredTask proto;
-  while (reader->Read(&proto)) tasks.push_back(FromProto(proto));
-  ORBWEAVE_RETURN_IF_ERROR(FromWire(reader->Finish()));
-  return tasks;
+  return ReadAll<MeasuredTask>(*stub_->GetCosts(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(

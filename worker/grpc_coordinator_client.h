@@ -53,6 +53,9 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
   [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
+  [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
+  [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(
+      const GarbageOptions& options) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskTiming>> GetTimings(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<MeasuredTask>> GetCosts(const Digest& job) override;

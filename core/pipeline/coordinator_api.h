@@ -113,6 +113,25 @@ struct HeartbeatReply {
   bool shutdown = false;            ///< finish nothing more; leave
 };
 
+/// Which blobs are garbage: no job names them, and nobody used them for a while.
+struct GarbageOptions {
+  /// What was put, asked for or found within this time stays: results that are not handed in yet,
+  /// inputs of a job that is being submitted. Longer than any task and any upload.
+  double unused_s = 86'400.0;
+  bool dry_run = false;  ///< removes nothing
+};
+
+/// What a collection of garbage found. Files that are only linked count as blobs without bytes.
+struct GarbageReport {
+  uint64_t needed_blobs = 0;  ///< jobs name them
+  uint64_t needed_bytes = 0;
+  uint64_t recent_blobs = 0;  ///< nobody names them, but they were used
+  uint64_t recent_bytes = 0;
+  uint64_t removed_blobs = 0;  ///< or, in a dry run, would be
+  uint64_t removed_bytes = 0;
+  uint64_t forgotten_results = 0;  ///< of no job, and without their blobs; none in a dry run
+};
+
 /// The one seam of distribution: in-process it is the coordinator object, elsewhere a gRPC stub.
 /// Every method is safe to call from several threads and safe to repeat. Codes common to all:
 /// Unavailable (connection; try again).
@@ -154,6 +173,9 @@ class CoordinatorApi : public BlobAccess {
   [[nodiscard]] virtual absl::StatusOr<JobStatus> GetJob(const Digest& job) = 0;
   [[nodiscard]] virtual absl::StatusOr<std::vector<JobStatus>> ListJobs() = 0;
   [[nodiscard]] virtual absl::Status CancelJob(const Digest& job) = 0;
+  /// Takes a job that has ended off the list: nothing is kept for it any more (see CollectGarbage).
+  /// FailedPrecondition: it runs.
+  [[nodiscard]] virtual absl::Status ForgetJob(const Digest& job) = 0;
   /// Results of a job's finished tasks in (stage, part) order, of a loop those of its last round,
   /// and timings in order of their end.
   [[nodiscard]] virtual absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) = 0;
@@ -168,6 +190,11 @@ class CoordinatorApi : public BlobAccess {
   /// read. NotFound / PermissionDenied: the coordinator cannot read it; DataLoss: it has another
   /// digest.
   [[nodiscard]] virtual absl::Status LinkFile(const Digest& digest, const std::string& path) = 0;
+  /// Removes blobs that no job on the list needs: to run, to go on after it failed or was
+  /// cancelled, or to show its results. May end at any moment, and be repeated. FailedPrecondition:
+  /// what a job needs cannot be told; nothing was removed. InvalidArgument: no number of seconds.
+  [[nodiscard]] virtual absl::StatusOr<GarbageReport> CollectGarbage(
+      const GarbageOptions& options) = 0;
 };
 
 }  // namespace orbweave

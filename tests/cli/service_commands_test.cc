@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `serve`, `work`, `status`, `jobs`, `cancel`, `retry` and `drain` as real processes: this
-// executable plays the command, with the stages of the toy job.
+// `serve`, `work`, `status`, `jobs`, `cancel`, `retry`, `drain`, `forget` and `gc` as real
+// processes: this executable plays the command, with the stages of the toy job.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,8 @@
 #include "cli/drain_command.h"
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
+#include "cli/forget_command.h"
+#include "cli/gc_command.h"
 #include "cli/jobs_command.h"
 #include "cli/retry_command.h"
 #include "cli/serve_command.h"
@@ -157,6 +159,29 @@ TEST_F(ServiceCommands, ADrainedWorkerEndsByItself) {
   EXPECT_EQ(worker.Wait().exit_code, kExitOk);
 }
 
+TEST_F(ServiceCommands, ForgetAndGcFreeTheDisk) {
+  GrpcCoordinatorClient client(address_);
+  JobSpec spec{.kind = "sparse", .label = "street"};
+  spec.inputs.push_back(*client.Put("sources"));
+  const auto id = client.SubmitJob(spec);
+  ASSERT_TRUE(id.ok()) << id.status();
+  const std::vector<std::string> forget =
+      Orbweave({"forget", "--coordinator", address_, id->ToShortHex()});
+  EXPECT_EQ(RunCommand(forget).exit_code, kExitUsage) << "it is running";
+  ASSERT_TRUE(client.CancelJob(*id).ok());
+  const CommandOutcome forgotten = RunCommand(forget);
+  EXPECT_EQ(forgotten.exit_code, kExitOk) << forgotten.err;
+  EXPECT_THAT(forgotten.out, HasSubstr("forgot job " + id->ToShortHex() + " (street)"));
+  const CommandOutcome dry = RunCommand(Orbweave({"gc", "--coordinator", address_, "--dry-run"}));
+  EXPECT_EQ(dry.exit_code, kExitOk) << dry.err;
+  EXPECT_THAT(dry.out, HasSubstr("used lately           1 blobs"));
+  EXPECT_THAT(dry.out, HasSubstr("garbage               0 blobs"));
+  EXPECT_EQ(RunCommand(Orbweave({"gc", "--coordinator", address_})).exit_code, kExitOk);
+  EXPECT_EQ(RunCommand(Orbweave({"gc", "--coordinator", address_, "--unused-for", "0"})).exit_code,
+            kExitUsage)
+      << "what is about to be handed in would go";
+}
+
 TEST_F(ServiceCommands, JobsSurviveAKilledCoordinator) {
   const auto submit = [this] {
     GrpcCoordinatorClient client(address_);
@@ -196,6 +221,8 @@ int BeTheCommand(int argc, char** argv) {
   AddJobsCommand(app, selected);
   AddRetryCommand(app, selected);
   AddDrainCommand(app, selected);
+  AddForgetCommand(app, selected);
+  AddGcCommand(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError&) {

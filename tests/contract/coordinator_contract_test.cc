@@ -224,6 +224,25 @@ TEST_P(CoordinatorContract, SaysWhichBlobsAreStored) {
   EXPECT_TRUE(absl::IsNotFound(Api().Get(DigestOf("missing")).status()));
 }
 
+TEST_P(CoordinatorContract, CollectsGarbageAndForgetsJobs) {
+  const Digest job = Submit("1");
+  const Digest stray = *Api().Put("stray");
+  EXPECT_EQ(Api().CollectGarbage({})->recent_blobs, 1U);
+  EXPECT_EQ(Api().CollectGarbage({.unused_s = 0.0, .dry_run = true})->removed_bytes, 5U);
+  const auto report = Api().CollectGarbage({.unused_s = 0.0});
+  ASSERT_TRUE(report.ok()) << report.status();
+  EXPECT_EQ(report->removed_blobs, 1U);
+  EXPECT_EQ(report->needed_blobs, 1U) << "the job's input";
+  EXPECT_EQ(report->needed_bytes, 1U);
+  EXPECT_FALSE(Api().StatBlobs({stray})->at(0));
+  EXPECT_TRUE(absl::IsFailedPrecondition(Api().ForgetJob(job)));
+  ASSERT_TRUE(Api().CancelJob(job).ok());
+  EXPECT_TRUE(Api().ForgetJob(job).ok());
+  EXPECT_TRUE(absl::IsNotFound(Api().ForgetJob(job)));
+  EXPECT_EQ(Api().CollectGarbage({.unused_s = 0.0})->removed_blobs, 1U);
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().CollectGarbage({.unused_s = -1.0}).status()));
+}
+
 TEST_P(CoordinatorContract, LinksAFileWithoutCopyingIt) {
   const std::string path = folder_ / "image.jpg";
   std::ofstream(path) << "pixels";

@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "tests/support/command.h"
 
@@ -130,6 +132,53 @@ TEST(BlobStore, StoresOnlyThePiecesThatWereNamed) {
   EXPECT_TRUE(absl::IsCancelled(store->Write(digest, 8, cut_off)));
   EXPECT_FALSE(store->Has(digest));
   EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
+}
+
+/// As if it had been put `seconds` ago.
+void LetAge(const std::string& path, double seconds) {
+  namespace fs = std::filesystem;
+  const std::chrono::duration<double> age(seconds);
+  fs::last_write_time(path,
+                      fs::file_time_type::clock::now() -
+                          std::chrono::duration_cast<fs::file_time_type::duration>(age));
+}
+
+TEST(BlobStore, RemovesOnlyWhatNobodyUsedForLong) {
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
+  ASSERT_TRUE(store.ok());
+  const Digest digest = *store->Put("text");
+  EXPECT_FALSE(store->RemoveUnused(digest, 60.0));
+  LetAge(PathOf(folder, digest), 61.0);
+  EXPECT_TRUE(store->IsUnused(digest, 60.0));
+  EXPECT_TRUE(store->Use(digest));
+  EXPECT_FALSE(store->RemoveUnused(digest, 60.0)) << "somebody asked for it";
+  LetAge(PathOf(folder, digest), 61.0);
+  EXPECT_TRUE(store->Put("text").ok());
+  EXPECT_FALSE(store->RemoveUnused(digest, 60.0)) << "somebody put it again";
+  LetAge(PathOf(folder, digest), 61.0);
+  EXPECT_TRUE(store->Has(digest)) << "looking is no use";
+  EXPECT_TRUE(store->RemoveUnused(digest, 60.0));
+  EXPECT_FALSE(store->Has(digest));
+  EXPECT_FALSE(store->Use(digest));
+}
+
+TEST(BlobStore, ListsBlobsAndLinksWithTheirSizes) {
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder / "blobs");
+  ASSERT_TRUE(store.ok());
+  EXPECT_TRUE(store->List()->empty());
+  const Digest text = *store->Put("text");
+  Overwrite(folder / "image.jpg", "pixels");
+  ASSERT_TRUE(store->LinkFile(DigestOf("pixels"), folder / "image.jpg").ok());
+  Overwrite(folder / "blobs/tmp/123.0", "half a blob");
+  std::map<Digest, uint64_t> sizes;
+  const std::vector<StoredBlob> blobs = *store->List();
+  for (const StoredBlob& blob : blobs) sizes[blob.digest] = blob.size_bytes;
+  EXPECT_EQ(sizes, (std::map<Digest, uint64_t>{{text, 4}, {DigestOf("pixels"), 0}}));
+  EXPECT_TRUE(store->RemoveUnused(DigestOf("pixels"), 0.0));
+  EXPECT_FALSE(store->Has(DigestOf("pixels")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "image.jpg")) << "the file is not ours";
 }
 
 TEST(BlobStore, LeavesNoScratchFilesBehind) {

@@ -215,6 +215,55 @@ TEST_P(JournalContract, SavingTwiceChangesNothing) {
   EXPECT_EQ(journal_->LoadAttempts(kTask)->size(), 1U);
 }
 
+TEST_P(JournalContract, ForgetsAJobWithItsAttemptsAndNothingElse) {
+  const JobSpec spec{.kind = "k"};
+  ASSERT_TRUE(journal_->SaveJob({.spec = spec, .number = 1}).ok());
+  ASSERT_TRUE(journal_->SaveJob({.spec = {.kind = "other"}, .number = 2}).ok());
+  Attempt attempt = MakeAttempt(1);
+  attempt.job = spec.Id();
+  ASSERT_TRUE(journal_->SaveStart(attempt).ok());
+  ASSERT_TRUE(journal_->SaveResult(1, kTask, {}).ok());
+  ASSERT_TRUE(journal_->SaveStart(MakeAttempt(2)).ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(journal_->ForgetJob(spec.Id()).ok());
+  Reopen();
+  ASSERT_EQ(journal_->LoadJobs()->size(), 1U);
+  EXPECT_EQ(journal_->LoadJobs()->at(0).spec.kind, "other");
+  ASSERT_EQ(journal_->LoadAttempts(kTask)->size(), 1U);
+  EXPECT_EQ(journal_->LoadAttempts(kTask)->at(0).attempt.job, kJob);
+  EXPECT_TRUE(journal_->LoadResults({kTask})->at(0).has_value());
+}
+
+TEST_P(JournalContract, ForgetsTheResultsThatAreGarbage) {
+  std::vector<Digest> tasks;
+  for (int i = 0; i < 150; ++i) {
+    tasks.push_back(DigestOf("task" + std::to_string(i)));
+    const std::string report = i % 3 == 0 ? "garbage" : "{}";
+    ASSERT_TRUE(journal_->SaveResult(1, tasks.back(), {.report_json = report}).ok());
+  }
+  EXPECT_EQ(*journal_->ForgetResults([](const Digest&, const TaskResult&) { return false; }), 0U);
+  const auto forgotten = journal_->ForgetResults(
+      [](const Digest&, const TaskResult& result) { return result.report_json == "garbage"; });
+  ASSERT_TRUE(forgotten.ok()) << forgotten.status();
+  EXPECT_EQ(*forgotten, 50U);
+  const auto found = journal_->LoadResults(tasks);
+  for (size_t i = 0; i < tasks.size(); ++i) EXPECT_EQ(found->at(i).has_value(), i % 3 != 0) << i;
+}
+
+TEST_P(JournalContract, AResultThatIsSavedMeanwhileIsNotForgotten) {
+  ASSERT_TRUE(journal_->SaveResult(1, kTask, {.report_json = "old"}).ok());
+  const auto forgotten = journal_->ForgetResults([&](const Digest&, const TaskResult& result) {
+    if (result.report_json != "old") return false;
+    std::jthread([&] {  // another thread: the one that asks has the reader
+      EXPECT_TRUE(journal_->SaveResult(2, kTask, {.report_json = "new"}).ok());
+    })
+        .join();
+    return true;
+  });
+  ASSERT_TRUE(forgotten.ok()) << forgotten.status();
+  EXPECT_EQ(*forgotten, 0U);
+  EXPECT_EQ(journal_->LoadResults({kTask})->at(0)->report_json, "new");
+}
+
 TEST_P(JournalContract, TakesWritesOfManyThreads) {
   constexpr int kThreads = 8;
   constexpr int kEach = 25;

@@ -45,6 +45,10 @@ class FailingJournal final : public Journal {
   uint64_t generation() const override { return journal_->generation(); }
   absl::Status SaveJob(const JobEntry& job) override { return journal_->SaveJob(job); }
   absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
+  absl::Status ForgetJob(const Digest& job) override { return journal_->ForgetJob(job); }
+  absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override {
+    return journal_->ForgetResults(is_garbage);
+  }
   absl::Status SaveStart(const Attempt& attempt) override {
     if (fails_.starts_fail) return absl::ResourceExhaustedError("disk full");
     return journal_->SaveStart(attempt);
