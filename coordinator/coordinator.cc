@@ -57,7 +57,7 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
       dispatcher_({.lease_s = options.lease_s,
                    .retry = options.retry,
                    .log = options.log,
-                   .changed = [this] { WakeAll(); }},
+                   .changed = [this] { Wake(); }},
                   journal_->generation()),
       desk_(mutex_, dispatcher_, *journal_, options.find_plan, options.max_running_jobs, clock),
       planner_(mutex_, dispatcher_, desk_, blobs_, *journal_, clock) {}
@@ -256,6 +256,11 @@ void Coordinator::BeginShutdown() {
   const std::lock_guard lock(mutex_);
   stopping_ = true;
   WakeAll();
+}
+
+void Coordinator::Wake() {
+  if (dispatcher_.MayHaveWork()) changed_.notify_all();
+  planner_.Wake();
 }
 
 void Coordinator::WakeAll() {

@@ -107,6 +107,8 @@ class Coordinator final : public CoordinatorApi {
   template <typename Look>
   [[nodiscard]] auto LookAt(const Digest& job, Look&& look)
       -> absl::StatusOr<decltype(look(std::declval<const Job&>()))>;
+  /// There may be something new to do: wakes the planner, and who waits for a task if there is one.
+  void Wake();
   void WakeAll();
 
   CoordinatorOptions options_;

@@ -12,9 +12,6 @@
 namespace orbweave {
 namespace {
 
-/// How often a job starts over because a blob it had made is gone.
-constexpr uint32_t kMaxReruns = 3;
-
 uint64_t FirstOfGeneration(uint64_t generation) { return generation << 32; }
 
 }  // namespace
@@ -83,7 +80,14 @@ std::vector<WorkerStatus> Dispatcher::WorkerStatuses(double now_s) const {
   return workers;
 }
 
+bool Dispatcher::MayHaveWork() const {
+  return std::ranges::any_of(jobs_.order(), [this](const auto& item) {
+    return jobs_.At(item.second).machine->MayHaveWork();
+  });
+}
+
 std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at, double now_s) {
+  if (!MayHaveWork()) return std::nullopt;
   const std::vector<std::string> serving = roster_.Serving(now_s);
   if (!std::ranges::binary_search(serving, at.worker)) return std::nullopt;
   for (const auto& [number, id] : jobs_.order()) {
@@ -187,64 +191,10 @@ absl::Status Dispatcher::TaskFailed(uint64_t session,
   return absl::OkStatus();
 }
 
-void Dispatcher::EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s) {
-  ends_.push_back({entry.epoch, std::string(error.message())});
-  LogEvent event = Describe(entry, "task_not_done");
-  if (ClassifyFailure(error.code()) != FailureClass::kReturned) event.level = LogLevel::kWarning;
-  event.message = std::string(error.message());
-  Log(event);
-  if (entry.ref && jobs_.At(entry.job).IsRunning()) FailOrBeginAnew(entry, error, now_s);
-  options_.changed();
-}
-
-void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s) {
-  Job& job = jobs_.At(entry.job);
-  const bool input_lost = ClassifyFailure(error.code()) == FailureClass::kInputLost;
-  if (input_lost && job.reruns < kMaxReruns) {
-    ++job.reruns;
-    job.verify = true;
-    BeginJob(JobSpec(job.machine->spec()), JobPlan(job.machine->plan()), job.number, now_s);
-    return;
-  }
-  job.machine->TaskFailed({*entry.ref, entry.epoch}, error, now_s);
-  if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
-}
-
-void Dispatcher::EndAttempts(const std::vector<LeaseEntry>& entries,
-                             const std::string& reason,
-                             double now_s) {
-  for (const LeaseEntry& entry : entries) EndAttempt(entry, absl::UnavailableError(reason), now_s);
-}
-
-void Dispatcher::VoidLeases(const Digest& job, const std::string& reason) {
-  for (const LeaseEntry& entry : book_.TakeJob(job)) EndVoid(entry, reason);
-}
-
-void Dispatcher::EndVoid(const LeaseEntry& entry, const std::string& reason) {
-  ends_.push_back({entry.epoch, reason});
-  LogEvent event = Describe(entry, "task_not_done");
-  event.message = reason;
-  Log(event);
-}
-
-void Dispatcher::ExpireLeases(double now_s) {
-  for (const LeaseEntry& entry : book_.TakeExpired(now_s)) {
-    LogEvent event = Describe(entry, "lease_expired");
-    event.level = LogLevel::kWarning;
-    Log(event);
-    const bool came_back = entry.session != 0;
-    EndAttempt(entry,
-               came_back
-                   ? absl::UnavailableError(absl::StrCat("worker ", entry.worker, " went silent"))
-                   : absl::CancelledError(absl::StrCat(
-                         "worker ", entry.worker, " did not come back after a restart")),
-               now_s);
-  }
-}
-
 void Dispatcher::StageBegins(const Digest& id, PreparedStage prepared, double now_s) {
   JobMachine& machine = *jobs_.At(id).machine;
   machine.StageBegins(std::move(prepared.tasks), std::move(prepared.found), now_s);
+  if (machine.state() == JobState::kFailed) VoidLeases(id, "the job failed");
   for (LeaseEntry* entry : book_.AwaitingPlace(id)) {
     const std::optional<TaskRef> ref = machine.FindReady(entry->task);
     if (!ref) continue;

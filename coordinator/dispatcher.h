@@ -30,6 +30,12 @@ struct Grant {
   Attempt attempt{};
 };
 
+/// What is to be written down, though nobody waits for it.
+struct LooseEnds {
+  std::vector<AttemptEnd> attempts{};
+  std::vector<WorkerBlame> blames{};
+};
+
 /// What a coordinator knows: jobs, who works on which task until when, and which attempts ended
 /// since that was last saved. Pure bookkeeping: time is handed in, nothing is read or written. Not
 /// thread-safe.
@@ -43,6 +49,9 @@ class Dispatcher {
   /// Lets a job begin (anew): what was leased of it before is void.
   Job& BeginJob(const JobSpec& spec, JobPlan plan, uint64_t number, double now_s);
   void CancelJob(const Digest& id, double now_s);
+  /// Counts what failed before a restart of the coordinator against the budgets of a job that has
+  /// just begun.
+  void CountFailures(const Digest& id, std::vector<FailedAttempt> failures);
   /// Takes a job that has ended out of the table.
   void ForgetJob(const Digest& id);
 
@@ -53,6 +62,8 @@ class Dispatcher {
   /// Of every worker that ever joined, by name.
   [[nodiscard]] std::vector<WorkerStatus> WorkerStatuses(double now_s) const;
 
+  /// Whether there may be a task to grant; quick.
+  [[nodiscard]] bool MayHaveWork() const;
   [[nodiscard]] std::optional<Grant> GrantNext(uint64_t session, uint32_t slot, double now_s);
   /// A lease of an earlier generation, whose holder has one lease time to come back.
   void Await(const Attempt& attempt, double now_s);
@@ -82,8 +93,12 @@ class Dispatcher {
   /// before the last of them may have missed it.
   [[nodiscard]] uint64_t early_results() const { return early_results_; }
 
-  [[nodiscard]] bool HasEnds() const { return !ends_.empty(); }
-  [[nodiscard]] std::vector<AttemptEnd> TakeEnds() { return std::exchange(ends_, {}); }
+  [[nodiscard]] bool HasLooseEnds() const { return !ends_.empty() || roster_.HasBlames(); }
+  [[nodiscard]] LooseEnds TakeLooseEnds() {
+    return {std::exchange(ends_, {}), roster_.TakeBlames()};
+  }
+  /// The epoch that was given out last.
+  [[nodiscard]] uint64_t last_epoch() const { return last_epoch_; }
   void Log(const LogEvent& event) const;
 
  private:

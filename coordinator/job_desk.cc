@@ -24,22 +24,37 @@ LogEvent DescribeEnd(const Digest& id, const JobEntry& entry) {
 
 absl::Status JobDesk::Resume(bool leases_survive) {
   ORBWEAVE_RETURN_IF_ERROR(ResumeJobs());
+  ORBWEAVE_RETURN_IF_ERROR(ResumeBlames());
   return ResumeAttempts(leases_survive);
 }
 
 absl::Status JobDesk::ResumeJobs() {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> entries, journal_.LoadJobs());
-  const std::lock_guard lock(mutex_);
   for (const JobEntry& entry : entries) {
+    std::vector<FailedAttempt> failures;
+    if (entry.state == JobState::kRunning) {
+      ORBWEAVE_ASSIGN_OR_RETURN(failures,
+                                journal_.LoadFailures(entry.spec.Id(), entry.since_epoch));
+    }
+    const std::lock_guard lock(mutex_);
     absl::StatusOr<JobPlan> plan = find_plan_(entry.spec.kind);
     if (!plan.ok()) continue;  // of a build that knew more kinds
     const double now_s = clock_.NowSeconds();
     Job& job = dispatcher_.BeginJob(entry.spec, *std::move(plan), entry.number, now_s);
     job.verify = entry.state == JobState::kRunning;
+    job.since_epoch = entry.since_epoch;
+    dispatcher_.CountFailures(entry.spec.Id(), std::move(failures));
     if (entry.state == JobState::kFailed) job.machine->JobFails(entry.error, now_s);
     if (entry.state == JobState::kCancelled) job.machine->JobIsCancelled(now_s);
     job.is_saved = entry.state != JobState::kRunning;
   }
+  return absl::OkStatus();
+}
+
+absl::Status JobDesk::ResumeBlames() {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerBlame> blames, journal_.LoadBlames());
+  const std::lock_guard lock(mutex_);
+  for (const WorkerBlame& blame : blames) dispatcher_.roster().Remember(blame);
   return absl::OkStatus();
 }
 
@@ -55,7 +70,7 @@ absl::Status JobDesk::ResumeAttempts(bool leases_survive) {
     if (leases_survive && is_newest && job != nullptr && job->IsRunning()) {
       dispatcher_.Await(attempt, clock_.NowSeconds());
     } else {
-      ended.push_back({attempt.epoch, "the coordinator was started again"});
+      ended.push_back({.epoch = attempt.epoch, .reason = "the coordinator was started again"});
     }
   }
   return ended.empty() ? absl::OkStatus() : journal_.SaveEnds(ended);
@@ -76,12 +91,15 @@ absl::StatusOr<Digest> JobDesk::Submit(const JobSpec& spec) {
         absl::StrCat(max_running_jobs_, " jobs are running; wait for one, or cancel one"));
   }
   const uint64_t number = known != nullptr ? known->number : jobs.NextNumber();
+  const uint64_t since_epoch = dispatcher_.last_epoch();
   lock.unlock();
-  ORBWEAVE_RETURN_IF_ERROR(journal_.SaveJob({spec, JobState::kRunning, "", number}));
+  ORBWEAVE_RETURN_IF_ERROR(
+      journal_.SaveJob({.spec = spec, .number = number, .since_epoch = since_epoch}));
   lock.lock();
   Job& job = dispatcher_.BeginJob(spec, *std::move(plan), number, clock_.NowSeconds());
   job.verify = true;
   job.reruns = 0;
+  job.since_epoch = since_epoch;
   dispatcher_.Log({.event = "job_submitted", .job = id, .message = spec.label});
   return id;
 }
@@ -109,7 +127,8 @@ void JobDesk::SaveEnd(const Digest& id) {
   Job* job = dispatcher_.jobs().Find(id);
   if (job == nullptr || job->is_saved || job->IsRunning()) return;
   const JobMachine& machine = *job->machine;
-  const JobEntry entry{machine.spec(), machine.state(), machine.error(), job->number};
+  const JobEntry entry{
+      machine.spec(), machine.state(), machine.error(), job->number, job->since_epoch};
   job->is_saved = true;
   dispatcher_.Log(DescribeEnd(id, entry));
   lock.unlock();

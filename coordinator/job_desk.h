@@ -45,6 +45,7 @@ class JobDesk {
 
  private:
   [[nodiscard]] absl::Status ResumeJobs();
+  [[nodiscard]] absl::Status ResumeBlames();
   [[nodiscard]] absl::Status ResumeAttempts(bool leases_survive);
 
   std::mutex& mutex_;

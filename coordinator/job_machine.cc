@@ -6,16 +6,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "coordinator/choose_part.h"
+#include "coordinator/judge_failure.h"
 
 namespace orbweave {
-namespace {
-
-std::string TextOf(const absl::Status& status) {
-  return absl::StrCat(absl::StatusCodeToString(status.code()), ": ", status.message());
-}
-
-}  // namespace
 
 JobMachine::JobMachine(JobSpec spec, JobPlan plan, RetryPolicy policy, double now_s)
     : spec_(std::move(spec)), plan_(std::move(plan)), policy_(policy), submitted_s_(now_s) {}
@@ -33,42 +27,30 @@ uint32_t JobMachine::NextStage() const {
   return StageAfter(plan_, last, results_[last]);
 }
 
-WorkerSlot JobMachine::PlaceBefore(const StageRun& run, uint32_t part) const {
-  if (!run.before || part >= runs_[*run.before].tasks.size()) return {};
-  const TaskHolder& holder = runs_[*run.before].tasks[part].done_by;
-  return {holder.worker, holder.slot};
-}
-
 std::optional<TaskRef> JobMachine::NextReady(const WorkerSlot& at,
                                              const std::vector<std::string>& alive,
                                              double now_s) const {
-  if (state_ != JobState::kRunning || runs_.empty()) return std::nullopt;
-  const StageRun& run = runs_.back();
-  const auto number = static_cast<uint32_t>(runs_.size() - 1);
-  std::optional<uint32_t> nobodys;
-  std::optional<uint32_t> somebodys;
-  for (const uint32_t part : run.ready) {
-    if (!run.tasks[part].MayTake(at.worker, alive, now_s)) continue;
-    const WorkerSlot before = PlaceBefore(run, part);
-    if (!run.before || before == at) return TaskRef{number, part};
-    const bool is_free = std::ranges::find(alive, before.worker) == alive.end();
-    if (!is_free) somebodys = part;
-    if (is_free && !nobodys) nobodys = part;
-  }
-  if (!nobodys && !somebodys) return std::nullopt;
-  return TaskRef{number, nobodys ? *nobodys : *somebodys};
+  if (!MayHaveWork()) return std::nullopt;
+  const std::optional<uint32_t> part = ChoosePart(runs_.back(), at, alive, now_s);
+  if (!part) return std::nullopt;
+  return TaskRef{static_cast<uint32_t>(runs_.size() - 1), *part};
+}
+
+bool JobMachine::MayHaveWork() const {
+  if (state_ != JobState::kRunning || runs_.empty()) return false;
+  return !runs_.back().ready.empty() || runs_.back().straggler_after_s;
 }
 
 std::optional<TaskRef> JobMachine::FindReady(const Digest& task) const {
   const auto it = refs_.find(task);
-  if (it == refs_.end() || !runs_[it->second.run].ready.contains(it->second.part)) return {};
+  if (it == refs_.end() || !runs_[it->second.run].ready.Contains(it->second.part)) return {};
   return it->second;
 }
 
 std::optional<TaskRef> JobMachine::NextStraggler(const std::string& worker,
                                                  uint32_t slots,
                                                  double now_s) const {
-  if (state_ != JobState::kRunning || runs_.empty()) return std::nullopt;
+  if (!MayHaveWork()) return std::nullopt;
   const std::optional<uint32_t> part = runs_.back().FindStraggler(worker, slots, policy_, now_s);
   if (!part) return std::nullopt;
   return TaskRef{static_cast<uint32_t>(runs_.size() - 1), *part};
@@ -90,37 +72,70 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
   const std::optional<uint32_t> stage = StageToPlan();
   ORBWEAVE_CHECK(stage.has_value() && tasks.size() == found.size());
   const auto number = static_cast<uint32_t>(runs_.size());
-  const auto before = std::find_if(runs_.rbegin(), runs_.rend(), [&](const StageRun& earlier) {
-    return earlier.stage == *stage;
-  });
-  StageRun fresh{.stage = *stage};
-  if (before != runs_.rend()) fresh.before = static_cast<uint32_t>(runs_.rend() - before - 1);
-  StageRun& run = runs_.emplace_back(std::move(fresh));
   num_tasks_ += tasks.size();
-  if (results_.size() <= *stage) results_.resize(*stage + 1);
-  std::vector<TaskResult>& results = results_[*stage];
-  results.assign(tasks.size(), {});
-  for (uint32_t part = 0; part < tasks.size(); ++part) {
-    TaskRecord& task = run.tasks.emplace_back();
-    task.id = tasks[part].Id();
-    task.spec = std::move(tasks[part]);
-    refs_[task.id] = {number, part};
+  StageRun& run = runs_.emplace_back(StageRun{.stage = *stage});
+  for (TaskSpec& spec : tasks) {
+    const Digest id = spec.Id();
+    refs_[id] = {number, static_cast<uint32_t>(run.tasks.size())};
+    run.tasks.push_back({.spec = std::move(spec), .id = id});
+  }
+  FindHomes();
+  TakeFound(std::move(found));
+  CountPastFailures(now_s);
+  EndIfAllDone(now_s);
+}
+
+void JobMachine::FindHomes() {
+  StageRun& run = runs_.back();
+  const auto earlier = std::find_if(runs_.rbegin() + 1, runs_.rend(), [&](const StageRun& other) {
+    return other.stage == run.stage;
+  });
+  if (earlier != runs_.rend()) run.FindHomes(*earlier);
+}
+
+void JobMachine::TakeFound(std::vector<std::optional<TaskResult>> found) {
+  StageRun& run = runs_.back();
+  if (results_.size() <= run.stage) results_.resize(run.stage + 1);
+  std::vector<TaskResult>& results = results_[run.stage];
+  results.assign(found.size(), {});
+  for (uint32_t part = 0; part < found.size(); ++part) {
     if (!found[part]) {
-      run.ready.insert(part);
+      run.SetReady(part);
       continue;
     }
-    task.done = true;
-    task.cost = found[part]->cost;
+    run.tasks[part].done = true;
+    run.tasks[part].cost = found[part]->cost;
     results[part] = *std::move(found[part]);
     ++run.done;
     ++run.reused;
   }
-  EndIfAllDone(now_s);
+}
+
+void JobMachine::Remember(const std::vector<FailedAttempt>& failures) {
+  for (const FailedAttempt& failure : failures) past_failures_[failure.task].push_back(failure);
+}
+
+void JobMachine::CountPastFailures(double now_s) {
+  StageRun& run = runs_.back();
+  for (TaskRecord& task : run.tasks) {
+    const auto past = past_failures_.find(task.id);
+    if (past == past_failures_.end()) continue;
+    for (const FailedAttempt& failure : past->second) {
+      ++run.retries;
+      if (task.done) {
+        ++num_failures_;
+      } else {
+        CountFailure(task, failure.worker, absl::Status(failure.code, failure.reason), now_s);
+      }
+      if (state_ != JobState::kRunning) return;
+    }
+    past_failures_.erase(past);
+  }
 }
 
 void JobMachine::TaskLeased(TaskRef ref, const TaskHolder& holder, double now_s) {
   StageRun& run = runs_[ref.run];
-  const bool was_ready = run.ready.erase(ref.part) == 1;
+  const bool was_ready = run.TakeReady(ref.part, holder.worker);
   ORBWEAVE_CHECK(was_ready != run.running.contains(ref.part));
   run.running.insert(ref.part);
   if (!run.first_lease_s) run.first_lease_s = now_s;
@@ -161,6 +176,7 @@ void JobMachine::TaskDone(AttemptRef ref, TaskResult result, double now_s) {
     AttemptEnds({ref.task, task.attempts.front().holder.epoch}, false, now_s);
   task.done = true;
   task.cost = result.cost;
+  run.failed.erase(ref.task.part);
   ++run.done;
   run.last_result_s = now_s;
   run.cpu_s += result.cost.cpu_s;
@@ -175,7 +191,7 @@ void JobMachine::TaskFailed(AttemptRef ref, const absl::Status& error, double no
   TaskRecord& task = Task(ref.task);
   const std::string worker = task.FindAttempt(ref.epoch)->holder.worker;
   AttemptEnds(ref, false, now_s);
-  if (task.attempts.empty()) run.ready.insert(ref.task.part);
+  if (task.attempts.empty()) run.SetReady(ref.task.part);
   run.UpdateStragglerTime(policy_);
   if (ClassifyFailure(error.code()) == FailureClass::kReturned) return;
   CountFailure(task, worker, error, now_s);
@@ -186,32 +202,13 @@ void JobMachine::CountFailure(TaskRecord& task,
                               const std::string& worker,
                               const absl::Status& error,
                               double now_s) {
-  const FailureClass failure = ClassifyFailure(error.code());
-  const uint32_t failures = task.failures.Add(failure);
+  task.failures.Add(ClassifyFailure(error.code()));
   ++num_failures_;
+  runs_.back().failed.insert(task.spec.part);
   task.failed_on.push_back(worker);
   task.not_before_s = now_s + policy_.WaitAfter(task.failures.Total(), task.id.ToSeed());
-  if (failure == FailureClass::kPermanent) {
-    JobFails(absl::StrCat(task.Describe(), ": ", TextOf(error)), now_s);
-    return;
-  }
-  const std::string last = absl::StrCat("last on ", worker, ": ", TextOf(error));
-  if (failures >= policy_.MaxFailures(failure)) {
-    const char* verb = failure == FailureClass::kProcessLost ? " lost its process " : " failed ";
-    JobFails(absl::StrCat(
-                 task.Describe(), verb, failures, " times, ", last, "; ", task.DescribeInputs()),
-             now_s);
-  } else if (num_failures_ > policy_.MaxJobRetries(num_tasks_)) {
-    JobFails(absl::StrCat("the job gave up after ",
-                          num_failures_,
-                          " failed attempts at ",
-                          num_tasks_,
-                          " tasks: ",
-                          task.Describe(),
-                          ", ",
-                          last),
-             now_s);
-  }
+  const auto reason = JudgeFailure(policy_, task, worker, error, {num_failures_, num_tasks_});
+  if (reason) JobFails(*reason, now_s);
 }
 
 void JobMachine::JobFails(const std::string& error, double now_s) {
@@ -224,7 +221,8 @@ void JobMachine::JobIsCancelled(double now_s) {
 }
 
 void JobMachine::EndIfAllDone(double now_s) {
-  if (runs_.back().IsDone() && NextStage() == plan_.stages.size()) JobEnds(JobState::kDone, now_s);
+  if (state_ != JobState::kRunning || !runs_.back().IsDone()) return;
+  if (NextStage() == plan_.stages.size()) JobEnds(JobState::kDone, now_s);
 }
 
 void JobMachine::JobEnds(JobState state, double now_s) {
@@ -234,38 +232,6 @@ void JobMachine::JobEnds(JobState state, double now_s) {
     for (const uint32_t part : run.running) run.tasks[part].attempts.clear();
     run.running.clear();
   }
-}
-
-JobStatus JobMachine::Status(double now_s) const {
-  JobStatus status{.id = spec_.Id(), .state = state_, .error = error_, .spec = spec_};
-  status.elapsed_s = (state_ == JobState::kRunning ? now_s : ended_s_) - submitted_s_;
-  for (const StageRule& rule : plan_.stages) status.stages.push_back({.stage = rule.stage});
-  for (const StageRun& run : runs_) run.AddTo(status.stages[run.stage]);
-  return status;
-}
-
-std::vector<TaskOutcome> JobMachine::Outcomes() const {
-  std::map<uint32_t, const StageRun*> last_runs;
-  for (const StageRun& run : runs_) last_runs[run.stage] = &run;
-  std::vector<TaskOutcome> outcomes;
-  for (const auto& [stage, run] : last_runs) {
-    for (uint32_t part = 0; part < run->tasks.size(); ++part) {
-      const TaskRecord& task = run->tasks[part];
-      if (task.done) outcomes.push_back({task.spec.stage, part, task.id, results_[stage][part]});
-    }
-  }
-  return outcomes;
-}
-
-std::vector<MeasuredTask> JobMachine::Costs() const {
-  std::vector<MeasuredTask> costs;
-  for (uint32_t number = 0; number < runs_.size(); ++number) {
-    for (uint32_t part = 0; part < runs_[number].tasks.size(); ++part) {
-      const TaskRecord& task = runs_[number].tasks[part];
-      if (task.done) costs.push_back({number, task.spec.stage, part, task.cost});
-    }
-  }
-  return costs;
 }
 
 }  // namespace orbweave

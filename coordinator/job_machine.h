@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "coordinator/journal.h"
 #include "coordinator/retry_policy.h"
 #include "coordinator/stage_run.h"
 #include "core/pipeline/coordinator_api.h"
@@ -57,10 +58,9 @@ class JobMachine {
 
   /// The stage whose tasks are to be written down now: all that come before it are done.
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
-  /// The task that a worker had better do now in this slot: of a loop's stage the first part that
-  /// the slot had the last time, whose process may still know it, else one that nobody in `alive`
-  /// had, else the last part of somebody else; of other stages the first part. A task that failed
-  /// here waits for another worker while one that has not failed it is in `alive`.
+  /// Whether a task may be ready, or wait too long for the one who does it.
+  [[nodiscard]] bool MayHaveWork() const;
+  /// The task that a worker had better do now in this slot; see ChoosePart.
   [[nodiscard]] std::optional<TaskRef> NextReady(const WorkerSlot& at,
                                                  const std::vector<std::string>& alive,
                                                  double now_s) const;
@@ -76,6 +76,8 @@ class JobMachine {
   /// Whether this very attempt is the one whose result was taken.
   [[nodiscard]] bool WasDoneBy(const Digest& task, uint64_t epoch) const;
 
+  /// Attempts that failed before a restart: they count when the stage of their task begins.
+  void Remember(const std::vector<FailedAttempt>& failures);
   /// The planned stage has these tasks; those with a result in `found` are done already.
   void StageBegins(std::vector<TaskSpec> tasks,
                    std::vector<std::optional<TaskResult>> found,
@@ -102,8 +104,10 @@ class JobMachine {
   [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
   /// The stage that comes after the last run; the number of stages: none.
   [[nodiscard]] uint32_t NextStage() const;
-  /// Where this part was done when the stage last ran; no name: nowhere.
-  [[nodiscard]] WorkerSlot PlaceBefore(const StageRun& run, uint32_t part) const;
+  /// Of the run that begins.
+  void FindHomes();
+  void TakeFound(std::vector<std::optional<TaskResult>> found);
+  void CountPastFailures(double now_s);
   /// Strikes out an attempt and notes its time; how long it took.
   double AttemptEnds(AttemptRef ref, bool ok, double now_s);
   void CountFailure(TaskRecord& task,
@@ -125,6 +129,7 @@ class JobMachine {
   std::vector<StageRun> runs_;  ///< in order
   std::vector<std::vector<TaskResult>> results_;
   std::map<Digest, TaskRef> refs_;
+  std::map<Digest, std::vector<FailedAttempt>> past_failures_;  ///< by task
   std::vector<TaskTiming> timings_;
 };
 

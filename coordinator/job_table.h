@@ -15,9 +15,10 @@ namespace orbweave {
 /// A job and its machine.
 struct Job {
   uint64_t number = 0;
-  uint64_t run = 0;      ///< which run of the job the machine is
-  bool verify = true;    ///< see JobSnapshot
-  bool is_saved = true;  ///< its end is in the journal
+  uint64_t run = 0;          ///< which run of the job the machine is
+  uint64_t since_epoch = 0;  ///< see JobEntry
+  bool verify = true;        ///< see JobSnapshot
+  bool is_saved = true;      ///< its end is in the journal
   uint32_t reruns = 0;
   std::unique_ptr<JobMachine> machine{};
 
@@ -36,6 +37,7 @@ class JobTable {
   /// nullptr: there is none.
   [[nodiscard]] Job* Find(const Digest& id);
   [[nodiscard]] Job& At(const Digest& id) { return jobs_.at(id); }
+  [[nodiscard]] const Job& At(const Digest& id) const { return jobs_.at(id); }
   /// By number: the oldest is served first.
   [[nodiscard]] const std::map<uint64_t, Digest>& order() const { return order_; }
   [[nodiscard]] uint64_t NextNumber() const {

@@ -17,7 +17,8 @@ struct JobEntry {
   JobSpec spec{};
   JobState state = JobState::kRunning;
   std::string error{};
-  uint64_t number = 0;  ///< order of submission
+  uint64_t number = 0;       ///< order of submission
+  uint64_t since_epoch = 0;  ///< later attempts count against its budgets
 };
 
 /// One attempt at a task: a lease, as it is remembered across restarts.
@@ -35,6 +36,22 @@ struct Attempt {
 struct AttemptEnd {
   uint64_t epoch = 0;
   std::string reason{};
+  absl::StatusCode code = absl::StatusCode::kCancelled;  ///< given back: nobody failed
+};
+
+/// What an attempt that failed counts for.
+struct FailedAttempt {
+  Digest task{};
+  std::string worker{};
+  absl::StatusCode code = absl::StatusCode::kUnknown;
+  std::string reason{};
+};
+
+/// Tasks that the process of a worker failed and others then did, since it did one itself.
+struct WorkerBlame {
+  std::string worker{};
+  uint64_t process = 0;
+  uint32_t blames = 0;
 };
 
 /// What became of an attempt. The times are seconds since 1970 by the clock of the coordinator's
@@ -85,9 +102,18 @@ class Journal {
   [[nodiscard]] virtual absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) = 0;
   /// Attempts that started and did not end, in order of epoch.
   [[nodiscard]] virtual absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() = 0;
+  /// Attempts for a job after `since_epoch` that failed and were not just given back, in order of
+  /// epoch.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(
+      const Digest& job, uint64_t since_epoch) = 0;
   /// All attempts at a task, in order of epoch.
   [[nodiscard]] virtual absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(
       const Digest& task) = 0;
+
+  /// The last of each worker counts.
+  [[nodiscard]] virtual absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) = 0;
+  /// By name; without those that nothing is to be blamed for.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() = 0;
 };
 
 }  // namespace orbweave

@@ -29,6 +29,9 @@ class JournalMeter final : public Journal {
     return Time("ends", [&] { return journal_->SaveEnds(ends); });
   }
 
+  absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) override {
+    return Time("blames", [&] { return journal_->SaveBlames(blames); });
+  }
   absl::Status ForgetJob(const Digest& job) override {
     return Time("forget", [&] { return journal_->ForgetJob(job); });
   }
@@ -44,9 +47,14 @@ class JournalMeter final : public Journal {
   absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override {
     return journal_->LoadOpenAttempts();
   }
+  absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(const Digest& job,
+                                                          uint64_t since_epoch) override {
+    return journal_->LoadFailures(job, since_epoch);
+  }
   absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(const Digest& task) override {
     return journal_->LoadAttempts(task);
   }
+  absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() override { return journal_->LoadBlames(); }
 
  private:
   template <typename Save>

@@ -12,7 +12,9 @@
 namespace orbweave {
 
 absl::StatusOr<JobEntry> JobFrom(const SqlRow& row) {
-  JobEntry job{.error = std::string(row.Bytes(2)), .number = static_cast<uint64_t>(row.Integer(0))};
+  JobEntry job{.error = std::string(row.Bytes(2)),
+               .number = static_cast<uint64_t>(row.Integer(0)),
+               .since_epoch = static_cast<uint64_t>(row.Integer(4))};
   ORBWEAVE_ASSIGN_OR_RETURN(job.state, JobStateFromProto(static_cast<uint32_t>(row.Integer(1))));
   v1::JobSpec spec;
   if (!spec.ParseFromString(std::string(row.Bytes(3))))
@@ -39,6 +41,14 @@ absl::StatusOr<AttemptRecord> AttemptRecordFrom(const SqlRow& row) {
   record.ended_s = row.Number(8);
   record.reason = std::string(row.Bytes(9));
   return record;
+}
+
+absl::StatusOr<FailedAttempt> FailedAttemptFrom(const SqlRow& row) {
+  FailedAttempt failure{.worker = std::string(row.Bytes(1)),
+                        .code = static_cast<absl::StatusCode>(row.Integer(2)),
+                        .reason = std::string(row.Bytes(3))};
+  ORBWEAVE_ASSIGN_OR_RETURN(failure.task, DigestFromProto(row.Bytes(0)));
+  return failure;
 }
 
 std::optional<TaskResult> ResultFrom(const SqlRow& row) {

@@ -11,13 +11,16 @@ namespace orbweave {
 
 /// Rows of the journal's tables as values. Errors: DataLoss or InvalidArgument, of a damaged row.
 
-inline constexpr const char* kJobColumns = "number, state, error, spec";
+inline constexpr const char* kJobColumns = "number, state, error, spec, since_epoch";
 [[nodiscard]] absl::StatusOr<JobEntry> JobFrom(const SqlRow& row);
 
 inline constexpr const char* kAttemptColumns =
     "epoch, task, job, stage, part, worker, slot, started_s, ended_s, reason";
 [[nodiscard]] absl::StatusOr<Attempt> AttemptFrom(const SqlRow& row);
 [[nodiscard]] absl::StatusOr<AttemptRecord> AttemptRecordFrom(const SqlRow& row);
+
+inline constexpr const char* kFailureColumns = "task, worker, code, reason";
+[[nodiscard]] absl::StatusOr<FailedAttempt> FailedAttemptFrom(const SqlRow& row);
 
 inline constexpr const char* kResultColumns = "task, digest, content";
 /// Nothing when it is damaged.

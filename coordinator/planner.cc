@@ -20,7 +20,7 @@ void Planner::Start() {
 
 bool Planner::HasWork() const {
   const JobTable& jobs = dispatcher_.jobs();
-  return jobs.ToPlan() || jobs.ToSave() || dispatcher_.HasEnds();
+  return jobs.ToPlan() || jobs.ToSave() || dispatcher_.HasLooseEnds();
 }
 
 void Planner::Run(const std::stop_token& stop) {
@@ -30,21 +30,23 @@ void Planner::Run(const std::stop_token& stop) {
     if (stop.stop_requested()) break;
     const std::optional<Digest> to_plan = dispatcher_.jobs().ToPlan();
     const std::optional<Digest> to_save = dispatcher_.jobs().ToSave();
-    const std::vector<AttemptEnd> ends = dispatcher_.TakeEnds();
+    const LooseEnds ends = dispatcher_.TakeLooseEnds();
     lock.unlock();
-    if (!ends.empty()) SaveEnds(ends);
+    Save(ends);
     if (to_plan) PlanNextStage(*to_plan, stop);
     if (to_save) desk_.SaveEnd(*to_save);
   }
-  const std::vector<AttemptEnd> ends = [this] {
+  const LooseEnds ends = [this] {
     const std::lock_guard lock(mutex_);
-    return dispatcher_.TakeEnds();
+    return dispatcher_.TakeLooseEnds();
   }();
-  if (!ends.empty()) SaveEnds(ends);
+  Save(ends);
 }
 
-void Planner::SaveEnds(const std::vector<AttemptEnd>& ends) {
-  const absl::Status saved = journal_.SaveEnds(ends);
+void Planner::Save(const LooseEnds& ends) {
+  absl::Status saved;
+  if (!ends.attempts.empty()) saved.Update(journal_.SaveEnds(ends.attempts));
+  if (!ends.blames.empty()) saved.Update(journal_.SaveBlames(ends.blames));
   if (saved.ok()) return;  // otherwise they count as open after a restart, for one lease time
   const std::lock_guard lock(mutex_);
   dispatcher_.Log({.level = LogLevel::kError,

@@ -40,7 +40,7 @@ class Planner {
  private:
   void Run(const std::stop_token& stop);
   [[nodiscard]] bool HasWork() const;
-  void SaveEnds(const std::vector<AttemptEnd>& ends);
+  void Save(const LooseEnds& ends);
   void PlanNextStage(const Digest& id, const std::stop_token& stop);
   /// The stage, once the journal can be asked.
   [[nodiscard]] absl::StatusOr<PreparedStage> Prepare(const JobSnapshot& snapshot,

@@ -57,8 +57,10 @@ struct RetryPolicy {
 /// Failed attempts of a task, by class.
 class FailureCounts {
  public:
-  /// Counts one more; how many of its class there are now.
-  uint32_t Add(FailureClass failure) { return ++counts_[static_cast<size_t>(failure)]; }
+  void Add(FailureClass failure) { ++counts_[static_cast<size_t>(failure)]; }
+  [[nodiscard]] uint32_t Of(FailureClass failure) const {
+    return counts_[static_cast<size_t>(failure)];
+  }
   [[nodiscard]] uint32_t Total() const;
 
  private:

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -16,18 +15,11 @@
 namespace orbweave {
 namespace {
 
-/// Tasks looked up by one statement.
-constexpr size_t kLookup = 64;
+/// Results forgotten in one transaction.
+constexpr size_t kBatch = 64;
 
 double SecondsSince1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-/// The text of a statement's columns from $first on: "$1, $2, $3".
-std::string Parameters(size_t count) {
-  std::string text;
-  for (size_t i = 1; i <= count; ++i) absl::StrAppend(&text, i > 1 ? ", $" : "$", i);
-  return text;
 }
 
 /// A damaged result is none that anybody has.
@@ -71,28 +63,17 @@ absl::Status SqlJournal::SaveJob(const JobEntry& job) {
   const std::string spec = ToProto(job.spec).SerializeAsString();
   return commit_.Commit([&] {
     return writer_->Execute(
-        "INSERT INTO orbweave_job (id, number, state, error, spec) VALUES ($1, $2, $3, $4, $5) "
+        "INSERT INTO orbweave_job (id, number, state, error, spec, since_epoch) "
+        "VALUES ($1, $2, $3, $4, $5, $6) "
         "ON CONFLICT (id) DO UPDATE SET number = excluded.number, state = excluded.state, "
-        "error = excluded.error, spec = excluded.spec",
+        "error = excluded.error, spec = excluded.spec, since_epoch = excluded.since_epoch",
         {SqlBytes{id},
          static_cast<int64_t>(job.number),
          static_cast<int64_t>(job.state),
          std::string_view(job.error),
-         SqlBytes{spec}});
+         SqlBytes{spec},
+         static_cast<int64_t>(job.since_epoch)});
   });
-}
-
-absl::StatusOr<std::vector<JobEntry>> SqlJournal::LoadJobs() {
-  const std::lock_guard lock(reading_mutex_);
-  std::vector<JobEntry> jobs;
-  ORBWEAVE_RETURN_IF_ERROR(
-      reader_->Query(absl::StrCat("SELECT ", kJobColumns, " FROM orbweave_job ORDER BY number"),
-                     {},
-                     [&jobs](const SqlRow& row) -> absl::Status {
-                       ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(), JobFrom(row));
-                       return absl::OkStatus();
-                     }));
-  return jobs;
 }
 
 absl::Status SqlJournal::ForgetJob(const Digest& job) {
@@ -123,10 +104,14 @@ absl::Status SqlJournal::SaveStart(const Attempt& attempt) {
   });
 }
 
-absl::Status SqlJournal::EndAttempt(uint64_t epoch, std::string_view reason) {
+absl::Status SqlJournal::EndAttempt(const AttemptEnd& end) {
   return writer_->Execute(
-      "UPDATE orbweave_attempt SET ended_s = $1, reason = $2 WHERE epoch = $3 AND ended_s IS NULL",
-      {SecondsSince1970(), reason, static_cast<int64_t>(epoch)});
+      "UPDATE orbweave_attempt SET ended_s = $1, reason = $2, code = $3 "
+      "WHERE epoch = $4 AND ended_s IS NULL",
+      {SecondsSince1970(),
+       std::string_view(end.reason),
+       static_cast<int64_t>(end.code),
+       static_cast<int64_t>(end.epoch)});
 }
 
 absl::Status SqlJournal::SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) {
@@ -138,41 +123,15 @@ absl::Status SqlJournal::SaveResult(uint64_t epoch, const Digest& task, const Ta
         "INSERT INTO orbweave_result (task, digest, content) VALUES ($1, $2, $3) "
         "ON CONFLICT (task) DO UPDATE SET digest = excluded.digest, content = excluded.content",
         {SqlBytes{key}, SqlBytes{digest}, SqlBytes{content}}));
-    return EndAttempt(epoch, "");
+    return EndAttempt({.epoch = epoch, .code = absl::StatusCode::kOk});
   });
 }
 
 absl::Status SqlJournal::SaveEnds(const std::vector<AttemptEnd>& ends) {
   return commit_.Commit([&]() -> absl::Status {
-    for (const AttemptEnd& end : ends) ORBWEAVE_RETURN_IF_ERROR(EndAttempt(end.epoch, end.reason));
+    for (const AttemptEnd& end : ends) ORBWEAVE_RETURN_IF_ERROR(EndAttempt(end));
     return absl::OkStatus();
   });
-}
-
-absl::StatusOr<std::vector<std::optional<TaskResult>>> SqlJournal::LoadResults(
-    const std::vector<Digest>& tasks) {
-  static const std::string sql = absl::StrCat(
-      "SELECT ", kResultColumns, " FROM orbweave_result WHERE task IN (", Parameters(kLookup), ")");
-  std::map<std::string, TaskResult, std::less<>> found;
-  std::vector<std::string> keys;
-  for (const Digest& task : tasks) keys.push_back(ToProto(task));
-  for (size_t begin = 0; begin < keys.size(); begin += kLookup) {
-    std::vector<SqlValue> values;
-    for (size_t i = 0; i < kLookup; ++i)
-      values.push_back(SqlBytes{keys[std::min(begin + i, keys.size() - 1)]});
-    const std::lock_guard lock(reading_mutex_);
-    ORBWEAVE_RETURN_IF_ERROR(reader_->Query(sql, values, [&found](const SqlRow& row) {
-      if (std::optional<TaskResult> result = ResultFrom(row))
-        found.emplace(row.Bytes(0), *std::move(result));
-      return absl::OkStatus();
-    }));
-  }
-  std::vector<std::optional<TaskResult>> results;
-  for (const std::string& key : keys) {
-    const auto it = found.find(key);
-    results.push_back(it == found.end() ? std::nullopt : std::optional(it->second));
-  }
-  return results;
 }
 
 absl::StatusOr<uint64_t> SqlJournal::ForgetResults(const IsGarbage& is_garbage) {
@@ -187,11 +146,11 @@ absl::StatusOr<uint64_t> SqlJournal::ForgetResults(const IsGarbage& is_garbage) 
     }));
   }
   uint64_t forgotten = 0;
-  for (size_t begin = 0; begin < candidates.size(); begin += kLookup) {
+  for (size_t begin = 0; begin < candidates.size(); begin += kBatch) {
     uint64_t in_batch = 0;
     ORBWEAVE_RETURN_IF_ERROR(commit_.Commit([&]() -> absl::Status {
       in_batch = 0;
-      for (size_t i = begin; i < std::min(begin + kLookup, candidates.size()); ++i) {
+      for (size_t i = begin; i < std::min(begin + kBatch, candidates.size()); ++i) {
         ORBWEAVE_ASSIGN_OR_RETURN(const bool gone, ForgetResult(candidates[i], is_garbage));
         in_batch += gone ? 1 : 0;
       }
@@ -217,30 +176,19 @@ absl::StatusOr<bool> SqlJournal::ForgetResult(const std::string& task,
   return true;
 }
 
-absl::StatusOr<std::vector<Attempt>> SqlJournal::LoadOpenAttempts() {
-  static const std::string sql = absl::StrCat(
-      "SELECT ", kAttemptColumns, " FROM orbweave_attempt WHERE ended_s IS NULL ORDER BY epoch");
-  const std::lock_guard lock(reading_mutex_);
-  std::vector<Attempt> attempts;
-  ORBWEAVE_RETURN_IF_ERROR(reader_->Query(sql, {}, [&](const SqlRow& row) -> absl::Status {
-    ORBWEAVE_ASSIGN_OR_RETURN(attempts.emplace_back(), AttemptFrom(row));
+absl::Status SqlJournal::SaveBlames(const std::vector<WorkerBlame>& blames) {
+  return commit_.Commit([&]() -> absl::Status {
+    for (const WorkerBlame& blame : blames) {
+      ORBWEAVE_RETURN_IF_ERROR(writer_->Execute(
+          "INSERT INTO orbweave_blame (worker, process, blames) VALUES ($1, $2, $3) "
+          "ON CONFLICT (worker) DO UPDATE SET process = excluded.process, "
+          "blames = excluded.blames",
+          {std::string_view(blame.worker),
+           static_cast<int64_t>(blame.process),
+           int64_t{blame.blames}}));
+    }
     return absl::OkStatus();
-  }));
-  return attempts;
-}
-
-absl::StatusOr<std::vector<AttemptRecord>> SqlJournal::LoadAttempts(const Digest& task) {
-  static const std::string sql = absl::StrCat(
-      "SELECT ", kAttemptColumns, " FROM orbweave_attempt WHERE task = $1 ORDER BY epoch");
-  const std::string key = ToProto(task);
-  const std::lock_guard lock(reading_mutex_);
-  std::vector<AttemptRecord> records;
-  ORBWEAVE_RETURN_IF_ERROR(
-      reader_->Query(sql, {SqlBytes{key}}, [&records](const SqlRow& row) -> absl::Status {
-        ORBWEAVE_ASSIGN_OR_RETURN(records.emplace_back(), AttemptRecordFrom(row));
-        return absl::OkStatus();
-      }));
-  return records;
+  });
 }
 
 }  // namespace orbweave

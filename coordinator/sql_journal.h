@@ -33,8 +33,12 @@ class SqlJournal final : public Journal {
       const std::vector<Digest>& tasks) override;
   [[nodiscard]] absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override;
   [[nodiscard]] absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override;
+  [[nodiscard]] absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(
+      const Digest& job, uint64_t since_epoch) override;
   [[nodiscard]] absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(
       const Digest& task) override;
+  [[nodiscard]] absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) override;
+  [[nodiscard]] absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() override;
 
  private:
   SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
@@ -43,7 +47,7 @@ class SqlJournal final : public Journal {
   /// In a transaction; whether it was garbage.
   [[nodiscard]] absl::StatusOr<bool> ForgetResult(const std::string& task,
                                                   const IsGarbage& is_garbage);
-  [[nodiscard]] absl::Status EndAttempt(uint64_t epoch, std::string_view reason);
+  [[nodiscard]] absl::Status EndAttempt(const AttemptEnd& end);
 
   std::unique_ptr<SqlDatabase> writer_;  ///< of whoever leads a commit
   std::mutex reading_mutex_;

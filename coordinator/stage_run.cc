@@ -7,6 +7,29 @@
 
 namespace orbweave {
 
+void StageRun::FindHomes(const StageRun& earlier) {
+  homes.resize(tasks.size());
+  for (uint32_t part = 0; part < std::min(tasks.size(), earlier.tasks.size()); ++part) {
+    const TaskHolder& holder = earlier.tasks[part].done_by;
+    homes[part] = {holder.worker, holder.slot};
+  }
+}
+
+void StageRun::SetReady(uint32_t part) {
+  ready.Insert(part);
+  if (!homes.empty()) ready_at[homes[part]].insert(part);
+}
+
+bool StageRun::TakeReady(uint32_t part, const std::string& worker) {
+  if (!ready.Erase(part)) return false;
+  last_parts[worker] = part;
+  if (homes.empty()) return true;
+  const auto home = ready_at.find(homes[part]);
+  home->second.erase(part);
+  if (home->second.empty()) ready_at.erase(home);
+  return true;
+}
+
 void StageRun::UpdateStragglerTime(const RetryPolicy& policy) {
   straggler_after_s.reset();
   const size_t computed = tasks.size() - reused;

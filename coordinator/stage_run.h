@@ -3,22 +3,29 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "coordinator/ready_parts.h"
 #include "coordinator/task_record.h"
 
 namespace orbweave {
 
 /// The tasks of a stage, once it runs.
 struct StageRun {
-  uint32_t stage = 0;                ///< of the plan
-  std::optional<uint32_t> before{};  ///< the run of the same stage before this one
+  uint32_t stage = 0;  ///< of the plan
   std::vector<TaskRecord> tasks{};
-  std::set<uint32_t> ready{};
+  ReadyParts ready{};
   std::set<uint32_t> running{};
+  /// Of a loop's stage: where each part was done the last time (no name: nowhere), and the ready
+  /// parts by that place.
+  std::vector<WorkerSlot> homes{};
+  std::map<WorkerSlot, std::set<uint32_t>> ready_at{};
+  std::set<uint32_t> failed{};  ///< parts that are to be tried again, ready or running
+  std::map<std::string, uint32_t> last_parts{};  ///< that workers were given
   uint32_t done = 0;
   uint32_t reused = 0;
   uint32_t retries = 0;
@@ -29,6 +36,12 @@ struct StageRun {
   std::optional<double> straggler_after_s{};  ///< how long a task may run that nobody waits beside
 
   [[nodiscard]] bool IsDone() const { return done == tasks.size(); }
+  /// Looks up the homes of all parts in `earlier`, the run before; to be called before any is
+  /// ready.
+  void FindHomes(const StageRun& earlier);
+  void SetReady(uint32_t part);
+  /// `worker` is given a part; whether it was ready.
+  bool TakeReady(uint32_t part, const std::string& worker);
   /// To be called when a task was leased, done or failed: stragglers there are only when no task is
   /// ready and half of those that are computed are done.
   void UpdateStragglerTime(const RetryPolicy& policy);

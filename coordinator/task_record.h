@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ namespace orbweave {
 struct WorkerSlot {
   std::string worker{};
   uint32_t slot = 0;
-  friend bool operator==(const WorkerSlot&, const WorkerSlot&) = default;
+  friend auto operator<=>(const WorkerSlot&, const WorkerSlot&) = default;
 };
 
 /// Who works on a task, for the record.

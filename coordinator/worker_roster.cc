@@ -3,9 +3,30 @@
 
 #include "coordinator/worker_roster.h"
 
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 
 namespace orbweave {
+
+void WorkerRoster::Remember(const WorkerBlame& blame) {
+  Record& record = records_[blame.worker];
+  record.process = blame.process;
+  record.blames = blame.blames;
+}
+
+std::vector<WorkerBlame> WorkerRoster::TakeBlames() {
+  std::vector<WorkerBlame> blames;
+  for (const std::string& name : std::exchange(changed_, {})) {
+    const Record& record = records_[name];
+    blames.push_back({name, record.process, record.blames});
+  }
+  return blames;
+}
+
+void WorkerRoster::SetBlames(const std::string& name, uint32_t blames) {
+  if (std::exchange(records_[name].blames, blames) != blames) changed_.insert(name);
+}
 
 void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s) {
   Record& record = records_[worker.name];
@@ -14,7 +35,9 @@ void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s
   record.heard_s = now_s;
   record.slots = worker.slots;
   record.draining = false;
-  record.blames = 0;
+  const bool is_another = worker.process == 0 || worker.process != record.process;
+  record.process = worker.process;
+  if (is_another) SetBlames(worker.name, 0);
   names_[session] = worker.name;
 }
 
@@ -50,11 +73,11 @@ bool WorkerRoster::IsDraining(uint64_t session) const {
 void WorkerRoster::CountTask(uint64_t session, const std::set<std::string>& failed_on) {
   const std::string name = NameOf(session);
   for (const std::string& other : failed_on) {
-    if (other != name) ++records_[other].blames;
+    if (other != name) SetBlames(other, records_[other].blames + 1);
   }
   if (name.empty()) return;
   ++records_[name].tasks_done;
-  records_[name].blames = 0;
+  SetBlames(name, 0);
 }
 
 std::string WorkerRoster::NameOf(uint64_t session) const {

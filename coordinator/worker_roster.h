@@ -10,17 +10,24 @@
 #include <string_view>
 #include <vector>
 
+#include "coordinator/journal.h"
 #include "core/pipeline/coordinator_api.h"
 
 namespace orbweave {
 
 /// The workers that ever joined, by name, each with its present session. A worker is alive while it
 /// was heard within `silence_s`; it is set aside once it has failed three tasks that others then
-/// did, without doing one in between, and until it joins anew. Pure bookkeeping: time is handed in.
-/// Not thread-safe.
+/// did, without doing one in between, and until another process of it joins. Pure bookkeeping: time
+/// is handed in. Not thread-safe.
 class WorkerRoster {
  public:
   explicit WorkerRoster(double silence_s) : silence_s_(silence_s) {}
+
+  /// A worker of an earlier generation is to be blamed.
+  void Remember(const WorkerBlame& blame);
+  /// Those whose blames have changed since this was last asked.
+  [[nodiscard]] std::vector<WorkerBlame> TakeBlames();
+  [[nodiscard]] bool HasBlames() const { return !changed_.empty(); }
 
   /// Begins session `session` of a worker, which ends the one it had.
   void Join(const WorkerInfo& worker, uint64_t session, double now_s);
@@ -51,14 +58,17 @@ class WorkerRoster {
     uint32_t slots = 1;
     uint32_t tasks_done = 0;
     bool draining = false;
+    uint64_t process = 0;
     uint32_t blames = 0;  ///< tasks it failed and others did, since it did one itself
   };
+  void SetBlames(const std::string& name, uint32_t blames);
   [[nodiscard]] static bool IsSetAside(const Record& record);
   [[nodiscard]] bool IsAlive(const Record& record, double now_s) const;
 
   double silence_s_;
   std::map<std::string, Record, std::less<>> records_;
   std::map<uint64_t, std::string> names_;  ///< of sessions that are not over
+  std::set<std::string> changed_;          ///< whose blames have
 };
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -18,6 +19,12 @@
 
 namespace orbweave {
 namespace {
+
+/// So that a coordinator tells a worker that comes back from one that was started anew.
+uint64_t NameOfProcess() {
+  std::random_device device;
+  return (uint64_t{device()} << 32 | device()) | 1;
+}
 
 LogEvent Describe(const Lease& lease, const std::string& event, const std::string& message = "") {
   return {.event = event,
@@ -34,7 +41,12 @@ class Worker {
       : api_(api),
         make_executor_(make_executor),
         options_(options),
-        session_(api, {options.name, std::string(BuildVersion()), options.slots}, leases_),
+        session_(api,
+                 {.name = options.name,
+                  .version = std::string(BuildVersion()),
+                  .slots = options.slots,
+                  .process = NameOfProcess()},
+                 leases_),
         blobs_(api, options.cache_bytes, ending_.get_token()) {}
 
   absl::Status Run(const std::stop_token& stop) {

@@ -93,6 +93,7 @@ struct WorkerInfo {
   std::string version{};  ///< build version; another one than the coordinator's is refused
   uint32_t slots = 1;
   std::vector<LeaseProgress> held{};  ///< leases of its last session that it goes on with
+  uint64_t process = 0;  ///< a random number that names its process; 0: another one every time
 };
 
 struct JoinReply {

@@ -242,11 +242,15 @@ v1::JoinRequest ToProto(const WorkerInfo& worker) {
   proto.set_version(worker.version);
   proto.set_slots(worker.slots);
   for (const LeaseProgress& lease : worker.held) *proto.add_held() = ToProto(lease);
+  proto.set_process(worker.process);
   return proto;
 }
 
 absl::StatusOr<WorkerInfo> FromProto(const v1::JoinRequest& proto) {
-  WorkerInfo worker{.name = proto.name(), .version = proto.version(), .slots = proto.slots()};
+  WorkerInfo worker{.name = proto.name(),
+                    .version = proto.version(),
+                    .slots = proto.slots(),
+                    .process = proto.process()};
   for (const v1::LeaseProgress& lease : proto.held()) {
     ORBWEAVE_ASSIGN_OR_RETURN(worker.held.emplace_back(), FromProto(lease));
   }

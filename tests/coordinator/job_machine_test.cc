@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 namespace orbweave {
 namespace {
 
@@ -172,6 +175,81 @@ TEST(JobMachine, TellsTheSlotsOfAWorkerApart) {
   const JobMachine machine = SecondRound();
   EXPECT_EQ(machine.NextReady({"w2", 0}, {"w1", "w2"}, 102.0)->part, 2U);
   EXPECT_EQ(machine.NextReady({"w2", 1}, {"w2"}, 102.0)->part, 0U) << "whose worker is gone";
+}
+
+TEST(JobMachine, GivesWorkersNeighbouringParts) {
+  constexpr uint32_t kParts = 1000;
+  const std::vector<std::string> workers = {"w1", "w2", "w3", "w4", "w5"};
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", kParts);
+  std::map<std::string, uint32_t> last;
+  std::set<uint32_t> given;
+  uint32_t jumps = 0;
+  for (uint32_t turn = 0; turn < kParts; ++turn) {
+    const std::string& worker = workers[turn % workers.size()];
+    const TaskRef ref = *machine.NextReady({worker}, workers, 100.0);
+    machine.TaskLeased(ref, {.epoch = turn, .worker = worker}, 100.0);
+    if (last.contains(worker) && ref.part != last[worker] + 1) ++jumps;
+    last[worker] = ref.part;
+    given.insert(ref.part);
+    if (turn >= workers.size()) continue;  // the others stay with their workers
+    machine.TaskDone({ref, turn}, {}, 101.0);
+  }
+  EXPECT_EQ(given.size(), kParts);
+  EXPECT_LT(jumps, 60U) << "one after the other they would have jumped every time";
+}
+
+TEST(JobMachine, AWorkerBeginsWhereNobodyWorksTowards) {
+  const std::vector<std::string> alive = {"w1", "w2"};
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", 100);
+  const auto lease = [&](const std::string& worker, uint64_t epoch) {
+    const TaskRef ref = *machine.NextReady({worker}, alive, 100.0);
+    machine.TaskLeased(ref, {.epoch = epoch, .worker = worker}, 100.0);
+    return ref;
+  };
+  const TaskRef first = lease("w1", 1);
+  EXPECT_EQ(first.part, 0U);
+  const TaskRef middle = lease("w2", 2);
+  EXPECT_EQ(middle.part, 50U);
+  machine.TaskFailed({first, 1}, absl::CancelledError("it left"), 101.0);
+  EXPECT_EQ(machine.NextReady({"w3"}, {"w2", "w3"}, 101.0)->part, 0U) << "w1 works no more";
+  EXPECT_EQ(machine.NextReady({"w2"}, {"w2", "w3"}, 101.0)->part, 51U);
+}
+
+TEST(JobMachine, RemembersFailuresOfBeforeARestart) {
+  JobMachine machine = MachineFor({"a"});
+  const std::vector<TaskSpec> tasks = Tasks("a", 2);
+  const FailedAttempt crash{tasks[0].Id(), "w", absl::StatusCode::kAborted, "signal 11"};
+  machine.Remember({crash});
+  Begin(machine, "a", 2);
+  EXPECT_EQ(machine.Status(100.0).stages[0].retries, 1U);
+  EXPECT_THAT(machine.FailedOn({0, 0}), ::testing::ElementsAre("w"));
+  EXPECT_EQ(machine.NextReady({"w"}, {"other", "w"}, 200.0)->part, 1U) << "another worker first";
+  const AttemptRef again = LeaseNext(machine, "other", 200.0);
+  ASSERT_EQ(again.task.part, 0U);
+  machine.TaskFailed(again, absl::AbortedError("signal 11"), 200.0);
+  EXPECT_EQ(machine.state(), JobState::kFailed) << "two are too many";
+  EXPECT_THAT(machine.error(), HasSubstr("lost its process 2 times, last on other"));
+}
+
+TEST(JobMachine, FailsWhereTheRestartCameBeforeItWasSaid) {
+  JobMachine machine = MachineFor({"a"});
+  const FailedAttempt crash{Tasks("a", 1)[0].Id(), "w", absl::StatusCode::kAborted, "signal 11"};
+  machine.Remember({crash, crash});
+  Begin(machine, "a", 1);
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_THAT(machine.error(),
+              HasSubstr("lost its process 2 times, last on w: ABORTED: signal 11"));
+}
+
+TEST(JobMachine, FailuresOfTasksThatAreDoneCountForTheJobAlone) {
+  JobMachine machine = MachineFor({"a"});
+  const FailedAttempt crash{Tasks("a", 1)[0].Id(), "w", absl::StatusCode::kAborted, "signal 11"};
+  machine.Remember({crash, crash});
+  machine.StageBegins(Tasks("a", 2), {TaskResult{}, std::nullopt}, 100.0);
+  EXPECT_EQ(machine.state(), JobState::kRunning);
+  EXPECT_EQ(machine.Status(100.0).stages[0].retries, 2U);
 }
 
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {

@@ -207,6 +207,53 @@ TEST_P(JournalContract, KeepsAttemptsWithWhenAndWhyTheyEnded) {
   EXPECT_TRUE(journal_->LoadAttempts(DigestOf("other"))->empty());
 }
 
+TEST_P(JournalContract, TellsWhichAttemptsOfAJobFailedSinceAnEpoch) {
+  using absl::StatusCode;
+  for (uint64_t epoch = 1; epoch <= 6; ++epoch)
+    ASSERT_TRUE(journal_->SaveStart(MakeAttempt(epoch)).ok());
+  Attempt other = MakeAttempt(7);
+  other.job = DigestOf("other job");
+  ASSERT_TRUE(journal_->SaveStart(other).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{1, "before", StatusCode::kAborted}}).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{2, "given back"}}).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{5, "late", StatusCode::kUnavailable}}).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{3, "signal 11", StatusCode::kAborted}}).ok());
+  ASSERT_TRUE(journal_->SaveResult(4, kTask, {}).ok());
+  ASSERT_TRUE(journal_->SaveEnds({{7, "another's", StatusCode::kAborted}}).ok());
+  Reopen();
+  const auto failures = journal_->LoadFailures(kJob, 1);
+  ASSERT_TRUE(failures.ok()) << failures.status();
+  ASSERT_EQ(failures->size(), 2U);
+  EXPECT_EQ(failures->at(0).task, kTask);
+  EXPECT_EQ(failures->at(0).worker, "w");
+  EXPECT_EQ(failures->at(0).code, StatusCode::kAborted);
+  EXPECT_EQ(failures->at(0).reason, "signal 11");
+  EXPECT_EQ(failures->at(1).reason, "late");
+  EXPECT_TRUE(journal_->LoadFailures(kJob, 5)->empty());
+}
+
+TEST_P(JournalContract, RemembersSinceWhenAJobsFailuresCount) {
+  ASSERT_TRUE(journal_->SaveJob({.spec = {.kind = "k"}, .number = 1, .since_epoch = 5}).ok());
+  EXPECT_EQ(journal_->LoadJobs()->at(0).since_epoch, 5U);
+  const uint64_t big = uint64_t{3} << 32;
+  ASSERT_TRUE(journal_->SaveJob({.spec = {.kind = "k"}, .number = 1, .since_epoch = big}).ok());
+  Reopen();
+  EXPECT_EQ(journal_->LoadJobs()->at(0).since_epoch, big);
+}
+
+TEST_P(JournalContract, RemembersWhoIsToBlame) {
+  const uint64_t process = ~uint64_t{5};
+  ASSERT_TRUE(journal_->SaveBlames({{"v", 1, 1}, {"u", process, 2}}).ok());
+  ASSERT_TRUE(journal_->SaveBlames({{"v", 1, 0}, {"u", process, 3}}).ok());
+  Reopen();
+  const auto blames = journal_->LoadBlames();
+  ASSERT_TRUE(blames.ok()) << blames.status();
+  ASSERT_EQ(blames->size(), 1U);
+  EXPECT_EQ(blames->at(0).worker, "u");
+  EXPECT_EQ(blames->at(0).process, process);
+  EXPECT_EQ(blames->at(0).blames, 3U);
+}
+
 TEST_P(JournalContract, SavingTwiceChangesNothing) {
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(journal_->SaveStart(MakeAttempt(1)).ok());
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(journal_->SaveResult(1, kTask, {}).ok());

@@ -20,6 +20,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using testing::FindToyPlan;
+using ::testing::HasSubstr;
 using testing::PrepareToyJob;
 using testing::TemporaryFolder;
 using testing::ToyAnswer;
@@ -73,8 +74,16 @@ class FailingJournal final : public Journal {
   absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override {
     return journal_->LoadOpenAttempts();
   }
+  absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(const Digest& job,
+                                                          uint64_t since_epoch) override {
+    return journal_->LoadFailures(job, since_epoch);
+  }
   absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(const Digest& task) override {
     return journal_->LoadAttempts(task);
+  }
+  absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() override { return journal_->LoadBlames(); }
+  absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) override {
+    return journal_->SaveBlames(blames);
   }
 
  private:
@@ -101,8 +110,14 @@ class RestartTest : public ::testing::Test {
     coordinator_ = *std::move(opened);
   }
 
-  uint64_t Join(const std::string& name, const std::vector<LeaseProgress>& held = {}) {
-    return coordinator_->Join({.name = name, .version = std::string(BuildVersion()), .held = held})
+  uint64_t Join(const std::string& name,
+                const std::vector<LeaseProgress>& held = {},
+                uint64_t process = 0) {
+    return coordinator_
+        ->Join({.name = name,
+                .version = std::string(BuildVersion()),
+                .held = held,
+                .process = process})
         ->session;
   }
   static LeaseProgress Held(const Lease& lease) { return {lease.task, lease.epoch, {}}; }
@@ -278,6 +293,59 @@ TEST_F(RestartTest, AResultThatCannotBeSavedIsHandedInAgain) {
   fails_.results_fail = false;
   EXPECT_TRUE(Do(session, lease).ok());
   EXPECT_EQ(coordinator_->GetJob(job)->stages[0].tasks_done, 1U);
+}
+
+TEST_F(RestartTest, ATaskThatKillsItsProcessesGetsNoFreshBudget) {
+  const Digest job = Submit("3");
+  for (int crash = 0; crash < 3; ++crash) {
+    ASSERT_EQ(coordinator_->GetJob(job)->state, JobState::kRunning) << crash;
+    const uint64_t session = Join("w" + std::to_string(crash));
+    ASSERT_TRUE(IsStagePlanned(job, 0));
+    clock_.Advance(60.0);
+    (void)coordinator_->Heartbeat(session, {});
+    const Lease lease = MustLease(session);
+    ASSERT_TRUE(coordinator_->FailTask(session, lease, absl::AbortedError("signal 11")).ok());
+    if (crash < 2) Restart();
+  }
+  const auto status = coordinator_->GetJob(job);
+  EXPECT_EQ(status->state, JobState::kFailed);
+  EXPECT_THAT(status->error, HasSubstr("lost its process 3 times, last on w2"));
+  EXPECT_EQ(Submit("3"), job);
+  Restart();
+  ASSERT_TRUE(IsStagePlanned(job, 0));
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].retries, 0U) << "submitted again it begins anew";
+}
+
+TEST_F(RestartTest, LeasesThatEndedWithACoordinatorCountForNothing) {
+  const Digest job = Submit("3");
+  for (int i = 0; i < 6; ++i) {
+    (void)MustLease(Join("w"));
+    Restart(/*leases_survive=*/false);
+  }
+  ASSERT_TRUE(IsStagePlanned(job, 0));
+  EXPECT_EQ(coordinator_->GetJob(job)->state, JobState::kRunning);
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].retries, 0U);
+}
+
+TEST_F(RestartTest, AWorkerThatIsSetAsideStaysSoUntilItsProcessIsAnother) {
+  const Digest job = Submit("1 2 3 4");
+  uint64_t bad = Join("bad", {}, 7);
+  uint64_t good = Join("good", {}, 8);
+  ASSERT_TRUE(Do(good, MustLease(good)).ok());
+  for (int i = 0; i < 3; ++i) {
+    const Lease lease = MustLease(bad);
+    ASSERT_TRUE(coordinator_->FailTask(bad, lease, absl::InternalError("bad memory")).ok());
+    clock_.Advance(5.0);
+    ASSERT_TRUE(Do(good, MustLease(good)).ok());
+  }
+  Restart();
+  bad = Join("bad", {}, 7);
+  good = Join("good", {}, 8);
+  ASSERT_TRUE(IsStagePlanned(job, 1));
+  EXPECT_TRUE(GetsNothing(bad));
+  EXPECT_TRUE(coordinator_->GetJob(job)->workers.at(0).set_aside);
+  bad = Join("bad", {}, 9);
+  EXPECT_EQ(MustLease(bad).spec.stage, "square");
 }
 
 TEST_F(RestartTest, AttemptsAreKeptWithTheirReasons) {

@@ -74,6 +74,31 @@ TEST_F(SqliteJournal, AResultWhoseBytesWereChangedCountsAsNone) {
   EXPECT_FALSE((*journal)->LoadResults({kTask})->at(0).has_value());
 }
 
+TEST_F(SqliteJournal, TakesUpAJournalOfTheFormatBefore) {
+  {
+    const auto database = SqliteConnection::OpenToWrite(path_);
+    for (const char* statement :
+         {"CREATE TABLE orbweave (format BIGINT NOT NULL, generation BIGINT NOT NULL)",
+          "INSERT INTO orbweave VALUES (1, 4)",
+          "CREATE TABLE orbweave_job (id BYTEA PRIMARY KEY, number BIGINT NOT NULL, "
+          "state BIGINT NOT NULL, error TEXT NOT NULL, spec BYTEA NOT NULL)",
+          "INSERT INTO orbweave_job VALUES (x'01', 1, 0, '', x'')",
+          "CREATE TABLE orbweave_attempt (epoch BIGINT PRIMARY KEY, task BYTEA NOT NULL, "
+          "job BYTEA NOT NULL, stage TEXT NOT NULL, part BIGINT NOT NULL, worker TEXT NOT NULL, "
+          "slot BIGINT NOT NULL, started_s DOUBLE PRECISION NOT NULL, ended_s DOUBLE PRECISION, "
+          "reason TEXT)"})
+      ASSERT_TRUE(database->Execute(statement).ok()) << statement;
+  }
+  for (uint64_t generation = 5; generation < 7; ++generation) {
+    auto journal = OpenSqliteJournal(path_);
+    ASSERT_TRUE(journal.ok()) << journal.status();
+    EXPECT_EQ((*journal)->generation(), generation);
+    EXPECT_EQ((*journal)->LoadJobs()->size(), 1U);
+    EXPECT_TRUE((*journal)->LoadFailures(JobSpec{}.Id(), 0)->empty());
+    EXPECT_TRUE((*journal)->SaveResult(generation, kTask, {.report_json = "precious"}).ok());
+  }
+}
+
 TEST_F(SqliteJournal, RefusesAnotherFormat) {
   FillJournal();
   const auto database = SqliteConnection::OpenToWrite(path_);

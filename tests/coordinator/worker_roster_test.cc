@@ -74,6 +74,39 @@ TEST(WorkerRoster, AWorkerThatJoinsAnewBeginsAnew) {
   EXPECT_THAT(roster.Serving(0.0), ElementsAre("bad", "good"));
 }
 
+TEST(WorkerRoster, TheSameProcessIsStillToBlameWhenItJoinsAgain) {
+  WorkerRoster roster(10.0);
+  roster.Join({.name = "bad", .process = 7}, 1, 0.0);
+  roster.Join({.name = "good", .process = 8}, 2, 0.0);
+  for (int i = 0; i < 3; ++i) roster.CountTask(2, {"bad"});
+  roster.Join({.name = "bad", .process = 7}, 3, 0.0);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("good"));
+  roster.Join({.name = "bad", .process = 9}, 4, 0.0);
+  EXPECT_THAT(roster.Serving(0.0), ElementsAre("bad", "good"));
+}
+
+TEST(WorkerRoster, TellsWhoseBlamesChangedAndRemembersThem) {
+  WorkerRoster roster(10.0);
+  roster.Join({.name = "bad", .process = 7}, 1, 0.0);
+  roster.Join({.name = "good", .process = 8}, 2, 0.0);
+  EXPECT_FALSE(roster.HasBlames());
+  roster.CountTask(2, {});
+  EXPECT_FALSE(roster.HasBlames()) << "nothing has changed";
+  for (int i = 0; i < 3; ++i) roster.CountTask(2, {"bad"});
+  ASSERT_TRUE(roster.HasBlames());
+  const std::vector<WorkerBlame> blames = roster.TakeBlames();
+  ASSERT_EQ(blames.size(), 1U);
+  EXPECT_EQ(blames[0].worker, "bad");
+  EXPECT_EQ(blames[0].process, 7U);
+  EXPECT_EQ(blames[0].blames, 3U);
+  EXPECT_FALSE(roster.HasBlames());
+  WorkerRoster again(10.0);
+  again.Remember(blames[0]);
+  again.Join({.name = "bad", .process = 7}, 1, 0.0);
+  again.Join({.name = "good", .process = 8}, 2, 0.0);
+  EXPECT_THAT(again.Serving(0.0), ElementsAre("good"));
+}
+
 TEST(WorkerRoster, WhoIsToLeaveServesNoMoreUntilItJoinsAnew) {
   WorkerRoster roster(10.0);
   roster.Join({.name = "w"}, 1, 0.0);

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How attempts end that have no result, and what follows.
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "coordinator/dispatcher.h"
+
+namespace orbweave {
+namespace {
+
+/// How often a job starts over because a blob it had made is gone.
+constexpr uint32_t kMaxReruns = 3;
+
+}  // namespace
+
+void Dispatcher::CountFailures(const Digest& id, std::vector<FailedAttempt> failures) {
+  Job& job = jobs_.At(id);
+  auto first = failures.begin();  // after the last time that the job started over
+  for (auto it = failures.begin(); it != failures.end() && job.reruns < kMaxReruns; ++it) {
+    if (ClassifyFailure(it->code) != FailureClass::kInputLost) continue;
+    ++job.reruns;
+    first = it + 1;
+  }
+  failures.erase(failures.begin(), first);
+  job.machine->Remember(failures);
+}
+
+void Dispatcher::EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s) {
+  // A task that has no place in its job yet is given out anew as if nothing had been.
+  const auto code = entry.ref ? error.code() : absl::StatusCode::kCancelled;
+  ends_.push_back({entry.epoch, std::string(error.message()), code});
+  LogEvent event = Describe(entry, "task_not_done");
+  if (ClassifyFailure(error.code()) != FailureClass::kReturned) event.level = LogLevel::kWarning;
+  event.message = std::string(error.message());
+  Log(event);
+  if (entry.ref && jobs_.At(entry.job).IsRunning()) FailOrBeginAnew(entry, error, now_s);
+  options_.changed();
+}
+
+void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s) {
+  Job& job = jobs_.At(entry.job);
+  const bool input_lost = ClassifyFailure(error.code()) == FailureClass::kInputLost;
+  if (input_lost && job.reruns < kMaxReruns) {
+    ++job.reruns;
+    job.verify = true;
+    BeginJob(JobSpec(job.machine->spec()), JobPlan(job.machine->plan()), job.number, now_s);
+    return;
+  }
+  job.machine->TaskFailed({*entry.ref, entry.epoch}, error, now_s);
+  if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
+}
+
+void Dispatcher::EndAttempts(const std::vector<LeaseEntry>& entries,
+                             const std::string& reason,
+                             double now_s) {
+  for (const LeaseEntry& entry : entries) EndAttempt(entry, absl::UnavailableError(reason), now_s);
+}
+
+void Dispatcher::VoidLeases(const Digest& job, const std::string& reason) {
+  for (const LeaseEntry& entry : book_.TakeJob(job)) EndVoid(entry, reason);
+}
+
+void Dispatcher::EndVoid(const LeaseEntry& entry, const std::string& reason) {
+  ends_.push_back({.epoch = entry.epoch, .reason = reason});
+  LogEvent event = Describe(entry, "task_not_done");
+  event.message = reason;
+  Log(event);
+}
+
+void Dispatcher::ExpireLeases(double now_s) {
+  for (const LeaseEntry& entry : book_.TakeExpired(now_s)) {
+    LogEvent event = Describe(entry, "lease_expired");
+    event.level = LogLevel::kWarning;
+    Log(event);
+    const bool came_back = entry.session != 0;
+    EndAttempt(entry,
+               came_back
+                   ? absl::UnavailableError(absl::StrCat("worker ", entry.worker, " went silent"))
+                   : absl::CancelledError(absl::StrCat(
+                         "worker ", entry.worker, " did not come back after a restart")),
+               now_s);
+  }
+}
+
+}  // namespace orbweave
