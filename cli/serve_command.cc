@@ -75,6 +75,8 @@ absl::StatusOr<std::unique_ptr<MetricsServer>> ServeMetrics(Coordinator& coordin
 
 absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
+  std::stop_source end;  // a signal, or the journal was lost
+  const std::stop_callback on_signal(signals.token(), [&end] { end.request_stop(); });
   ServerOptions server_options = options.server;
   server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
   const SteadyClock clock;
@@ -82,6 +84,7 @@ absl::Status Serve(const ServeOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir, counters));
   CoordinatorOptions coordinator_options = options.coordinator;
   coordinator_options.log = log;
+  coordinator_options.lost = [&end] { end.request_stop(); };
   coordinator_options.open_journal = [&](const std::string&) {
     return OpenMeteredJournal(options, counters);
   };
@@ -94,7 +97,8 @@ absl::Status Serve(const ServeOptions& options) {
   log({.event = "coordinator_ready",
        .message =
            absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
-  WaitForStop(signals.token());
+  WaitForStop(end.get_token());
+  ORBWEAVE_RETURN_IF_ERROR(coordinator->health());  // workers stay, for the other coordinator
   coordinator->BeginShutdown();
   log({.event = "coordinator_stops",
        .message = "its jobs go on when it is started again on the same state"});

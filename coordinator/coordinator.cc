@@ -17,6 +17,15 @@ namespace {
 /// Waiting calls look at the clock this often: leases that ended and retries whose time has come.
 constexpr std::chrono::milliseconds kLook{100};
 
+/// Workers beat, and the journal is looked at, so often in a lease.
+constexpr double kBeat = 0.1;
+
+/// A journal that is another coordinator's is none that refuses a worker: the other takes its
+/// result.
+absl::Status ForWorkers(const absl::Status& saved) {
+  return absl::IsFailedPrecondition(saved) ? absl::UnavailableError(saved.message()) : saved;
+}
+
 absl::Status CheckVersion(const WorkerInfo& worker) {
   if (worker.version == BuildVersion()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat("worker ",
@@ -41,6 +50,10 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
       new Coordinator(options, clock, std::move(lock), std::move(blobs), std::move(journal)));
   ORBWEAVE_RETURN_IF_ERROR(coordinator->desk_.Resume(options.leases_survive));
   coordinator->planner_.Start();
+  coordinator->watch_.emplace(
+      *coordinator->journal_,
+      options.lease_s * kBeat,
+      [raw = coordinator.get()](const absl::Status& why) { raw->JournalIsLost(why); });
   return coordinator;
 }
 
@@ -67,9 +80,10 @@ Coordinator::~Coordinator() { BeginShutdown(); }
 absl::StatusOr<JoinReply> Coordinator::Join(const WorkerInfo& worker) {
   ORBWEAVE_RETURN_IF_ERROR(CheckVersion(worker));
   const std::lock_guard lock(mutex_);
+  ORBWEAVE_RETURN_IF_ERROR(CheckServing());
   return JoinReply{.session = dispatcher_.Join(worker, clock_.NowSeconds()),
                    .lease_s = options_.lease_s,
-                   .heartbeat_s = options_.lease_s / 10.0};
+                   .heartbeat_s = options_.lease_s * kBeat};
 }
 
 absl::Status Coordinator::Leave(uint64_t session) {
@@ -97,6 +111,7 @@ absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait_s);
   std::unique_lock lock(mutex_);
   while (true) {
+    ORBWEAVE_RETURN_IF_ERROR(CheckServing());
     if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
     const double now_s = clock_.NowSeconds();
     ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, now_s));
@@ -132,12 +147,13 @@ absl::StatusOr<Lease> Coordinator::HandOut(uint64_t session, const Grant& grant)
                   absl::CancelledError(absl::StrCat("not handed out: ", saved.message())),
                   clock_.NowSeconds())
       .IgnoreError();  // the lease may have ended meanwhile
-  return saved;
+  return ForWorkers(saved);
 }
 
 absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
                                                       const std::vector<LeaseProgress>& leases) {
   const std::lock_guard lock(mutex_);
+  ORBWEAVE_RETURN_IF_ERROR(CheckServing());
   ORBWEAVE_ASSIGN_OR_RETURN(HeartbeatReply reply,
                             dispatcher_.Heartbeat(session, leases, clock_.NowSeconds()));
   reply.shutdown = reply.shutdown || stopping_;
@@ -173,7 +189,7 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
                    .task = lease.task,
                    .epoch = lease.epoch,
                    .message = std::string(saved.message())});
-  return saved;
+  return ForWorkers(saved);
 }
 
 absl::Status Coordinator::FailTask(uint64_t session,
@@ -250,6 +266,27 @@ absl::StatusOr<std::vector<TaskTiming>> Coordinator::GetTimings(const Digest& id
 
 absl::StatusOr<std::vector<MeasuredTask>> Coordinator::GetCosts(const Digest& id) {
   return LookAt(id, [](const Job& job) { return job.machine->Costs(); });
+}
+
+void Coordinator::JournalIsLost(const absl::Status& why) {
+  {
+    const std::lock_guard lock(mutex_);
+    health_ = absl::AbortedError(why.message());
+    dispatcher_.Log({.level = LogLevel::kError,
+                     .event = "journal_lost",
+                     .message = std::string(why.message())});
+    WakeAll();
+  }
+  if (options_.lost) options_.lost();
+}
+
+absl::Status Coordinator::CheckServing() const {
+  return health_.ok() ? absl::OkStatus() : absl::UnavailableError(health_.message());
+}
+
+absl::Status Coordinator::health() {
+  const std::lock_guard lock(mutex_);
+  return health_;
 }
 
 void Coordinator::BeginShutdown() {

@@ -7,11 +7,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "coordinator/blob_store.h"
 #include "coordinator/dispatcher.h"
 #include "coordinator/job_desk.h"
 #include "coordinator/journal.h"
+#include "coordinator/journal_watch.h"
 #include "coordinator/open_journal.h"
 #include "coordinator/planner.h"
 #include "coordinator/state_lock.h"
@@ -34,6 +36,7 @@ struct CoordinatorOptions {
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
       open_journal = OpenJournal;
   EventLog log{};
+  std::function<void()> lost{};  ///< called when health() is OK no more
 };
 
 /// The coordinator: gives tasks to workers that ask, takes each result once, and remembers jobs,
@@ -92,6 +95,9 @@ class Coordinator final : public CoordinatorApi {
   [[nodiscard]] std::vector<WorkerStatus> ListWorkers();
   /// Of workers and clients, since the start.
   [[nodiscard]] BlobTraffic blob_traffic() const { return {bytes_in_, bytes_out_}; }
+  /// Aborted once another coordinator has taken the journal over. Then this one gives and takes
+  /// nothing any more: to workers and clients it is Unavailable, so that they look for the other.
+  [[nodiscard]] absl::Status health();
   /// Wakes every waiting call, gives no more tasks and tells workers to leave.
   void BeginShutdown();
 
@@ -107,6 +113,9 @@ class Coordinator final : public CoordinatorApi {
   template <typename Look>
   [[nodiscard]] auto LookAt(const Digest& job, Look&& look)
       -> absl::StatusOr<decltype(look(std::declval<const Job&>()))>;
+  void JournalIsLost(const absl::Status& why);
+  /// With the lock: health(), to workers.
+  [[nodiscard]] absl::Status CheckServing() const;
   /// There may be something new to do: wakes the planner, and who waits for a task if there is one.
   void Wake();
   void WakeAll();
@@ -124,8 +133,10 @@ class Coordinator final : public CoordinatorApi {
   std::condition_variable changed_;  ///< a task may be ready, or the end is near
   Dispatcher dispatcher_;
   bool stopping_ = false;
+  absl::Status health_;
   JobDesk desk_;
-  Planner planner_;  ///< last: ends before what it uses
+  Planner planner_;
+  std::optional<JournalWatch> watch_;  ///< last: ends before what it uses
 };
 
 }  // namespace orbweave

@@ -79,6 +79,8 @@ class Journal {
 
   /// 1, 2, 3, ...: how often this journal was opened. The high half of every epoch and session.
   [[nodiscard]] virtual uint64_t generation() const = 0;
+  /// Whether saving would be allowed: OK, or one of the errors.
+  [[nodiscard]] virtual absl::Status Confirm() = 0;
 
   [[nodiscard]] virtual absl::Status SaveJob(const JobEntry& job) = 0;
   /// In order of submission.

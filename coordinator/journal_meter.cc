@@ -16,6 +16,8 @@ class JournalMeter final : public Journal {
 
   uint64_t generation() const override { return journal_->generation(); }
 
+  absl::Status Confirm() override { return journal_->Confirm(); }
+
   absl::Status SaveJob(const JobEntry& job) override {
     return Time("job", [&] { return journal_->SaveJob(job); });
   }

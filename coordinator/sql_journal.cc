@@ -58,6 +58,10 @@ absl::Status SqlJournal::Transact(const std::vector<const GroupCommit::Write*>& 
   });
 }
 
+absl::Status SqlJournal::Confirm() {
+  return commit_.Commit([] { return absl::OkStatus(); });
+}
+
 absl::Status SqlJournal::SaveJob(const JobEntry& job) {
   const std::string id = ToProto(job.spec.Id());
   const std::string spec = ToProto(job.spec).SerializeAsString();

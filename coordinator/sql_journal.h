@@ -21,6 +21,7 @@ class SqlJournal final : public Journal {
       std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
 
   [[nodiscard]] uint64_t generation() const override { return generation_; }
+  [[nodiscard]] absl::Status Confirm() override;
   [[nodiscard]] absl::Status SaveJob(const JobEntry& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobEntry>> LoadJobs() override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;

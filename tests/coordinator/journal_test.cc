@@ -341,7 +341,9 @@ TEST_P(JournalContract, ALaterOneIsRefusedOrPutsTheEarlierOutOfOffice) {
   const auto second = store_->Open();
   if (second.ok()) {  // a file, which StateLock guards
     EXPECT_TRUE(absl::IsFailedPrecondition(journal_->SaveStart(MakeAttempt(1))));
+    EXPECT_TRUE(absl::IsFailedPrecondition(journal_->Confirm()));
     EXPECT_TRUE((*second)->SaveStart(MakeAttempt(1)).ok());
+    EXPECT_TRUE((*second)->Confirm().ok());
   } else {
     EXPECT_TRUE(absl::IsFailedPrecondition(second.status())) << second.status();
     EXPECT_THAT(std::string(second.status().message()), HasSubstr("another coordinator"));
@@ -368,7 +370,9 @@ TEST(PostgresJournal, GoesOnWhenItsServerWasStartedAgain) {
   Server()->Stop();
   EXPECT_TRUE(absl::IsUnavailable((*journal)->SaveResult(2, kTask, {})));
   EXPECT_TRUE(absl::IsUnavailable((*journal)->LoadResults({kTask}).status()));
+  EXPECT_TRUE(absl::IsUnavailable((*journal)->Confirm()));
   ASSERT_TRUE(Server()->Resume());
+  EXPECT_TRUE((*journal)->Confirm().ok());
   const auto found = (*journal)->LoadResults({kTask});
   ASSERT_TRUE(found.ok()) << found.status();
   EXPECT_EQ(found->at(0)->report_json, "first");
@@ -387,6 +391,7 @@ TEST(PostgresJournal, WhoLostTheServerAndWasSucceededWritesNoMore) {
     const auto successor = OpenPostgresJournal(url);
     ASSERT_TRUE(successor.ok()) << successor.status();
     EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, kTask, {})));
+    EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->Confirm()));
     EXPECT_TRUE((*successor)->SaveResult(2, kTask, {}).ok());
   }
   EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, kTask, {})))

@@ -35,6 +35,7 @@ class FailingJournal final : public Journal {
     std::atomic<bool> starts_fail{false};
     std::atomic<bool> results_fail{false};
     std::atomic<bool> lookups_fail{false};
+    std::atomic<bool> is_lost{false};  ///< another coordinator has it
     Digest held_lookup{};  ///< who asks for this task is answered late, with what was known before
     std::atomic<bool> is_holding{false};
     std::atomic<bool> may_answer{false};
@@ -44,6 +45,10 @@ class FailingJournal final : public Journal {
       : journal_(std::move(journal)), fails_(fails) {}
 
   uint64_t generation() const override { return journal_->generation(); }
+  absl::Status Confirm() override {
+    if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
+    return journal_->Confirm();
+  }
   absl::Status SaveJob(const JobEntry& job) override { return journal_->SaveJob(job); }
   absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
   absl::Status ForgetJob(const Digest& job) override { return journal_->ForgetJob(job); }
@@ -56,6 +61,7 @@ class FailingJournal final : public Journal {
   }
   absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
     if (fails_.results_fail) return absl::UnavailableError("away");
+    if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
     return journal_->SaveResult(epoch, task, result);
   }
   absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override {
@@ -100,6 +106,7 @@ class RestartTest : public ::testing::Test {
     coordinator_.reset();
     CoordinatorOptions options{
         .state_dir = folder_.Path(), .leases_survive = leases_survive, .find_plan = FindToyPlan};
+    options.lost = [this] { was_told_ = true; };
     options.open_journal =
         [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
       ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(state_dir));
@@ -152,8 +159,25 @@ class RestartTest : public ::testing::Test {
   TemporaryFolder folder_;
   ManualClock clock_;
   testing::StageMap stages_ = ToyStages();
+  std::atomic<bool> was_told_{false};
   std::unique_ptr<Coordinator> coordinator_;
 };
+
+TEST_F(RestartTest, WhoLostTheJournalGivesAndTakesNothingMore) {
+  Submit("3");
+  const uint64_t session = Join("w");
+  const Lease lease = MustLease(session);
+  EXPECT_TRUE(coordinator_->health().ok());
+  fails_.is_lost = true;
+  EXPECT_TRUE(absl::IsUnavailable(Do(session, lease))) << "the other coordinator will take it";
+  ASSERT_TRUE(WaitUntil([this] { return was_told_.load(); }, 20.0));
+  EXPECT_TRUE(absl::IsAborted(coordinator_->health()));
+  EXPECT_TRUE(absl::IsUnavailable(coordinator_->LeaseTask(session, 0, 10.0).status()));
+  EXPECT_TRUE(absl::IsUnavailable(coordinator_->Heartbeat(session, {Held(lease)}).status()));
+  fails_.is_lost = false;
+  Restart();
+  EXPECT_TRUE(Do(Join("w", {Held(lease)}), lease).ok()) << "as the other would";
+}
 
 TEST_F(RestartTest, AHolderThatComesBackGoesOnAndHandsItsResultIn) {
   const Digest job = Submit("3 4");

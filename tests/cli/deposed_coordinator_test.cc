@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// `serve` with its journal in a real PostgreSQL server, which another coordinator takes over. This
+// executable plays the command.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/exit_code.h"
+#include "cli/serve_command.h"
+#include "coordinator/postgres_journal.h"
+#include "core/pipeline/build_version.h"
+#include "tests/support/command.h"
+#include "tests/support/postgres_server.h"
+#include "worker/grpc_coordinator_client.h"
+
+namespace orbweave {
+namespace {
+
+using testing::Command;
+using testing::CommandOutcome;
+using ::testing::HasSubstr;
+using testing::PostgresServer;
+using testing::TemporaryFolder;
+using testing::WaitUntil;
+
+bool HasSaid(const Command& command, const std::string& text) {
+  return WaitUntil([&] { return command.ErrSoFar().find(text) != std::string::npos; }, 60.0);
+}
+
+/// The server is started again, which frees the lock, until another coordinator than the one that
+/// had the journal is the first to take it.
+std::unique_ptr<Journal> TakeJournalOver(PostgresServer& server, const std::string& url) {
+  for (int trial = 0; trial < 20; ++trial) {
+    server.Stop();
+    if (!server.Resume()) return nullptr;
+    auto journal = OpenPostgresJournal(url);
+    if (journal.ok()) return *std::move(journal);
+  }
+  return nullptr;
+}
+
+TEST(DeposedCoordinator, EndsAndSaysWhy) {
+  const std::unique_ptr<PostgresServer> server = PostgresServer::Start();
+  if (server == nullptr) GTEST_SKIP() << "PostgreSQL's server is not installed";
+  const std::string url = server->MakeDatabase("journal");
+  const TemporaryFolder folder;
+  const std::string address = "unix:" + (folder / "s");
+  Command serve({"/proc/self/exe",
+                 "serve",
+                 "--listen",
+                 address,
+                 "--state",
+                 folder / "state",
+                 "--journal",
+                 url,
+                 "--lease",
+                 "20"});
+  ASSERT_TRUE(HasSaid(serve, "coordinator_ready")) << serve.ErrSoFar();
+  GrpcCoordinatorClient worker(address);
+  const auto joined = worker.Join({.name = "w", .version = std::string(BuildVersion())});
+  ASSERT_TRUE(joined.ok()) << joined.status();
+  const std::unique_ptr<Journal> successor = TakeJournalOver(*server, url);
+  ASSERT_NE(successor, nullptr);
+  ASSERT_TRUE(WaitUntil([&serve] { return !serve.Running(); }, 60.0)) << "it goes on";
+  const CommandOutcome end = serve.Wait();
+  EXPECT_EQ(end.exit_code, kExitFailed);
+  EXPECT_THAT(end.err, HasSubstr("\"event\":\"journal_lost\""));
+  EXPECT_THAT(end.err, HasSubstr("orbweave: the journal is in use by another coordinator"));
+  EXPECT_THAT(end.err, ::testing::Not(HasSubstr("coordinator_stops")));
+  EXPECT_TRUE(absl::IsUnavailable(worker.Heartbeat(joined->session, {}).status()));
+  EXPECT_TRUE(successor->Confirm().ok());
+}
+
+int BeTheCommand(int argc, char** argv) {
+  CLI::App app;
+  SelectedCommand selected;
+  AddServeCommand(app, selected);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError&) {
+    return kExitUsage;
+  }
+  return selected.run();
+}
+
+}  // namespace
+}  // namespace orbweave
+
+int main(int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
