@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a coordinator does for its clients.
+
+#include "absl/strings/str_cat.h"
+#include "coordinator/coordinator.h"
+
+namespace orbweave {
+
+absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
+  for (const Digest& input : spec.inputs) {
+    if (blobs_.Use(input)) continue;
+    return absl::NotFoundError(
+        absl::StrCat("the job's input blob ", input.ToShortHex(), " is not stored"));
+  }
+  return desk_.Submit(spec);
+}
+
+template <typename Look>
+auto Coordinator::LookAt(const Digest& id, Look&& look)
+    -> absl::StatusOr<decltype(look(std::declval<const Job&>()))> {
+  const std::lock_guard lock(mutex_);
+  dispatcher_.ExpireLeases(clock_.NowSeconds());
+  const Job* job = dispatcher_.jobs().Find(id);
+  if (job != nullptr) return look(*job);
+  return absl::NotFoundError(absl::StrCat("there is no job ", id.ToShortHex()));
+}
+
+absl::StatusOr<JobStatus> Coordinator::GetJob(const Digest& id) {
+  return LookAt(id, [this](const Job& job) {
+    JobStatus status = job.machine->Status(clock_.NowSeconds());
+    status.workers = dispatcher_.WorkerStatuses(clock_.NowSeconds());
+    return status;
+  });
+}
+
+absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
+  const std::lock_guard lock(mutex_);
+  const double now_s = clock_.NowSeconds();
+  dispatcher_.ExpireLeases(now_s);
+  std::vector<JobStatus> jobs;
+  for (const auto& [number, id] : dispatcher_.jobs().order()) {
+    jobs.push_back(dispatcher_.jobs().At(id).machine->Status(now_s));
+    jobs.back().workers = dispatcher_.WorkerStatuses(now_s);
+  }
+  return jobs;
+}
+
+std::vector<WorkerStatus> Coordinator::ListWorkers() {
+  const std::lock_guard lock(mutex_);
+  return dispatcher_.WorkerStatuses(clock_.NowSeconds());
+}
+
+absl::Status Coordinator::CancelJob(const Digest& id) {
+  const absl::StatusOr<Digest> cancelled = LookAt(id, [&](const Job&) {
+    dispatcher_.CancelJob(id, clock_.NowSeconds());
+    return id;
+  });
+  if (cancelled.ok()) desk_.SaveEnd(id);
+  return cancelled.status();
+}
+
+absl::Status Coordinator::ForgetJob(const Digest& id) { return desk_.Forget(id); }
+
+absl::StatusOr<std::vector<TaskOutcome>> Coordinator::GetOutcomes(const Digest& id) {
+  return LookAt(id, [](const Job& job) { return job.machine->Outcomes(); });
+}
+
+absl::StatusOr<std::vector<TaskTiming>> Coordinator::GetTimings(const Digest& id) {
+  return LookAt(id, [](const Job& job) { return std::vector(job.machine->Timings()); });
+}
+
+absl::StatusOr<std::vector<MeasuredTask>> Coordinator::GetCosts(const Digest& id) {
+  return LookAt(id, [](const Job& job) { return job.machine->Costs(); });
+}
+
+}  // namespace orbweave
