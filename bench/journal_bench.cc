@@ -16,6 +16,7 @@
 #include "coordinator/sqlite_journal.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
+#include "tests/support/wide_job.h"
 
 namespace orbweave {
 namespace {
@@ -57,20 +58,13 @@ void CommitTasks(benchmark::State& state) {
 }
 BENCHMARK(CommitTasks)->ThreadRange(1, 64)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// A stage of `parts` tasks that come from a list and leave nothing.
-absl::StatusOr<JobPlan> FindWidePlan(std::string_view) {
-  return JobPlan{
-      "wide",
-      {{.stage = "part", .parts_listed_in = 0, .inputs = {{InputRule::Kind::kRecipe, "", 0}}}}};
-}
-
 /// One job of so many empty tasks per iteration, done by a worker that lives in the same process:
 /// what is left is the coordinator.
 void CoordinateTasks(benchmark::State& state) {
   const auto parts = static_cast<size_t>(state.range(0));
   const TemporaryFolder folder;
   const SteadyClock clock;
-  CoordinatorOptions options{.state_dir = folder.Path(), .find_plan = FindWidePlan};
+  CoordinatorOptions options{.state_dir = folder.Path(), .find_plan = testing::FindWidePlan};
   options.open_journal = OpenBenchJournal;
   const auto coordinator = Coordinator::Open(options, clock);
   ORBWEAVE_CHECK(coordinator.ok());
@@ -78,10 +72,9 @@ void CoordinateTasks(benchmark::State& state) {
   const auto joined = api.Join({.name = "w", .version = std::string(BuildVersion())});
   uint64_t number = 0;
   for (auto _ : state) {
-    std::vector<Digest> recipes;
-    for (size_t i = 0; i < parts; ++i) recipes.push_back(DigestOf(std::to_string(++number)));
-    const JobSpec job{.kind = "wide", .inputs = {*api.Put(EncodeCollection(recipes))}};
-    ORBWEAVE_CHECK(api.SubmitJob(job).ok());
+    const std::vector<Digest> recipes = testing::WideRecipes(number, parts);
+    number += parts;
+    ORBWEAVE_CHECK(api.SubmitJob(*testing::PrepareWideJob(api, recipes)).ok());
     for (size_t done = 0; done < parts; ++done) {
       const auto lease = api.LeaseTask(joined->session, 0, 60.0);
       ORBWEAVE_CHECK(lease.ok() && lease->has_value());
