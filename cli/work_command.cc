@@ -115,6 +115,11 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--grace", options->worker.grace_s, "Seconds for running tasks after SIGTERM")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command
+      ->add_option("--cache",
+                   options->worker.cache_bytes,
+                   "Memory for blobs that other tasks may read again, in bytes or as in 2GiB")
+      ->transform(CLI::AsSizeValue(false));
   AddTaskLimits(*command, options->task_limits);
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
