@@ -15,8 +15,8 @@
 namespace orbweave {
 namespace {
 
-/// Results forgotten in one transaction.
-constexpr size_t kBatch = 64;
+/// Results looked at, and forgotten, at a time.
+constexpr size_t kPage = 256;
 
 double SecondsSince1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -139,30 +139,44 @@ absl::Status SqlJournal::SaveEnds(const std::vector<AttemptEnd>& ends) {
 }
 
 absl::StatusOr<uint64_t> SqlJournal::ForgetResults(const IsGarbage& is_garbage) {
-  static const std::string sql =
-      absl::StrCat("SELECT ", kResultColumns, " FROM orbweave_result ORDER BY task");
-  std::vector<std::string> candidates;
-  {
-    const std::lock_guard lock(reading_mutex_);
-    ORBWEAVE_RETURN_IF_ERROR(reader_->Query(sql, {}, [&](const SqlRow& row) {
-      if (IsGarbageRow(row, is_garbage)) candidates.emplace_back(row.Bytes(0));
-      return absl::OkStatus();
-    }));
-  }
   uint64_t forgotten = 0;
-  for (size_t begin = 0; begin < candidates.size(); begin += kBatch) {
-    uint64_t in_batch = 0;
-    ORBWEAVE_RETURN_IF_ERROR(commit_.Commit([&]() -> absl::Status {
-      in_batch = 0;
-      for (size_t i = begin; i < std::min(begin + kBatch, candidates.size()); ++i) {
-        ORBWEAVE_ASSIGN_OR_RETURN(const bool gone, ForgetResult(candidates[i], is_garbage));
-        in_batch += gone ? 1 : 0;
+  std::string last;
+  for (bool is_end = false; !is_end;) {
+    std::vector<std::string> candidates;
+    ORBWEAVE_ASSIGN_OR_RETURN(is_end, ReadPage(is_garbage, last, candidates));
+    uint64_t in_page = 0;
+    const auto forget = [&]() -> absl::Status {
+      in_page = 0;
+      for (const std::string& task : candidates) {
+        ORBWEAVE_ASSIGN_OR_RETURN(const bool goes, ForgetResult(task, is_garbage));
+        in_page += goes ? 1 : 0;
       }
       return absl::OkStatus();
-    }));
-    forgotten += in_batch;
+    };
+    if (!candidates.empty()) ORBWEAVE_RETURN_IF_ERROR(commit_.Commit(forget));
+    forgotten += in_page;
   }
   return forgotten;
+}
+
+absl::StatusOr<bool> SqlJournal::ReadPage(const IsGarbage& is_garbage,
+                                          std::string& last,
+                                          std::vector<std::string>& candidates) {
+  static const std::string sql = absl::StrCat("SELECT ",
+                                              kResultColumns,
+                                              " FROM orbweave_result WHERE task > $1 "
+                                              "ORDER BY task LIMIT ",
+                                              kPage);
+  const std::string after = last;
+  size_t rows = 0;
+  const std::lock_guard lock(reading_mutex_);
+  ORBWEAVE_RETURN_IF_ERROR(reader_->Query(sql, {SqlBytes{after}}, [&](const SqlRow& row) {
+    ++rows;
+    last = row.Bytes(0);
+    if (IsGarbageRow(row, is_garbage)) candidates.push_back(last);
+    return absl::OkStatus();
+  }));
+  return rows < kPage;
 }
 
 absl::StatusOr<bool> SqlJournal::ForgetResult(const std::string& task,

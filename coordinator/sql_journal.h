@@ -45,6 +45,11 @@ class SqlJournal final : public Journal {
   SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
   /// All writes of a batch in one transaction, if this is still the journal's last generation.
   [[nodiscard]] absl::Status Transact(const std::vector<const GroupCommit::Write*>& writes);
+  /// Adds the tasks after `last`, a page of them, whose results are garbage to `candidates`, and
+  /// moves `last` to its end; whether there are no more.
+  [[nodiscard]] absl::StatusOr<bool> ReadPage(const IsGarbage& is_garbage,
+                                              std::string& last,
+                                              std::vector<std::string>& candidates);
   /// In a transaction; whether it was garbage.
   [[nodiscard]] absl::StatusOr<bool> ForgetResult(const std::string& task,
                                                   const IsGarbage& is_garbage);
