@@ -117,6 +117,7 @@ int Measure(const FleetOptions& options) {
               static_cast<unsigned long long>(faults.doubled),
               1000.0 * cpu_s / static_cast<double>(tasks),
               PeakMegabytesOf(coordinator.Pid()));
+  std::fflush(stdout);  // many files are to be removed yet
   return faults.lost + faults.doubled == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
