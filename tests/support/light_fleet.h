@@ -73,7 +73,15 @@ class LightFleet {
   /// Workers for the coordinator that listens on the unix socket `socket`. Each comes by a name of
   /// its own, a link in `folder`, and so over a connection of its own.
   LightFleet(const std::string& socket, const std::string& folder, uint32_t workers, double task_s)
-      : make_executor_([this, task_s] { return std::make_unique<LightExecutor>(runs_, task_s); }) {
+      : LightFleet(socket, folder, workers, [this, task_s] {
+          return std::make_unique<LightExecutor>(runs_, task_s);
+        }) {}
+  /// The same with other executors.
+  LightFleet(const std::string& socket,
+             const std::string& folder,
+             uint32_t workers,
+             MakeTaskExecutor make_executor)
+      : make_executor_(std::move(make_executor)) {
     for (uint32_t i = 0; i < workers; ++i) {
       const std::string name = "w" + std::to_string(i);
       const std::string link = folder + "/" + name;
