@@ -10,8 +10,6 @@
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
-#include "cli/name_coordinator.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -22,14 +20,12 @@ struct CancelOptions {
 };
 
 absl::Status Cancel(const CancelOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(coordinator, options.job));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(*coordinator, options.job));
   if (job.state != JobState::kRunning) {
     return absl::FailedPreconditionError("job " + job.id.ToShortHex() + " has ended already");
   }
-  ORBWEAVE_RETURN_IF_ERROR(coordinator.CancelJob(job.id));
+  ORBWEAVE_RETURN_IF_ERROR(coordinator->CancelJob(job.id));
   std::printf("cancelled job %s; its finished tasks are kept\n", job.id.ToShortHex().c_str());
   return absl::OkStatus();
 }
@@ -46,9 +42,7 @@ void AddCancelCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave cancel --coordinator 127.0.0.1:7000 3f2a\n"
       "Submitting the same job again takes up what it finished.");
   command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(Cancel(*options), options->coordinator.address));
-    };
+    selected.run = [options] { return ReportStatus(Cancel(*options)); };
   });
 }
 

@@ -8,8 +8,6 @@
 
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
-#include "cli/name_coordinator.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -20,10 +18,8 @@ struct DrainOptions {
 };
 
 absl::Status Drain(const DrainOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  ORBWEAVE_RETURN_IF_ERROR(coordinator.DrainWorker(options.worker));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
+  ORBWEAVE_RETURN_IF_ERROR(coordinator->DrainWorker(options.worker));
   std::printf("worker %s finishes what it has and leaves\n", options.worker.c_str());
   return absl::OkStatus();
 }
@@ -39,11 +35,8 @@ void AddDrainCommand(CLI::App& app, SelectedCommand& selected) {
       "Example:\n"
       "  orbweave drain --coordinator 127.0.0.1:7000 second\n"
       "Its process ends then with 0. Started again it gets tasks again.");
-  command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(Drain(*options), options->coordinator.address));
-    };
-  });
+  command->callback(
+      [options, &selected] { selected.run = [options] { return ReportStatus(Drain(*options)); }; });
 }
 
 }  // namespace orbweave

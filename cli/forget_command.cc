@@ -11,8 +11,6 @@
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
-#include "cli/name_coordinator.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -23,12 +21,10 @@ struct ForgetOptions {
 };
 
 absl::Status Forget(const ForgetOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
   for (const std::string& prefix : options.jobs) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(coordinator, prefix));
-    ORBWEAVE_RETURN_IF_ERROR(coordinator.ForgetJob(job.id));
+    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(*coordinator, prefix));
+    ORBWEAVE_RETURN_IF_ERROR(coordinator->ForgetJob(job.id));
     std::printf("forgot job %s (%s)\n", job.id.ToShortHex().c_str(), job.spec.label.c_str());
   }
   return absl::OkStatus();
@@ -47,9 +43,7 @@ void AddForgetCommand(CLI::App& app, SelectedCommand& selected) {
       "Nothing is kept for them any more: orbweave gc removes what no other job needs. Models that "
       "were written are not touched.");
   command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(Forget(*options), options->coordinator.address));
-    };
+    selected.run = [options] { return ReportStatus(Forget(*options)); };
   });
 }
 

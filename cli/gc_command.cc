@@ -9,8 +9,6 @@
 
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
-#include "cli/name_coordinator.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -31,12 +29,10 @@ void PrintLine(const char* what, uint64_t blobs, uint64_t bytes) {
 }
 
 absl::Status CollectGarbage(const GcOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
   ORBWEAVE_ASSIGN_OR_RETURN(const GarbageReport report,
-                            coordinator.CollectGarbage({.unused_s = options.unused_hours * kHour_s,
-                                                        .dry_run = options.dry_run}));
+                            coordinator->CollectGarbage({.unused_s = options.unused_hours * kHour_s,
+                                                         .dry_run = options.dry_run}));
   PrintLine("needed", report.needed_blobs, report.needed_bytes);
   PrintLine("used lately", report.recent_blobs, report.recent_bytes);
   PrintLine(options.dry_run ? "garbage" : "removed", report.removed_blobs, report.removed_bytes);
@@ -64,9 +60,7 @@ void AddGcCommand(CLI::App& app, SelectedCommand& selected) {
       "What any job on the list needs stays, whether it runs, has ended or failed: orbweave forget "
       "takes a job off the list. May run beside jobs.");
   command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(CollectGarbage(*options), options->coordinator.address));
-    };
+    selected.run = [options] { return ReportStatus(CollectGarbage(*options)); };
   });
 }
 

@@ -10,8 +10,6 @@
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
 #include "cli/format_status.h"
-#include "cli/name_coordinator.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -21,10 +19,8 @@ struct JobsOptions {
 };
 
 absl::Status ListJobs(const JobsOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator->ListJobs());
   if (jobs.empty()) std::puts("no jobs");
   for (const JobStatus& job : jobs) std::fputs(FormatJobLine(job).c_str(), stdout);
   return absl::OkStatus();
@@ -41,9 +37,7 @@ void AddJobsCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave jobs --coordinator 127.0.0.1:7000\n"
       "The oldest comes first, which is the order they are served in.");
   command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(ListJobs(*options), options->coordinator.address));
-    };
+    selected.run = [options] { return ReportStatus(ListJobs(*options)); };
   });
 }
 

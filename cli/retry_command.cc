@@ -11,8 +11,6 @@
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
 #include "cli/format_status.h"
-#include "cli/name_coordinator.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -23,16 +21,14 @@ struct RetryOptions {
 };
 
 absl::Status Retry(const RetryOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(coordinator, options.job));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, FindJob(*coordinator, options.job));
   if (job.state == JobState::kRunning || job.state == JobState::kDone) {
     return absl::FailedPreconditionError("job " + job.id.ToShortHex() + " is " +
                                          std::string(JobStateName(job.state)) +
                                          ": there is nothing to try again");
   }
-  ORBWEAVE_RETURN_IF_ERROR(coordinator.SubmitJob(job.spec).status());
+  ORBWEAVE_RETURN_IF_ERROR(coordinator->SubmitJob(job.spec).status());
   std::printf("job %s goes on; what it finished is kept\n", job.id.ToShortHex().c_str());
   return absl::OkStatus();
 }
@@ -48,11 +44,8 @@ void AddRetryCommand(CLI::App& app, SelectedCommand& selected) {
       "Example:\n"
       "  orbweave retry --coordinator 127.0.0.1:7000 3f2a\n"
       "Its tasks may fail as often again as if they had never failed; finished tasks are kept.");
-  command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(Retry(*options), options->coordinator.address));
-    };
-  });
+  command->callback(
+      [options, &selected] { selected.run = [options] { return ReportStatus(Retry(*options)); }; });
 }
 
 }  // namespace orbweave

@@ -13,11 +13,9 @@
 #include "cli/exit_code.h"
 #include "cli/find_job.h"
 #include "cli/format_status.h"
-#include "cli/name_coordinator.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -53,27 +51,27 @@ void Redraw(const JobStatus& job) {
 
 /// Follows the job asked for, or the last submitted one, to its end: on a terminal as a table that
 /// is drawn anew, elsewhere by a line now and then.
-absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job) {
-  const StopSignals signals;
+absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job, const std::stop_token& stop) {
   ProgressBar bar(stderr);
   const bool is_terminal = ::isatty(STDOUT_FILENO) == 1;
   const auto show = [&](const JobStatus& status) {
     is_terminal ? Redraw(status) : bar.Update(status);
   };
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus last,
-                            WaitForJob(coordinator, job.id, show, {}, signals.token()));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus last, WaitForJob(coordinator, job.id, show, {}, stop));
   bar.Finish();
   if (!is_terminal) Print({last}, false);
   return absl::OkStatus();
 }
 
 absl::Status ShowStatus(const StatusOptions& options) {
-  ORBWEAVE_RETURN_IF_ERROR(options.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      options.coordinator.address, {}, {.tls_folder = options.coordinator.tls_folder});
+  const StopSignals signals;
+  const double patience_s = options.watch ? kJobPatience_s : kAskPatience_s;
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto coordinator,
+      Connect(options.coordinator, {.patience_s = patience_s, .stop = signals.token()}));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs,
-                            WantedJobs(coordinator, options.job));
-  if (options.watch && !jobs.empty()) return Watch(coordinator, jobs.back());
+                            WantedJobs(*coordinator, options.job));
+  if (options.watch && !jobs.empty()) return Watch(*coordinator, jobs.back(), signals.token());
   Print(jobs, options.json);
   return absl::OkStatus();
 }
@@ -95,9 +93,7 @@ void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave status --coordinator 127.0.0.1:7000 --watch\n"
       "  orbweave status --coordinator 127.0.0.1:7000 3f2a --json");
   command->callback([options, &selected] {
-    selected.run = [options] {
-      return ReportStatus(NameCoordinator(ShowStatus(*options), options->coordinator.address));
-    };
+    selected.run = [options] { return ReportStatus(ShowStatus(*options)); };
   });
 }
 

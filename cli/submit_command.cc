@@ -19,7 +19,6 @@
 #include "cli/wait_for_job.h"
 #include "cli/write_outputs.h"
 #include "core/io/file.h"
-#include "worker/grpc_coordinator_client.h"
 
 namespace orbweave {
 namespace {
@@ -52,18 +51,17 @@ absl::Status Submit(const SubmitArguments& arguments) {
   const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
-  ORBWEAVE_RETURN_IF_ERROR(arguments.coordinator.Check());
-  GrpcCoordinatorClient coordinator(
-      arguments.coordinator.address,
-      {},
-      {.tls_folder = arguments.coordinator.tls_folder, .roots = arguments.roots});
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto coordinator,
+      Connect(arguments.coordinator,
+              {.patience_s = kJobPatience_s, .stop = signals.token(), .roots = arguments.roots}));
   ORBWEAVE_ASSIGN_OR_RETURN(
       const JobSpec spec,
       PrepareImageJob(
-          coordinator, arguments.scan, arguments.clusters, options, {.stop = signals.token()}));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator.SubmitJob(spec));
+          *coordinator, arguments.scan, arguments.clusters, options, {.stop = signals.token()}));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator->SubmitJob(spec));
   if (!arguments.output.empty())
-    return WaitAndWrite(coordinator, job, arguments.output, signals.token());
+    return WaitAndWrite(*coordinator, job, arguments.output, signals.token());
   std::printf("%s\n", job.ToHex().c_str());
   return absl::OkStatus();
 }

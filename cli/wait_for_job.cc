@@ -7,8 +7,6 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "worker/retry.h"
-
 namespace orbweave {
 namespace {
 
@@ -27,8 +25,7 @@ absl::StatusOr<JobStatus> WaitForJob(CoordinatorApi& coordinator,
                                      const std::function<absl::Status()>& check,
                                      const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status,
-                              RetryWhileUnavailable(stop, [&] { return coordinator.GetJob(job); }));
+    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status, coordinator.GetJob(job));
     if (listener) listener(status);
     if (status.state != JobState::kRunning) return status;
     if (check) ORBWEAVE_RETURN_IF_ERROR(check());

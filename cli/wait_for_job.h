@@ -14,7 +14,7 @@ using JobListener = std::function<void(const JobStatus&)>;
 
 /// Waits until a job is done, failed or cancelled and returns its last status, whichever it is.
 /// Errors: what `check` returns when it is not OK (asked every time); Cancelled when `stop` came
-/// first (the job goes on); those of GetJob but for Unavailable, through which it waits.
+/// first (the job goes on); those of GetJob.
 [[nodiscard]] absl::StatusOr<JobStatus> WaitForJob(CoordinatorApi& coordinator,
                                                    const Digest& job,
                                                    const JobListener& listener,

@@ -100,7 +100,7 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("work", "Run a worker: do tasks for a coordinator");
   const auto options = std::make_shared<WorkOptions>();
   options->worker.log = LogToStderr;
-  AddCoordinatorArgument(*command, options->join, "--join");
+  AddJoinArgument(*command, options->join);
   AddJoinTokenArgument(*command, options->token_path);
   command->add_option("--slots", options->worker.slots, "Tasks at a time")
       ->check(CLI::Range(1, 1024))

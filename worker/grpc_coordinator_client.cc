@@ -28,26 +28,6 @@ constexpr double kQuick_s = 30.0;
 constexpr double kFile_s = 300.0;
 constexpr double kFolder_s = 3600.0;
 
-void SetDeadline(grpc::ClientContext& context, double seconds) {
-  context.set_deadline(std::chrono::system_clock::now() +
-                       std::chrono::milliseconds(static_cast<int64_t>(1000.0 * seconds)));
-}
-
-template <typename Request, typename Reply>
-using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const Request&, Reply*);
-
-template <typename Request, typename Reply>
-absl::StatusOr<Reply> Call(Stub& stub,
-                           Method<Request, Reply> method,
-                           const Request& request,
-                           double timeout_s) {
-  grpc::ClientContext context;
-  SetDeadline(context, timeout_s);
-  Reply reply;
-  ORBWEAVE_RETURN_IF_ERROR(FromWire((stub.*method)(&context, request, &reply)));
-  return reply;
-}
-
 /// All values of a stream; the first that cannot be decoded says why.
 template <typename Value, typename Proto>
 absl::StatusOr<std::vector<Value>> ReadAll(grpc::ClientReader<Proto>& reader) {
@@ -79,6 +59,29 @@ GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
       stop_(std::move(stop)),
       roots_(options.roots) {}
 
+void GrpcCoordinatorClient::AwaitHandshake() {
+  constexpr std::chrono::seconds kHandshake{2};
+  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return;
+  channel_->WaitForConnected(std::chrono::system_clock::now() + kHandshake);
+}
+
+void GrpcCoordinatorClient::Begin(grpc::ClientContext& context, double timeout_s) {
+  AwaitHandshake();
+  context.set_deadline(std::chrono::system_clock::now() +
+                       std::chrono::milliseconds(static_cast<int64_t>(1000.0 * timeout_s)));
+}
+
+template <typename Request, typename Reply>
+absl::StatusOr<Reply> GrpcCoordinatorClient::Call(Method<Request, Reply> method,
+                                                  const Request& request,
+                                                  double timeout_s) {
+  grpc::ClientContext context;
+  Begin(context, timeout_s);
+  Reply reply;
+  ORBWEAVE_RETURN_IF_ERROR(FromWire((*stub_.*method)(&context, request, &reply)));
+  return reply;
+}
+
 absl::StatusOr<std::string> GrpcCoordinatorClient::Get(const Digest& digest) {
   std::string bytes;
   ORBWEAVE_RETURN_IF_ERROR(Read(digest, [&bytes](std::string_view piece) {
@@ -95,38 +98,32 @@ absl::StatusOr<Digest> GrpcCoordinatorClient::Put(std::string_view bytes) {
 }
 
 absl::Status GrpcCoordinatorClient::Read(const Digest& digest, const TakePiece& take) {
+  AwaitHandshake();
   return ReceiveBlob(*stub_, digest, take);
 }
 
 absl::Status GrpcCoordinatorClient::Write(const Digest& digest,
                                           uint64_t size_bytes,
                                           const NextPiece& next) {
+  AwaitHandshake();
   return SendBlob(*stub_, digest, size_bytes, next);
 }
 
-void GrpcCoordinatorClient::AwaitConnection() {
-  constexpr std::chrono::seconds kPatience{2};
-  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return;
-  channel_->WaitForConnected(std::chrono::system_clock::now() + kPatience);
-}
-
 absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) {
-  AwaitConnection();
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::JoinReply reply,
-                            Call(*stub_, &Stub::Join, ToProto(worker), kQuick_s));
+                            Call(&Stub::Join, ToProto(worker), kQuick_s));
   return FromProto(reply);
 }
 
 absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t session,
                                                                       uint32_t slot,
                                                                       double wait_s) {
-  AwaitConnection();
   v1::LeaseTaskRequest request;
   request.set_session(session);
   request.set_slot(slot);
   request.set_wait_s(wait_s);
   grpc::ClientContext context;
-  SetDeadline(context, wait_s + kQuick_s);
+  Begin(context, wait_s + kQuick_s);
   const std::stop_callback on_stop(stop_, [&context] { context.TryCancel(); });
   v1::LeaseTaskReply reply;
   ORBWEAVE_RETURN_IF_ERROR(FromWire(stub_->LeaseTask(&context, request, &reply)));
@@ -137,12 +134,11 @@ absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t s
 
 absl::StatusOr<HeartbeatReply> GrpcCoordinatorClient::Heartbeat(
     uint64_t session, const std::vector<LeaseProgress>& leases) {
-  AwaitConnection();
   v1::HeartbeatRequest request;
   request.set_session(session);
   for (const LeaseProgress& lease : leases) *request.add_leases() = ToProto(lease);
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::HeartbeatReply reply,
-                            Call(*stub_, &Stub::Heartbeat, request, kQuick_s));
+                            Call(&Stub::Heartbeat, request, kQuick_s));
   return FromProto(reply);
 }
 
@@ -153,7 +149,7 @@ absl::Status GrpcCoordinatorClient::CompleteTask(uint64_t session,
   request.set_session(session);
   *request.mutable_lease() = ToProto(lease);
   *request.mutable_result() = ToProto(result);
-  return Call(*stub_, &Stub::CompleteTask, request, kFile_s).status();
+  return Call(&Stub::CompleteTask, request, kFile_s).status();
 }
 
 absl::Status GrpcCoordinatorClient::FailTask(uint64_t session,
@@ -164,36 +160,36 @@ absl::Status GrpcCoordinatorClient::FailTask(uint64_t session,
   *request.mutable_lease() = ToProto(lease);
   request.set_code(static_cast<uint32_t>(error.code()));
   request.set_message(std::string(error.message()));
-  return Call(*stub_, &Stub::FailTask, request, kQuick_s).status();
+  return Call(&Stub::FailTask, request, kQuick_s).status();
 }
 
 absl::Status GrpcCoordinatorClient::Leave(uint64_t session) {
   v1::LeaveRequest request;
   request.set_session(session);
-  return Call(*stub_, &Stub::Leave, request, kQuick_s).status();
+  return Call(&Stub::Leave, request, kQuick_s).status();
 }
 
 absl::Status GrpcCoordinatorClient::DrainWorker(const std::string& name) {
   v1::DrainWorkerRequest request;
   request.set_name(name);
-  return Call(*stub_, &Stub::DrainWorker, request, kQuick_s).status();
+  return Call(&Stub::DrainWorker, request, kQuick_s).status();
 }
 
 absl::StatusOr<Digest> GrpcCoordinatorClient::SubmitJob(const JobSpec& job) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::JobReply reply,
-                            Call(*stub_, &Stub::SubmitJob, ToProto(job), kFile_s));
+                            Call(&Stub::SubmitJob, ToProto(job), kFile_s));
   return DigestFromProto(reply.id());
 }
 
 absl::StatusOr<JobStatus> GrpcCoordinatorClient::GetJob(const Digest& job) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::JobStatus reply,
-                            Call(*stub_, &Stub::GetJob, RequestFor(job), kQuick_s));
+                            Call(&Stub::GetJob, RequestFor(job), kQuick_s));
   return FromProto(reply);
 }
 
 absl::StatusOr<std::vector<JobStatus>> GrpcCoordinatorClient::ListJobs() {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::ListJobsReply reply,
-                            Call(*stub_, &Stub::ListJobs, v1::Empty(), kQuick_s));
+                            Call(&Stub::ListJobs, v1::Empty(), kQuick_s));
   std::vector<JobStatus> jobs;
   for (const v1::JobStatus& job : reply.jobs()) {
     ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(), FromProto(job));
@@ -202,34 +198,34 @@ absl::StatusOr<std::vector<JobStatus>> GrpcCoordinatorClient::ListJobs() {
 }
 
 absl::Status GrpcCoordinatorClient::CancelJob(const Digest& job) {
-  return Call(*stub_, &Stub::CancelJob, RequestFor(job), kFile_s).status();
+  return Call(&Stub::CancelJob, RequestFor(job), kFile_s).status();
 }
 
 absl::Status GrpcCoordinatorClient::ForgetJob(const Digest& job) {
-  return Call(*stub_, &Stub::ForgetJob, RequestFor(job), kFile_s).status();
+  return Call(&Stub::ForgetJob, RequestFor(job), kFile_s).status();
 }
 
 absl::StatusOr<GarbageReport> GrpcCoordinatorClient::CollectGarbage(const GarbageOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::GarbageReport reply,
-                            Call(*stub_, &Stub::CollectGarbage, ToProto(options), kFolder_s));
+                            Call(&Stub::CollectGarbage, ToProto(options), kFolder_s));
   return FromProto(reply);
 }
 
 absl::StatusOr<std::vector<TaskOutcome>> GrpcCoordinatorClient::GetOutcomes(const Digest& job) {
   grpc::ClientContext context;
-  SetDeadline(context, kFile_s);
+  Begin(context, kFile_s);
   return ReadAll<TaskOutcome>(*stub_->GetOutcomes(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<TaskTiming>> GrpcCoordinatorClient::GetTimings(const Digest& job) {
   grpc::ClientContext context;
-  SetDeadline(context, kFile_s);
+  Begin(context, kFile_s);
   return ReadAll<TaskTiming>(*stub_->GetTimings(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<MeasuredTask>> GrpcCoordinatorClient::GetCosts(const Digest& job) {
   grpc::ClientContext context;
-  SetDeadline(context, kFile_s);
+  Begin(context, kFile_s);
   return ReadAll<MeasuredTask>(*stub_->GetCosts(&context, RequestFor(job)));
 }
 
@@ -241,7 +237,7 @@ absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(
     v1::StatBlobsRequest request;
     for (size_t i = begin; i < end; ++i) request.add_digests(ToProto(digests[i]));
     ORBWEAVE_ASSIGN_OR_RETURN(const v1::StatBlobsReply reply,
-                              Call(*stub_, &Stub::StatBlobs, request, kFile_s));
+                              Call(&Stub::StatBlobs, request, kFile_s));
     if (static_cast<size_t>(reply.stored_size()) != end - begin) {
       return absl::UnavailableError("the coordinator answered for another number of blobs");
     }
@@ -259,7 +255,7 @@ absl::Status GrpcCoordinatorClient::LinkFile(const Digest& digest, const std::st
     request.set_digest(ToProto(digest));
     request.set_root(name);
     request.set_path(file.substr(top.size()));
-    return Call(*stub_, &Stub::LinkFile, request, kFile_s).status();
+    return Call(&Stub::LinkFile, request, kFile_s).status();
   }
   return absl::NotFoundError(absl::StrCat(path, " is beneath no root of the coordinator"));
 }

@@ -66,10 +66,21 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
 
  private:
-  /// Gives a connection that was lost time to come back. gRPC only drives a handshake while
-  /// somebody waits for the channel: calls that fail at once, with pauses between them, never end
-  /// one that takes several round trips.
-  void AwaitConnection();
+  template <typename Request, typename Reply>
+  using Method = grpc::Status (v1::Coordinator::Stub::*)(grpc::ClientContext*,
+                                                         const Request&,
+                                                         Reply*);
+
+  /// Gives a connection that was lost time to come back: gRPC drives a handshake only while
+  /// somebody waits for the channel, so calls that fail at once, with pauses between them, never
+  /// end one that takes several round trips.
+  void AwaitHandshake();
+  /// Begins a call of at most `timeout_s`, once connected.
+  void Begin(grpc::ClientContext& context, double timeout_s);
+  template <typename Request, typename Reply>
+  [[nodiscard]] absl::StatusOr<Reply> Call(Method<Request, Reply> method,
+                                           const Request& request,
+                                           double timeout_s);
 
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::Coordinator::Stub> stub_;

@@ -106,6 +106,21 @@ TEST_F(SecuredCommands, AWorkerJoinsWithNothingButATokenAndLaterWithoutIt) {
   EXPECT_TRUE(CoordinatorSays("worker_joined")) << again.ErrSoFar();
 }
 
+TEST_F(SecuredCommands, AConnectedWorkerComesBackToACoordinatorThatWasKilled) {
+  ASSERT_EQ(RunCommand(Orbweave({"keys", "add", keys_, "worker", "node7"})).exit_code, kExitOk);
+  const Command worker(Orbweave({"work", "--join", Address(), "--tls", keys_ + "/node7"}));
+  ASSERT_TRUE(CoordinatorSays("worker_joined")) << worker.ErrSoFar();
+  serve_->Signal(SIGKILL);
+  serve_->Wait();
+  // Away for so long that the worker has been refused, and waits between its attempts.
+  ASSERT_TRUE(WaitUntil(
+      [&worker] { return worker.ErrSoFar().find("Connection refused") != std::string::npos; },
+      60.0))
+      << worker.ErrSoFar();
+  Serve("0.0.0.0:" + port_);
+  EXPECT_TRUE(CoordinatorSays("worker_joined")) << worker.ErrSoFar();
+}
+
 TEST_F(SecuredCommands, AUsedTokenIsRefusedByACoordinatorThatWasKilledAndCameBack) {
   const std::string token = MakeToken();
   {
@@ -143,7 +158,8 @@ TEST_F(SecuredCommands, ClientsAskAndWorkersDoNot) {
   const CommandOutcome worker = Status(keys_ + "/node7");
   EXPECT_EQ(worker.exit_code, kExitUsage);
   EXPECT_THAT(worker.err, HasSubstr("a worker may not call"));
-  const CommandOutcome plain = RunCommand(Orbweave({"status", "--coordinator", Address()}));
+  const CommandOutcome plain =
+      RunCommand(Orbweave({"status", "--coordinator", Address(), "--patience", "0"}));
   EXPECT_EQ(plain.exit_code, kExitUnavailable);
 }
 

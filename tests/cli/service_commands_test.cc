@@ -199,12 +199,25 @@ TEST_F(ServiceCommands, JobsSurviveAKilledCoordinator) {
               HasSubstr("running"));
 }
 
-TEST(StatusCommand, SaysSoWhenNobodyAnswers) {
+TEST_F(ServiceCommands, StatusWaitsForACoordinatorThatIsAway) {
+  serve_.Signal(SIGKILL);
+  EXPECT_EQ(serve_.Wait().exit_code, 128 + SIGKILL);
+  Command status(Orbweave({"status", "--coordinator", address_, "--patience", "60"}));
+  EXPECT_TRUE(WaitUntil(
+      [&status] { return status.ErrSoFar().find("waiting up to 60 s") != std::string::npos; },
+      60.0));
+  const Command again(Orbweave({"serve", "--listen", address_, "--state", folder_ / "state"}));
+  const CommandOutcome outcome = status.Wait();
+  EXPECT_EQ(outcome.exit_code, kExitOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("no jobs"));
+}
+
+TEST(StatusCommand, SaysSoWhenNobodyAnswersForLongEnough) {
   const TemporaryFolder folder;
-  const CommandOutcome outcome =
-      RunCommand(Orbweave({"status", "--coordinator", "unix:" + (folder / "nobody")}));
+  const CommandOutcome outcome = RunCommand(
+      Orbweave({"status", "--coordinator", "unix:" + (folder / "nobody"), "--patience", "2.5"}));
   EXPECT_EQ(outcome.exit_code, kExitUnavailable);
-  EXPECT_THAT(outcome.err, HasSubstr("no coordinator answers at"));
+  EXPECT_THAT(outcome.err, HasSubstr("waiting up to 2.5 s\norbweave: no coordinator answers at"));
 }
 
 /// What `orbweave` would do with these arguments.
