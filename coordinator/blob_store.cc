@@ -12,6 +12,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/durable_file.h"
+#include "coordinator/fault_point.h"
 
 namespace orbweave {
 namespace {
@@ -68,6 +69,7 @@ absl::StatusOr<std::string> BlobStore::Get(const Digest& digest) {
 }
 
 absl::Status BlobStore::Read(const Digest& digest, const TakePiece& take) {
+  FaultPoint("get", FaultSide::kBefore);
   const std::string path = FileOf(digest);
   if (path.empty())
     return absl::NotFoundError(absl::StrCat(DescribeBlob(digest), " is not stored"));

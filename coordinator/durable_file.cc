@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/fault_point.h"
 
 namespace orbweave {
 namespace {
@@ -70,9 +71,11 @@ absl::Status DurableFile::Append(std::string_view bytes) {
 }
 
 absl::Status DurableFile::MoveTo(const std::string& path) {
-  if (::fsync(file_.get()) != 0 || ::rename(path_.c_str(), path.c_str()) != 0)
-    return SystemError(errno, "cannot write", path);
+  if (::fsync(file_.get()) != 0) return SystemError(errno, "cannot write", path);
+  FaultPoint("rename", FaultSide::kBefore);
+  if (::rename(path_.c_str(), path.c_str()) != 0) return SystemError(errno, "cannot write", path);
   path_.clear();
+  FaultPoint("rename", FaultSide::kAfter);
   return SyncFolder(std::filesystem::path(path).parent_path().string());
 }
 

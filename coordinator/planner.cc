@@ -6,6 +6,8 @@
 #include <chrono>
 #include <utility>
 
+#include "coordinator/fault_point.h"
+
 namespace orbweave {
 namespace {
 
@@ -69,7 +71,9 @@ void Planner::PlanNextStage(const Digest& id, const std::stop_token& stop) {
   if (job == nullptr || job->run != run || !job->IsRunning() || stop.stop_requested()) return;
   if (dispatcher_.early_results() != early_results) return;  // once more, with that result
   if (prepared.ok()) {
+    FaultPoint("stage", FaultSide::kBefore);
     dispatcher_.StageBegins(id, *std::move(prepared), clock_.NowSeconds());
+    FaultPoint("stage", FaultSide::kAfter);
   } else {
     const std::string& name = snapshot.plan.stages[*stage].stage;
     dispatcher_.JobFails(id,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/fault_point.h"
 #include "coordinator/journal_rows.h"
 #include "coordinator/journal_tables.h"
 #include "proto/codec/coordinator_codec.h"
@@ -54,6 +55,7 @@ absl::Status SqlJournal::Transact(const std::vector<const GroupCommit::Write*>& 
     if (!is_mine)
       return absl::FailedPreconditionError("another coordinator has taken the journal over");
     for (const GroupCommit::Write* write : writes) ORBWEAVE_RETURN_IF_ERROR((*write)());
+    FaultPoint("commit", FaultSide::kBefore);
     return absl::OkStatus();
   });
 }
@@ -62,10 +64,17 @@ absl::Status SqlJournal::Confirm() {
   return commit_.Commit([] { return absl::OkStatus(); });
 }
 
+absl::Status SqlJournal::Commit(std::string_view what, const GroupCommit::Write& write) {
+  FaultPoint(what, FaultSide::kBefore);
+  ORBWEAVE_RETURN_IF_ERROR(commit_.Commit(write));
+  FaultPoint(what, FaultSide::kAfter);
+  return absl::OkStatus();
+}
+
 absl::Status SqlJournal::SaveJob(const JobEntry& job) {
   const std::string id = ToProto(job.spec.Id());
   const std::string spec = ToProto(job.spec).SerializeAsString();
-  return commit_.Commit([&] {
+  return Commit("job", [&] {
     return writer_->Execute(
         "INSERT INTO orbweave_job (id, number, state, error, spec, since_epoch) "
         "VALUES ($1, $2, $3, $4, $5, $6) "
@@ -93,7 +102,7 @@ absl::Status SqlJournal::SaveStart(const Attempt& attempt) {
   const std::string task = ToProto(attempt.task);
   const std::string job = ToProto(attempt.job);
   const double now_s = SecondsSince1970();
-  return commit_.Commit([&] {
+  return Commit("start", [&] {
     return writer_->Execute(
         "INSERT INTO orbweave_attempt (epoch, task, job, stage, part, worker, slot, started_s) "
         "VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (epoch) DO NOTHING",
@@ -122,7 +131,7 @@ absl::Status SqlJournal::SaveResult(uint64_t epoch, const Digest& task, const Ta
   const std::string key = ToProto(task);
   const std::string content = ToProto(result).SerializeAsString();
   const std::string digest = ToProto(DigestOf(content));
-  return commit_.Commit([&]() -> absl::Status {
+  return Commit("result", [&]() -> absl::Status {
     ORBWEAVE_RETURN_IF_ERROR(writer_->Execute(
         "INSERT INTO orbweave_result (task, digest, content) VALUES ($1, $2, $3) "
         "ON CONFLICT (task) DO UPDATE SET digest = excluded.digest, content = excluded.content",
@@ -132,7 +141,7 @@ absl::Status SqlJournal::SaveResult(uint64_t epoch, const Digest& task, const Ta
 }
 
 absl::Status SqlJournal::SaveEnds(const std::vector<AttemptEnd>& ends) {
-  return commit_.Commit([&]() -> absl::Status {
+  return Commit("ends", [&]() -> absl::Status {
     for (const AttemptEnd& end : ends) ORBWEAVE_RETURN_IF_ERROR(EndAttempt(end));
     return absl::OkStatus();
   });

@@ -45,6 +45,8 @@ class SqlJournal final : public Journal {
   SqlJournal(std::unique_ptr<SqlDatabase> writer, std::unique_ptr<SqlDatabase> reader);
   /// All writes of a batch in one transaction, if this is still the journal's last generation.
   [[nodiscard]] absl::Status Transact(const std::vector<const GroupCommit::Write*>& writes);
+  /// Makes `what` (a fault point) durable.
+  [[nodiscard]] absl::Status Commit(std::string_view what, const GroupCommit::Write& write);
   /// Adds the tasks after `last`, a page of them, whose results are garbage to `candidates`, and
   /// moves `last` to its end; whether there are no more.
   [[nodiscard]] absl::StatusOr<bool> ReadPage(const IsGarbage& is_garbage,

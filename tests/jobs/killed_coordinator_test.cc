@@ -43,6 +43,23 @@ class KilledCoordinator : public ::testing::Test {
     return arguments;
   }
 
+  /// The same, to be killed by itself at a fault point.
+  [[nodiscard]] std::vector<std::string> ServeUntil(const std::string& fault) const {
+    std::vector<std::string> arguments = Serve();
+    arguments.insert(arguments.begin(), {"/usr/bin/env", "ORBWEAVE_FAULT=" + fault});
+    return arguments;
+  }
+
+  [[nodiscard]] std::vector<std::string> Submit(const std::string& output) const {
+    return {ORBWEAVE_BINARY,
+            "submit",
+            "--coordinator",
+            address_,
+            folder_ / "street/images",
+            "--output",
+            folder_ / output};
+  }
+
   static bool IsReady(const Command& serve) {
     return WaitUntil(
         [&] { return serve.ErrSoFar().find("coordinator_ready") != std::string::npos; }, 30);
@@ -57,13 +74,7 @@ TEST_F(KilledCoordinator, ItsWorkerGoesOnAndEveryTaskIsComputedOnce) {
   std::optional<Command> serve(std::in_place, Serve());
   ASSERT_TRUE(IsReady(*serve)) << serve->ErrSoFar();
   Command worker({ORBWEAVE_BINARY, "work", "--join", address_, "--name", "first"});
-  Command submit({ORBWEAVE_BINARY,
-                  "submit",
-                  "--coordinator",
-                  address_,
-                  folder_ / "street/images",
-                  "--output",
-                  folder_ / "model"});
+  Command submit(Submit("model"));
   // The worker is stopped in the middle of a task, so that the coordinator dies meanwhile for sure.
   const std::string held = "ended_s IS NULL AND stage = 'extract_features'";
   const auto holds_a_task = [&] {
@@ -92,6 +103,45 @@ TEST_F(KilledCoordinator, ItsWorkerGoesOnAndEveryTaskIsComputedOnce) {
       RunCommand({ORBWEAVE_BINARY, "run", folder_ / "street/images", "--output", undisturbed});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   ExpectSameLocalModel(undisturbed, folder_ / "model");
+}
+
+TEST_F(KilledCoordinator, SubmitWaitsForItFromTheFirstImageToTheLastResult) {
+  Command submit(Submit("model"));
+  const auto waits = [&submit] { return submit.ErrSoFar().find("waiting up to 600 s"); };
+  ASSERT_TRUE(WaitUntil([&] { return waits() != std::string::npos; }, 60)) << submit.ErrSoFar();
+  // While images are sent; before the job is committed; when it is and nobody was told.
+  for (const char* fault : {"rename.before:4", "job.before:1", "job.after:1"}) {
+    EXPECT_EQ(RunCommand(ServeUntil(fault)).exit_code, 128 + SIGKILL) << fault;
+    ASSERT_TRUE(submit.Running()) << submit.ErrSoFar();
+  }
+  std::optional<Command> serve(std::in_place, Serve());
+  const Command worker({ORBWEAVE_BINARY, "work", "--join", address_, "--name", "first"});
+  const CommandOutcome first = submit.Wait();
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  serve->Signal(SIGKILL);
+  (void)serve->Wait();
+
+  // Again, with a coordinator that dies time and again while the results are fetched.
+  Command again(Submit("model_again"));
+  int killed_in_fetching = 0;
+  while (again.Running()) {
+    serve.emplace(ServeUntil("get.before:6"));
+    ASSERT_TRUE(WaitUntil([&] { return !serve->Running() || !again.Running(); }, 60));
+    if (again.Running() && std::filesystem::exists(folder_ / "model_again/sparse/0"))
+      ++killed_in_fetching;
+  }
+  EXPECT_GT(killed_in_fetching, 0) << "all was fetched before the coordinator was killed";
+  const CommandOutcome second = again.Wait();
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  ExpectSameLocalModel(folder_ / "model", folder_ / "model_again");
+}
+
+TEST_F(KilledCoordinator, SubmitGivesUpAfterItsPatience) {
+  std::vector<std::string> arguments = Submit("model");
+  arguments.insert(arguments.end(), {"--patience", "0.5"});
+  const CommandOutcome submit = RunCommand(arguments);
+  EXPECT_EQ(submit.exit_code, 3);
+  EXPECT_THAT(submit.err, HasSubstr("orbweave: no coordinator answers at " + address_));
 }
 
 TEST_F(KilledCoordinator, OnPostgresASecondOneIsRefusedUntilTheFirstIsDead) {
