@@ -27,8 +27,9 @@ struct StoredBlob {
 
 /// Blobs in a folder: `<folder>/ab/<hex>` holds the bytes, `<folder>/links/<hex>` the absolute path
 /// of a file outside that holds them. A blob is written once and whole. Every read is verified; a
-/// blob that is not what its name says is removed, so that it can be made again. The time of its
-/// file says when it was last put or used. Thread-safe; one process has the folder.
+/// blob that is not what its name says is removed, so that it can be made again, or replaced when
+/// it is put again. The time of its file says when it was last put or used. Thread-safe; one
+/// process has the folder.
 class BlobStore final : public BlobAccess {
  public:
   [[nodiscard]] static absl::StatusOr<BlobStore> Open(const std::string& folder);

@@ -26,6 +26,18 @@ std::string PathOf(const TemporaryFolder& folder, const Digest& digest) {
   return folder / (digest.ToHex().substr(0, 2) + "/" + digest.ToHex());
 }
 
+TEST(BlobStore, PuttingABlobAgainMendsIt) {
+  const TemporaryFolder folder;
+  auto store = BlobStore::Open(folder.Path());
+  ASSERT_TRUE(store.ok());
+  const Digest digest = *store->Put("text");
+  for (const char* damaged : {"tekt", "te", ""}) {
+    Overwrite(PathOf(folder, digest), damaged);
+    EXPECT_TRUE(store->Put("text").ok());
+    EXPECT_EQ(store->Get(digest).value_or("gone"), "text") << damaged;
+  }
+}
+
 TEST(BlobStore, GivesBackWhatWasPut) {
   const TemporaryFolder folder;
   auto store = BlobStore::Open(folder.Path());
