@@ -160,6 +160,19 @@ absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
   return reply;
 }
 
+void Coordinator::LogOf(const Lease& lease,
+                        LogLevel level,
+                        const std::string& event,
+                        const absl::Status& status) {
+  dispatcher_.Log({.level = level,
+                   .event = event,
+                   .stage = lease.spec.stage,
+                   .part = lease.spec.part,
+                   .task = lease.task,
+                   .epoch = lease.epoch,
+                   .message = std::string(status.message())});
+}
+
 absl::Status Coordinator::CompleteTask(uint64_t session,
                                        const Lease& lease,
                                        const TaskResult& result) {
@@ -176,19 +189,17 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
   std::unique_lock lock(mutex_);
   if (dispatcher_.jobs().WasDoneBy(lease)) return absl::OkStatus();
   ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, clock_.NowSeconds()));
-  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.Hold(session, lease, clock_.NowSeconds()));
+  const absl::Status held = dispatcher_.Hold(session, lease, clock_.NowSeconds());
+  if (!held.ok()) {
+    LogOf(lease, LogLevel::kWarning, "result_refused", held);
+    return held;
+  }
   lock.unlock();
   const absl::Status saved = journal_->SaveResult(lease.epoch, lease.task, result);
   lock.lock();
   if (saved.ok()) return dispatcher_.TaskDone(session, lease, result, clock_.NowSeconds());
   dispatcher_.LetGo(session, lease, clock_.NowSeconds());
-  dispatcher_.Log({.level = LogLevel::kError,
-                   .event = "result_not_saved",
-                   .stage = lease.spec.stage,
-                   .part = lease.spec.part,
-                   .task = lease.task,
-                   .epoch = lease.epoch,
-                   .message = std::string(saved.message())});
+  LogOf(lease, LogLevel::kError, "result_not_saved", saved);
   return ForWorkers(saved);
 }
 

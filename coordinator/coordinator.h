@@ -116,6 +116,11 @@ class Coordinator final : public CoordinatorApi {
   void JournalIsLost(const absl::Status& why);
   /// With the lock: health(), to workers.
   [[nodiscard]] absl::Status CheckServing() const;
+  /// With the lock: logs what became of a lease's result.
+  void LogOf(const Lease& lease,
+             LogLevel level,
+             const std::string& event,
+             const absl::Status& status);
   /// There may be something new to do: wakes the planner, and who waits for a task if there is one.
   void Wake();
   void WakeAll();

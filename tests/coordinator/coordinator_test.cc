@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <string>
+#include <vector>
 
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
@@ -41,11 +44,20 @@ class CoordinatorTest : public ::testing::Test {
     coordinator_ = *std::move(opened);
   }
 
-  CoordinatorOptions Options() const {
+  CoordinatorOptions Options() {
     return {.state_dir = folder_ / "state",
             .lease_s = 20.0,
             .retry = {.first_wait_s = 1.0},
-            .find_plan = FindToyPlan};
+            .find_plan = FindToyPlan,
+            .log = [this](const LogEvent& event) {
+              const std::lock_guard lock(events_mutex_);
+              events_.push_back(event.event);
+            }};
+  }
+
+  size_t CountEvents(const std::string& event) {
+    const std::lock_guard lock(events_mutex_);
+    return static_cast<size_t>(std::ranges::count(events_, event));
   }
 
   uint64_t Join(const std::string& name, const std::vector<LeaseProgress>& held = {}) {
@@ -97,6 +109,8 @@ class CoordinatorTest : public ::testing::Test {
   TemporaryFolder folder_;
   ManualClock clock_;
   testing::StageMap stages_ = ToyStages();
+  std::mutex events_mutex_;
+  std::vector<std::string> events_;
   std::unique_ptr<Coordinator> coordinator_;
 };
 
@@ -114,7 +128,9 @@ TEST_F(CoordinatorTest, ReassignsTaskWhenLeaseExpiresAndRefusesTheLateResult) {
   EXPECT_EQ(second.task, first.task);
   EXPECT_GT(second.epoch, first.epoch);
   EXPECT_TRUE(absl::IsFailedPrecondition(Do(slow, first)));
+  EXPECT_EQ(CountEvents("result_refused"), 1U);
   EXPECT_TRUE(Do(quick, second).ok());
+  EXPECT_EQ(CountEvents("result_refused"), 1U);
 }
 
 TEST_F(CoordinatorTest, HeartbeatsKeepALeaseAndTellWhichAreLost) {
