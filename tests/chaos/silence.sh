@@ -54,7 +54,7 @@ disturb_worker_cut_off() {
 }
 
 disturb_one_way_loss() {
-  needs_wires "one-way loss" || return 0
+  needs_wires "one-way loss" && needs_nft "one-way loss" || return 0
   silence_a_worker "all to a worker lost, all from it arrives," "$longer_than_lease_s" cut_one_way drop_nothing
 }
 
@@ -62,6 +62,12 @@ disturb_one_way_loss() {
 needs_wires() {
   [ "$namespaces" = yes ] && return 0
   skip_row "$1" "no network namespaces here"
+  return 1
+}
+
+needs_nft() {
+  drop_incoming hub && drop_nothing hub && return 0
+  skip_row "$1" "nft cannot drop packets here"
   return 1
 }
 
@@ -76,13 +82,9 @@ jobs_on_bad_wires() {
 
 disturb_packet_loss() {
   local i title="2 % of all packets lost"
-  needs_wires "$title" || return 0
+  needs_wires "$title" && needs_nft "$title" || return 0
   begin_row
-  for i in hub "${workers[@]}"; do
-    drop_incoming "$i" "numgen random mod 1000 < 20" && continue
-    skip_row "$title" "nft cannot drop packets here"
-    return 0
-  done
+  for i in hub "${workers[@]}"; do drop_incoming "$i" "numgen random mod 1000 < 20"; done
   jobs_on_bad_wires
   for i in hub "${workers[@]}"; do
     ((times += $(dropped "$i")))
