@@ -20,7 +20,7 @@ repeats=$(((kills + 4) / 5))
 lease_s=8
 longer_than_lease_s=16
 stopped_s=60
-job_limit_s=300
+job_limit_s=600
 for part in fleet network judge kills silence disks clocks repeats; do
   # shellcheck source=/dev/null
   source "$here/$part.sh"
