@@ -50,7 +50,7 @@ std::string LogEventToJson(const LogEvent& event, double time_s) {
   if (!event.worker.empty()) line["worker"] = event.worker;
   if (event.epoch != 0) line["epoch"] = event.epoch;
   if (!event.message.empty()) line["message"] = event.message;
-  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return line.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void LogToStderr(const LogEvent& event) { WriteLine(stderr, event); }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "core/io/printable_text.h"
+
 namespace orbweave {
 
 int ExitCodeOf(const absl::Status& status) {
@@ -16,6 +18,7 @@ int ExitCodeOf(const absl::Status& status) {
     case absl::StatusCode::kNotFound:
     case absl::StatusCode::kAlreadyExists:
     case absl::StatusCode::kPermissionDenied:
+    case absl::StatusCode::kUnauthenticated:
     case absl::StatusCode::kFailedPrecondition:
     case absl::StatusCode::kOutOfRange:
       return kExitUsage;
@@ -29,7 +32,11 @@ int ExitCodeOf(const absl::Status& status) {
 }
 
 int ReportStatus(const absl::Status& status) {
-  if (!status.ok()) std::fprintf(stderr, "orbweave: %s\n", std::string(status.message()).c_str());
+  if (!status.ok()) {
+    const std::string text =
+        PrintableText({status.message().data(), status.message().size()}, "\n");
+    std::fprintf(stderr, "orbweave: %s\n", text.c_str());
+  }
   return ExitCodeOf(status);
 }
 

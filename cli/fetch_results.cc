@@ -65,7 +65,8 @@ std::vector<std::string> ImageProblems(const std::vector<TaskOutcome>& outcomes)
   for (const TaskOutcome& outcome : outcomes) {
     if (outcome.stage != "extract_features") continue;
     const auto report = nlohmann::json::parse(outcome.result.report_json, nullptr, false);
-    problems.push_back(report.is_object() ? report.value("problem", "") : "");
+    const bool has_text = report.contains("problem") && report["problem"].is_string();
+    problems.push_back(has_text ? report["problem"].get<std::string>() : "");
   }
   return problems;
 }

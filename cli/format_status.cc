@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "cli/progress_bar.h"
+#include "core/io/printable_text.h"
 
 namespace orbweave {
 namespace {
@@ -34,12 +35,12 @@ std::string FormatJobLine(const JobStatus& status) {
   if (status.state == JobState::kRunning && view.eta_s >= 0.0) {
     absl::StrAppend(&text, "  about ", FormatDuration(view.eta_s), " left");
   }
-  return absl::StrCat(text, "  ", status.spec.label, "\n");
+  return absl::StrCat(text, "  ", PrintableText(status.spec.label), "\n");
 }
 
 std::string FormatJobStatus(const JobStatus& status) {
   std::string text = FormatJobLine(status);
-  if (!status.error.empty()) absl::StrAppend(&text, "  ", status.error, "\n");
+  if (!status.error.empty()) absl::StrAppend(&text, "  ", PrintableText(status.error, "\n"), "\n");
   absl::StrAppend(&text,
                   absl::StrFormat("  %-22s %13s %8s %8s %8s %12s %12s\n",
                                   "stage",
@@ -53,7 +54,7 @@ std::string FormatJobStatus(const JobStatus& status) {
     if (stage.tasks_total == 0) continue;
     absl::StrAppend(&text,
                     absl::StrFormat("  %-22s %13s %8u %8u %8u %12s %12s\n",
-                                    stage.stage,
+                                    PrintableText(stage.stage),
                                     absl::StrCat(stage.tasks_done, "/", stage.tasks_total),
                                     stage.tasks_reused,
                                     stage.tasks_running,
@@ -70,7 +71,7 @@ std::string FormatWorkers(const std::vector<WorkerStatus>& workers) {
   for (const WorkerStatus& worker : workers) {
     absl::StrAppend(&text,
                     absl::StrFormat("  %-22s %13u %8u %8u  %s\n",
-                                    worker.name,
+                                    PrintableText(worker.name),
                                     worker.tasks_done,
                                     worker.slots,
                                     worker.tasks_running,
@@ -111,7 +112,7 @@ std::string JobStatusToJson(const JobStatus& status) {
                               {"eta_s", EtaToJson(view)},
                               {"stages", std::move(stages)},
                               {"workers", std::move(workers)}};
-  return job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return job.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace orbweave

@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/io/html_text.h"
+#include "core/io/printable_text.h"
 
 namespace orbweave {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr size_t kNamesShown = 5;
 
 std::string GnssLine(const ReportGnss& gnss) {
-  if (!gnss.used) return gnss.reason.empty() ? "none" : absl::StrCat("not used: ", gnss.reason);
+  if (!gnss.used) return gnss.reason.empty() ? "none" : "not used: " + PrintableText(gnss.reason);
   const std::string agreement = absl::StrFormat("%u of %u positions agree, %.2f m RMS",
                                                 gnss.num_inliers,
                                                 gnss.num_priors,
@@ -23,15 +24,16 @@ std::string GnssLine(const ReportGnss& gnss) {
 
 std::string SigmaLine(const JobReport& report) {
   const ReportUncertainty& uncertainty = report.uncertainty;
-  if (!uncertainty.known) return "unknown: " + uncertainty.reason;
-  return absl::StrCat(
-      SigmaText(uncertainty.position_median),
-      report.gnss.used ? " m" : " units",
-      ", ",
-      SigmaText(uncertainty.rotation_median_deg),
-      " deg (median, ",
-      uncertainty.held_image.empty() ? "absolute" : "relative to " + uncertainty.held_image,
-      ")");
+  if (!uncertainty.known) return "unknown: " + PrintableText(uncertainty.reason);
+  return absl::StrCat(SigmaText(uncertainty.position_median),
+                      report.gnss.used ? " m" : " units",
+                      ", ",
+                      SigmaText(uncertainty.rotation_median_deg),
+                      " deg (median, ",
+                      uncertainty.held_image.empty()
+                          ? "absolute"
+                          : "relative to " + PrintableText(uncertainty.held_image),
+                      ")");
 }
 
 std::string LeftOut(const JobReport& report) {
@@ -39,9 +41,9 @@ std::string LeftOut(const JobReport& report) {
   for (size_t i = 0; i < report.not_registered.size() && i < kNamesShown; ++i) {
     absl::StrAppend(&text,
                     "  left out    ",
-                    report.not_registered[i].name,
+                    PrintableText(report.not_registered[i].name),
                     ": ",
-                    report.not_registered[i].reason,
+                    PrintableText(report.not_registered[i].reason),
                     "\n");
   }
   if (report.not_registered.size() > kNamesShown) {
@@ -90,7 +92,7 @@ std::string FormatSummary(const JobReport& report, const std::string& output) {
   absl::StrAppend(&text, "  sigma       ", SigmaLine(report), "\n");
   absl::StrAppend(&text, LeftOut(report));
   for (const std::string& warning : report.warnings)
-    absl::StrAppend(&text, "  warning     ", warning, "\n");
+    absl::StrAppend(&text, "  warning     ", PrintableText(warning), "\n");
   absl::StrAppend(&text, "\n", StageTable(report), "\n");
   absl::StrAppend(&text,
                   "  outputs     ",

@@ -8,6 +8,7 @@
 #include "core/io/cluster_table.h"
 #include "core/io/colmap_database.h"
 #include "core/io/file.h"
+#include "core/io/printable_text.h"
 #include "core/pipeline/job_plan.h"
 #include "core/stages/ingest_images.h"
 #include "core/stages/plan_recipes.h"
@@ -102,7 +103,7 @@ absl::StatusOr<Digest> PutClusters(CoordinatorApi& coordinator,
       if (image.problem.empty()) names.push_back(image.name);
     }
     ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(cluster_table));
-    ORBWEAVE_ASSIGN_OR_RETURN(clusters, ReadClusterTable(text, cluster_table, names));
+    ORBWEAVE_ASSIGN_OR_RETURN(clusters, ReadClusterTable(Utf8Text(text), cluster_table, names));
   }
   return coordinator.Put(EncodeClusterNames(clusters));
 }
@@ -112,7 +113,7 @@ std::string LabelOf(const std::string& image_folder) {
   std::filesystem::path path = std::filesystem::absolute(image_folder).lexically_normal();
   if (path.filename().empty()) path = path.parent_path();
   if (path.filename() == "images") path = path.parent_path();
-  return path.filename().string();
+  return Utf8Text(path.filename().string());
 }
 
 }  // namespace
@@ -142,8 +143,7 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
   ORBWEAVE_ASSIGN_OR_RETURN(ColmapDatabase database, ReadColmapDatabase(database_path));
   ImageSources sources = SourcesFromDatabase(database);
   if (!gnss_table.empty()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadFile(gnss_table));
-    sources.gnss_name = std::filesystem::path(gnss_table).filename().string();
+    ORBWEAVE_RETURN_IF_ERROR(ReadGnssFile(gnss_table, sources));
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters,
                             PutClusters(coordinator, sources, cluster_table));
@@ -155,7 +155,7 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
                             PutMatches(coordinator, std::move(database.pairs), features));
   JobSpec job{.kind = "sparse_from_matches",
               .options_text = PipelineOptionsToText(options),
-              .label = std::filesystem::path(database_path).filename().string()};
+              .label = Utf8Text(std::filesystem::path(database_path).filename().string())};
   for (const std::string& bytes :
        {EncodeImageManifest(manifest), EncodeCollection(features), EncodeCollection(recipes)}) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, coordinator.Put(bytes));

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/io/printable_text.h"
 
 namespace orbweave {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 std::string FormatView(const ProgressView& view) {
   if (view.stage.empty()) return "done";
   std::string text = absl::StrFormat("%s %.*f/%u",
-                                     view.stage,
+                                     PrintableText(view.stage),
                                      view.tasks_total < 10 && view.tasks_total > 0 ? 1 : 0,
                                      view.tasks_done,
                                      view.tasks_total);

@@ -8,26 +8,10 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/printable_text.h"
 
 namespace orbweave {
 namespace {
-
-constexpr std::string_view kReplacement = "\xef\xbf\xbd";
-
-/// Length of the well-formed UTF-8 sequence at the front of `text`; 0 when there is none.
-size_t SequenceLength(std::string_view text) {
-  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  const bool overlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
-  const bool outside = (lead == 0xed && byte(1) > 0x9f) || (lead == 0xf4 && byte(1) > 0x8f);
-  return overlong || outside ? 0 : length;
-}
 
 /// The escaped form of one ASCII character.
 void AppendEscaped(char c, std::string& html) {
@@ -49,7 +33,7 @@ void AppendEscaped(char c, std::string& html) {
       break;
     default:
       if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') {
-        html += kReplacement;
+        html += kReplacementCharacter;
       } else {
         html += c;
       }
@@ -61,9 +45,9 @@ void AppendEscaped(char c, std::string& html) {
 std::string EscapeHtml(std::string_view text) {
   std::string html;
   while (!text.empty()) {
-    const size_t length = SequenceLength(text);
+    const size_t length = Utf8SequenceLength(text);
     if (length == 0) {
-      html += kReplacement;
+      html += kReplacementCharacter;
     } else if (length == 1) {
       AppendEscaped(text.front(), html);
     } else {

@@ -12,6 +12,7 @@
 #include "core/io/byte_stream.h"
 #include "core/io/colmap_database.h"
 #include "core/io/natural_order.h"
+#include "core/io/printable_text.h"
 #include "core/io/read_colmap_pairs.h"
 #include "core/io/sqlite_connection.h"
 
@@ -94,6 +95,10 @@ absl::Status ReadImages(const SqliteConnection& connection,
     DatabaseImage& image = database.images.emplace_back();
     image.database_id = static_cast<uint32_t>(rows.Integer(0));
     image.name = rows.Text(1);
+    if (Utf8Text(image.name) != image.name) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(path, ": the name of image ", image.database_id, " is not UTF-8"));
+    }
     const auto camera = cameras.find(rows.Integer(2));
     if (camera == cameras.end()) {
       return absl::InvalidArgumentError(absl::StrCat(
@@ -139,8 +144,7 @@ absl::Status ReadKeypoints(const SqliteConnection& connection,
     const int64_t columns = rows.Integer(2);
     const std::string_view data = rows.Blob(3);
     const bool known = columns == 2 || columns == 4 || columns == 6;
-    if (count < 0 || (count > 0 && !known) ||
-        static_cast<size_t>(count * columns) * sizeof(float) != data.size()) {
+    if ((count > 0 && !known) || !IsTable(data, count, columns, sizeof(float))) {
       return Damaged(path, "the keypoints row of " + image.name);
     }
     ByteReader in(data);

@@ -51,8 +51,7 @@ absl::Status ReadMatches(std::string_view data,
                          size_t num_a,
                          size_t num_b,
                          std::vector<FeatureMatch>& matches) {
-  if (count < 0 || static_cast<size_t>(count) * 2 * sizeof(uint32_t) != data.size())
-    return absl::InvalidArgumentError("is damaged");
+  if (!IsTable(data, count, 2, sizeof(uint32_t))) return absl::InvalidArgumentError("is damaged");
   ByteReader in(data);
   matches.reserve(static_cast<size_t>(count));
   for (int64_t i = 0; i < count; ++i) {

@@ -31,6 +31,18 @@ template <size_t kCount>
   return values;
 }
 
+/// Whether `blob` is `rows` of `columns` numbers of `number_bytes` each, whatever a damaged file
+/// says of them.
+[[nodiscard]] inline bool IsTable(std::string_view blob,
+                                  int64_t rows,
+                                  int64_t columns,
+                                  size_t number_bytes) {
+  if (rows == 0 || columns <= 0) return rows == 0 && blob.empty();
+  const size_t row_bytes = static_cast<size_t>(columns) * number_bytes;
+  return rows > 0 && blob.size() % row_bytes == 0 &&
+         blob.size() / row_bytes == static_cast<size_t>(rows);
+}
+
 /// Appends the pairs with matches of `table`, "two_view_geometries" or "matches", to
 /// database.pairs, in our ids and sorted. The images and keypoints must be there already. A missing
 /// table has no pairs.

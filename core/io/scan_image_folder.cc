@@ -13,6 +13,7 @@
 #include "core/base/parallel_for.h"
 #include "core/io/file.h"
 #include "core/io/list_files.h"
+#include "core/io/printable_text.h"
 #include "core/io/text_fields.h"
 
 namespace orbweave {
@@ -93,6 +94,15 @@ void ScanMask(const std::string& folder, SourceImage& image) {
   image.mask_height_px = metadata->height_px;
 }
 
+/// Names go into messages, which take UTF-8 alone.
+void RefuseOtherEncodings(SourceImage& image) {
+  image.problem = Utf8Text(image.problem);
+  std::string name = Utf8Text(image.name);
+  if (name == image.name) return;
+  image.problem = "its name is not UTF-8: rename it";
+  image.name = std::move(name);
+}
+
 /// "3 masks have no image: a.png, b.png, ..." or nothing.
 void WarnOfUnusedMasks(const MaskIndex& masks,
                        const std::set<std::string>& used,
@@ -106,7 +116,7 @@ void WarnOfUnusedMasks(const MaskIndex& masks,
       absl::StrCat(unused.size(), unused.size() == 1 ? " mask has" : " masks have", " no image: ");
   for (size_t i = 0; i < std::min<size_t>(unused.size(), 3); ++i)
     absl::StrAppend(&text, i == 0 ? "" : ", ", unused[i]);
-  sources.warnings.push_back(text + (unused.size() > 3 ? ", ..." : ""));
+  sources.warnings.push_back(Utf8Text(text + (unused.size() > 3 ? ", ..." : "")));
 }
 
 /// One entry per name; `mask_path` is relative to the mask folder as yet.
@@ -127,6 +137,13 @@ void AssignNamesAndMasks(const std::vector<std::string>& names,
 
 }  // namespace
 
+absl::Status ReadGnssFile(const std::string& path, ImageSources& sources) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  sources.gnss_text = Utf8Text(text);
+  sources.gnss_name = Utf8Text(fs::path(path).filename().string());
+  return absl::OkStatus();
+}
+
 absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
                                              const StageContext& context) {
   std::error_code error;
@@ -145,8 +162,7 @@ absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
   ImageSources sources;
   sources.mask_ignores_white = request.mask_ignores_white;
   if (!request.gnss_table.empty()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadFile(request.gnss_table));
-    sources.gnss_name = fs::path(request.gnss_table).filename().string();
+    ORBWEAVE_RETURN_IF_ERROR(ReadGnssFile(request.gnss_table, sources));
   }
   AssignNamesAndMasks(names, masks, sources);
   std::mutex mutex;
@@ -155,6 +171,7 @@ absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
     if (context.stop.stop_requested()) return;
     ScanImage(folder, sources.images[i]);
     ScanMask(mask_folder, sources.images[i]);
+    RefuseOtherEncodings(sources.images[i]);
     const std::lock_guard lock(mutex);
     context.Report(++done, names.size(), "images");
   });

@@ -21,10 +21,15 @@ struct ScanRequest {
 
 /// Lists the image files (jpg jpeg png tif tiff bmp webp ppm, in any case) below a folder,
 /// following symbolic links, in natural name order, and reads each once: digest, dimensions,
-/// metadata, mask. A file that cannot be used is listed with its `problem`. NotFound: the folder is
+/// metadata, mask. A file that cannot be used, one whose name is not UTF-8 too, is listed with its
+/// `problem`. NotFound: the folder is
 /// missing or holds no image, or the mask folder or GNSS table is missing; each message says what
 /// to do. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
                                                            const StageContext& context);
+
+/// Reads the GNSS table at `path` into `sources`; bytes that are no UTF-8 become U+FFFD. Codes of
+/// ReadFile.
+[[nodiscard]] absl::Status ReadGnssFile(const std::string& path, ImageSources& sources);
 
 }  // namespace orbweave

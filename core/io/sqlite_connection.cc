@@ -110,6 +110,9 @@ absl::StatusOr<SqliteConnection> SqliteConnection::OpenToRead(const std::string&
   const int code = sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READONLY, nullptr);
   connection.database_.reset(database);
   if (code != SQLITE_OK) return StatusFromSqlite(database, code, path);
+  // Anybody may have made the file: its views and triggers get no functions with side effects.
+  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   ORBWEAVE_RETURN_IF_ERROR(connection.HasTable("images").status());  // reads the file's first page
   return connection;
 }

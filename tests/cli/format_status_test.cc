@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace orbweave {
@@ -48,6 +49,29 @@ TEST(FormatWorkers, SaysWhoIsThereAndWhoGetsNoMore) {
   EXPECT_THAT(text, ::testing::ContainsRegex("b +0 +1 +0  gone\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("c +0 +3 +2  draining\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("d +0 +1 +0  set aside"));
+}
+
+/// Clears a terminal, goes back to the start of the line, begins another one.
+constexpr const char* kHostile = "\x1b[2J\r\nworker fake\x7f\xc2\x9b";
+
+TEST(FormatJobStatus, ShowsStrangersTextWithoutObeyingIt) {
+  JobStatus job = Example();
+  job.spec.label = kHostile;
+  job.stages[0].stage = kHostile;
+  job.workers[0].name = kHostile;
+  const std::string text = FormatJobStatus(job) + FormatWorkers(job.workers);
+  EXPECT_EQ(text.find_first_of("\x1b\r\x7f\x9b"), std::string::npos) << text;
+  EXPECT_EQ(std::ranges::count(text, '\n'),
+            std::ranges::count(FormatJobStatus(Example()) + FormatWorkers(job.workers), '\n'));
+}
+
+TEST(JobStatusToJson, IsOneLineOfAsciiWhateverStrangersWrite) {
+  JobStatus job = Example();
+  job.spec.label = std::string(kHostile) + "\xff";
+  job.workers[0].name = kHostile;
+  const std::string json = JobStatusToJson(job);
+  EXPECT_TRUE(std::ranges::all_of(json, [](char c) { return c >= 0x20 && c < 0x7f; })) << json;
+  EXPECT_EQ(nlohmann::json::parse(json)["workers"][0]["name"], kHostile);
 }
 
 TEST(JobStatusToJson, NamesEverything) {

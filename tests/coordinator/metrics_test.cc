@@ -75,6 +75,19 @@ TEST(SnapshotMetrics, CountsTheSlotsOfWorkersThatAreThere) {
   EXPECT_EQ(ValueOf(families, "orbweave_blob_bytes_total", {"out"}), 6.0);
 }
 
+TEST(SnapshotMetrics, SaysNothingThatStrangersWrote) {
+  const std::string hostile = "x\"} 1\norbweave_fake 7";
+  const JobStatus job{.id = DigestOf("a"),
+                      .error = hostile,
+                      .spec = {.label = hostile},
+                      .stages = {{.stage = "s", .tasks_total = 1}}};
+  for (const auto& family : SnapshotMetrics({job}, {{.name = hostile}}, {})) {
+    for (const auto& metric : family.metric) {
+      for (const auto& label : metric.label) EXPECT_THAT(label.value, Not(HasSubstr("fake")));
+    }
+  }
+}
+
 TEST(MetricsServer, TellsWhatAJobDid) {
   const TemporaryFolder folder;
   const SteadyClock clock;

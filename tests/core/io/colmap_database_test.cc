@@ -248,6 +248,13 @@ TEST_F(DatabaseFile, NamesDamagedRows) {
   EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
 }
 
+TEST_F(DatabaseFile, RefusesCountsWhoseProductsWrapToTheSizeOfTheBlob) {
+  Execute("UPDATE two_view_geometries SET rows = 1 << 61, data = x''");
+  EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
+  Execute("UPDATE keypoints SET rows = 1 << 62, cols = 4, data = x''");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("the keypoints row"));
+}
+
 TEST_F(DatabaseFile, RefusesWhatIsNoDatabase) {
   const std::string intact = ReadFile(path_).value();
   folder_.Write("database.db",

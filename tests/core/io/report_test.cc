@@ -93,6 +93,32 @@ TEST(ReportHtml, IsOnePageThatFetchesNothing) {
   EXPECT_LT(html.size(), 80000U);
 }
 
+TEST(ReportHtml, DefusesStrangersTextWhereverItStands) {
+  const std::string hostile = "\"'><script>alert(1)</script>\x1b[2J";
+  JobReport report = MadeUpReport(12, 3);
+  report.title = report.version = report.options_text = hostile;
+  for (ReportImage& image : report.images) image.name += hostile;
+  for (ReportStage& stage : report.stages) stage.name = hostile;
+  for (ReportSeam& seam : report.seams) {
+    seam.used = false;
+    seam.reason = hostile;
+  }
+  for (ReportWorker& worker : report.workers) worker.name = hostile;
+  report.not_registered = {{hostile, hostile}};
+  report.warnings = {hostile};
+  report.gnss.outliers = {hostile};
+  report.uncertainty.held_image = report.uncertainty.held_distance_to = hostile;
+  for (const bool is_known : {true, false}) {
+    report.gnss.used = report.uncertainty.known = is_known;
+    report.gnss.reason = report.uncertainty.reason = hostile;
+    const std::string html = ReportHtml(report);
+    EXPECT_TRUE(IsBalanced(html));
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, Not(HasSubstr("\x1b")));
+    EXPECT_THAT(html, HasSubstr("&lt;script&gt;"));
+  }
+}
+
 TEST(ReportHtml, ShowsEveryImageSeamAndOutlierOnTheMap) {
   const JobReport report = MadeUpReport(96, 5);
   const std::string map = TrajectoryMapSvg(report, 0);

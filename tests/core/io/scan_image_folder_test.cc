@@ -64,6 +64,20 @@ TEST(ScanImageFolder, SaysWhatIsWrongWithEachFile) {
   EXPECT_EQ(sources.images[5].problem, "");
 }
 
+TEST(ScanImageFolder, LeavesOutNamesAndBytesThatNoMessageTakes) {
+  const TemporaryFolder folder;
+  folder.Write("a.jpg", EncodedImage(64, 32, ".jpg", 1));
+  folder.Write("b\xfc.jpg", EncodedImage(64, 32, ".jpg", 2));
+  folder.Write("table.csv", "name,latitude,longitude\nb\xfc.jpg,47,8\na.jpg,47,8\n");
+  const ImageSources sources =
+      ScanImageFolder({.image_folder = folder.path(), .gnss_table = folder / "table.csv"}, {})
+          .value();
+  EXPECT_THAT(Names(sources), ElementsAre("a.jpg", "b\xef\xbf\xbd.jpg"));
+  EXPECT_EQ(sources.images[0].problem, "");
+  EXPECT_THAT(sources.images[1].problem, HasSubstr("not UTF-8"));
+  EXPECT_THAT(sources.gnss_text, HasSubstr("\nb\xef\xbf\xbd.jpg,47,8\na.jpg,47,8\n"));
+}
+
 TEST(ScanImageFolder, FindsMasksByEveryConvention) {
   const TemporaryFolder folder;
   for (const char* name : {"a.jpg", "sub/b.jpg", "c.jpg", "d.jpg"})
