@@ -10,6 +10,7 @@
 #include "security/tls_folder.h"
 #include "security/unix_time.h"
 #include "worker/grpc_enrollment_client.h"
+#include "worker/refused_handshake.h"
 #include "worker/retry.h"
 
 namespace orbweave {
@@ -54,8 +55,9 @@ absl::Status EnrolWhereNeeded(const CoordinatorArgument& coordinator,
     return absl::InvalidArgumentError(
         "a join token needs --tls: the folder to keep the certificate in");
   }
-  return RetryWhileUnavailable(stop,
-                               [&] { return Enroll(coordinator.address, token, name, folder); });
+  RefusedHandshake handshake(coordinator.address, folder.path, Caller::kStranger);
+  return RetryWhileUnavailable(
+      stop, [&] { return handshake.Explain(Enroll(coordinator.address, token, name, folder)); });
 }
 
 }  // namespace orbweave

@@ -18,7 +18,7 @@ void AddJoinTokenArgument(CLI::App& command, std::string& token_path);
 /// it does; otherwise the token (of the file, or without one of the environment) is exchanged,
 /// waiting while the coordinator is Unavailable. Does nothing where no token is given. The variable
 /// is removed from the environment, so that no child inherits it. InvalidArgument: a token, and no
-/// --tls to keep the certificate in.
+/// --tls to keep the certificate in. Unauthenticated: see RefusedHandshake.
 [[nodiscard]] absl::Status EnrolWhereNeeded(const CoordinatorArgument& coordinator,
                                             const std::string& token_path,
                                             const std::string& name,

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/ascii.h"
 #include "cli/exit_code.h"
 #include "security/key_store.h"
 #include "security/unix_time.h"
@@ -27,6 +28,7 @@ struct KeysOptions {
   std::string role{};
   std::string name{};
   std::vector<std::string> hosts{};
+  std::string serial{};
   std::string token_path{};
   int64_t days = 365;
   double minutes = 60.0;
@@ -69,6 +71,20 @@ absl::Status Token(const KeysOptions& options) {
   std::printf("join token written to %s: good for one worker and %g minutes\n",
               options.token_path.c_str(),
               options.minutes);
+  return absl::OkStatus();
+}
+
+absl::Status Shut(const KeysOptions& options) {
+  Revocations more;
+  if (!options.name.empty()) more.names.insert(options.name);
+  if (!options.serial.empty()) more.serials.insert(absl::AsciiStrToUpper(options.serial));
+  if (more == Revocations())
+    return absl::InvalidArgumentError("give a name, or --serial and a certificate's number");
+  ORBWEAVE_RETURN_IF_ERROR(Revoke(options.store, more));
+  std::printf(
+      "revoked; a coordinator heeds it from the next call on: where its --tls folder is another, "
+      "copy %s/coordinator/revoked there\n",
+      options.store.c_str());
   return absl::OkStatus();
 }
 
@@ -119,6 +135,11 @@ void AddKeysCommand(CLI::App& app, SelectedCommand& selected) {
       ->check(CLI::Range(1, 3650))
       ->capture_default_str();
   AddHosts(*add, *options);
+  CLI::App* revoke =
+      AddAction(*keys, selected, options, "revoke", "Shut a participant out, for good", Shut);
+  revoke->add_option("NAME", options->name, "Its name, whatever certificate it shows");
+  revoke->add_option(
+      "--serial", options->serial, "Of a single certificate, as 'openssl x509 -serial' prints it");
   CLI::App* token = AddAction(
       *keys, selected, options, "token", "Make a token by which one new worker may join", Token);
   token->add_option("--output", options->token_path, "File to write it to (mode 0600)")->required();
@@ -129,7 +150,8 @@ void AddKeysCommand(CLI::App& app, SelectedCommand& selected) {
       "Examples:\n"
       "  orbweave keys init keys --fleet city --host coordinator.example\n"
       "  orbweave keys add keys worker node7\n"
-      "  orbweave keys token keys --output join.token");
+      "  orbweave keys token keys --output join.token\n"
+      "  orbweave keys revoke keys node7");
 }
 
 }  // namespace orbweave

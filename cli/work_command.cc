@@ -90,7 +90,10 @@ absl::Status Work(const WorkOptions& options) {
     return std::make_unique<TaskProcess>(options.task_limits, clock);
   };
   const absl::Status status = RunWorker(coordinator, make_executor, worker, signals.token());
-  LogToStderr({.event = "worker_ended", .worker = worker.name});
+  LogToStderr({.level = status.ok() ? LogLevel::kInfo : LogLevel::kError,
+               .event = "worker_ended",
+               .worker = worker.name,
+               .message = std::string(status.message())});
   return status;
 }
 

@@ -15,6 +15,10 @@ grpc::Status GrpcGate::Process(const InputMetadata& metadata,
                                OutputMetadata*) {
   const absl::StatusOr<std::optional<Identity>> peer = PeerOf(*connection);
   if (!peer.ok()) return OnWire(peer.status());
+  if (*peer) {
+    const absl::Status standing = revocations_->Check(**peer, CertificateOf(*connection));
+    if (!standing.ok()) return OnWire(standing);
+  }
   const auto path = metadata.find(":path");
   const std::string_view method = path == metadata.end()
                                       ? std::string_view()

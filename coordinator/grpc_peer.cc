@@ -11,7 +11,7 @@
 namespace orbweave {
 
 absl::StatusOr<std::optional<Identity>> PeerOf(const grpc::AuthContext& connection) {
-  if (connection.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME).empty()) return std::nullopt;
+  if (CertificateOf(connection).empty()) return std::nullopt;
   std::vector<std::string_view> uris;
   for (const grpc::string_ref& uri : connection.FindPropertyValues(GRPC_PEER_URI_PROPERTY_NAME)) {
     const std::string_view text(uri.data(), uri.size());
@@ -30,6 +30,12 @@ absl::StatusOr<Identity> CertifiedPeerOf(const grpc::AuthContext& connection) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Identity> peer, PeerOf(connection));
   if (peer) return *peer;
   return absl::UnauthenticatedError("this call needs a certificate");
+}
+
+std::string_view CertificateOf(const grpc::AuthContext& connection) {
+  const auto certificates = connection.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME);
+  if (certificates.empty()) return {};
+  return {certificates.front().data(), certificates.front().size()};
 }
 
 }  // namespace orbweave

@@ -5,6 +5,7 @@
 #include <grpcpp/security/auth_context.h>
 
 #include <optional>
+#include <string_view>
 
 #include "core/base/status.h"
 #include "security/identity.h"
@@ -17,5 +18,8 @@ namespace orbweave {
 
 /// The same where there has to be one. Unauthenticated: there is none.
 [[nodiscard]] absl::StatusOr<Identity> CertifiedPeerOf(const grpc::AuthContext& connection);
+
+/// The certificate of a connection as PEM; empty when it showed none.
+[[nodiscard]] std::string_view CertificateOf(const grpc::AuthContext& connection);
 
 }  // namespace orbweave

@@ -68,7 +68,8 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   if (has_tls) {
     ORBWEAVE_ASSIGN_OR_RETURN(desk, OpenDesk(options));
     const Strangers strangers = desk ? Strangers::kLetToEnrol : Strangers::kRefused;
-    ORBWEAVE_ASSIGN_OR_RETURN(credentials, MakeTlsCredentials({options.tls_folder}, strangers));
+    ORBWEAVE_ASSIGN_OR_RETURN(credentials,
+                              MakeTlsCredentials({options.tls_folder}, strangers, options.log));
   }
   std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(desk)));
   grpc::EnableDefaultHealthCheckService(true);

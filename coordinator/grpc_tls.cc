@@ -17,7 +17,8 @@ constexpr unsigned kLookAtFiles_s = 30;
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(const TlsFolder& folder,
-                                                                            Strangers strangers) {
+                                                                            Strangers strangers,
+                                                                            const EventLog& log) {
   ORBWEAVE_ASSIGN_OR_RETURN(const CertificateFacts own, CheckTlsFolder(folder));
   if (own.identity.role != Role::kCoordinator) {
     return absl::InvalidArgumentError(absl::StrCat(folder.path,
@@ -25,6 +26,14 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(cons
                                                    std::string(RoleName(own.identity.role)),
                                                    ", not of a coordinator"));
   }
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      std::shared_ptr<RevocationList> revocations,
+      RevocationList::Open(folder.RevocationsPath(), [log](const absl::Status& status) {
+        if (!log) return;
+        log({.level = LogLevel::kError,
+             .event = "revocations_not_read",
+             .message = std::string(status.message())});
+      }));
   grpc::experimental::TlsServerCredentialsOptions options(
       std::make_shared<grpc::experimental::FileWatcherCertificateProvider>(
           folder.KeyPath(), folder.CertificatePath(), folder.AuthorityPath(), kLookAtFiles_s));
@@ -35,7 +44,8 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(cons
                                     : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
   std::shared_ptr<grpc::ServerCredentials> credentials =
       grpc::experimental::TlsServerCredentials(options);
-  credentials->SetAuthMetadataProcessor(std::make_shared<GrpcGate>(own.identity.fleet));
+  credentials->SetAuthMetadataProcessor(
+      std::make_shared<GrpcGate>(own.identity.fleet, std::move(revocations)));
   return credentials;
 }
 

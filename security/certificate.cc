@@ -4,6 +4,7 @@
 #include "security/certificate.h"
 
 #include <ctime>
+#include <memory>
 #include <vector>
 
 #include "security/openssl_handles.h"
@@ -11,11 +12,24 @@
 namespace orbweave {
 namespace {
 
+struct TextDeleter {
+  void operator()(char* text) const { OPENSSL_free(text); }
+};
+using TextHandle = std::unique_ptr<char, TextDeleter>;
+
 absl::StatusOr<int64_t> UnixFromAsn1(const ASN1_TIME* time) {
   std::tm utc{};
   if (ASN1_TIME_to_tm(time, &utc) != 1)
     return OpenSslError(absl::StatusCode::kInvalidArgument, "read the certificate's dates");
   return static_cast<int64_t>(::timegm(&utc));
+}
+
+absl::StatusOr<std::string> SerialOf(const X509& certificate) {
+  const NumberHandle number(ASN1_INTEGER_to_BN(X509_get0_serialNumber(&certificate), nullptr));
+  const TextHandle digits(number == nullptr ? nullptr : BN_bn2hex(number.get()));
+  if (digits == nullptr)
+    return OpenSslError(absl::StatusCode::kInvalidArgument, "read the certificate's number");
+  return std::string(digits.get());
 }
 
 std::vector<std::string> IdentityUris(const X509& certificate) {
@@ -44,6 +58,7 @@ absl::StatusOr<CertificateFacts> ReadCertificate(std::string_view pem) {
   }
   CertificateFacts facts;
   ORBWEAVE_ASSIGN_OR_RETURN(facts.identity, Identity::FromUri(uris[0]));
+  ORBWEAVE_ASSIGN_OR_RETURN(facts.serial, SerialOf(*certificate));
   ORBWEAVE_ASSIGN_OR_RETURN(facts.begins_unix_s,
                             UnixFromAsn1(X509_get0_notBefore(certificate.get())));
   ORBWEAVE_ASSIGN_OR_RETURN(facts.ends_unix_s, UnixFromAsn1(X509_get0_notAfter(certificate.get())));

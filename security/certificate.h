@@ -12,6 +12,7 @@ namespace orbweave {
 
 struct CertificateFacts {
   Identity identity{};
+  std::string serial{};  ///< upper-case hexadecimal digits, as `openssl x509 -serial` prints them
   int64_t begins_unix_s = 0;
   int64_t ends_unix_s = 0;
 };

@@ -4,7 +4,6 @@
 #include "security/certificate_authority.h"
 
 #include <arpa/inet.h>
-#include <openssl/bn.h>
 #include <openssl/pem.h>
 
 #include <array>
@@ -23,7 +22,7 @@ absl::Status CannotIssue() {
 }
 
 bool SetSerial(X509& certificate) {
-  const std::unique_ptr<BIGNUM, OpenSslDeleter<BN_free>> number(BN_new());
+  const NumberHandle number(BN_new());
   return BN_rand(number.get(), kSerialBits, BN_RAND_TOP_ANY, BN_RAND_BOTTOM_ANY) == 1 &&
          BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(&certificate)) != nullptr;
 }

@@ -38,6 +38,18 @@ absl::StatusOr<CertificateAuthority> LoadAuthority(const std::string& store) {
   return CertificateAuthority::Load(own);
 }
 
+/// The folders in `store` that hold a coordinator's keys.
+std::vector<TlsFolder> CoordinatorFolders(const std::string& store) {
+  std::vector<TlsFolder> folders;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(store, ignored)) {
+    const TlsFolder folder{entry.path().string()};
+    const absl::StatusOr<CertificateFacts> own = CheckTlsFolder(folder);
+    if (own.ok() && own->identity.role == Role::kCoordinator) folders.push_back(folder);
+  }
+  return folders;
+}
+
 absl::Status Copy(const std::string& from, const std::string& to) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadSecretFile(from));
   return WriteSecretFile(to, bytes);
@@ -72,6 +84,10 @@ absl::Status MakeKeyStore(const std::string& store,
 absl::Status AddKeys(const std::string& store, const NewKeys& keys, int64_t now_unix_s) {
   ORBWEAVE_RETURN_IF_ERROR(CheckName(keys.name));
   ORBWEAVE_ASSIGN_OR_RETURN(const CertificateAuthority authority, LoadAuthority(store));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Revocations revoked,
+                            ReadRevocations(AuthorityFolder(store).RevocationsPath()));
+  if (revoked.names.contains(keys.name))
+    return absl::FailedPreconditionError(keys.name + " is revoked: give another name");
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string key, MakePrivateKey());
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string request, MakeCertificateRequest(key));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string certificate,
@@ -83,8 +99,35 @@ absl::Status AddKeys(const std::string& store, const NewKeys& keys, int64_t now_
   const TlsFolder folder{store + "/" + keys.name};
   ORBWEAVE_RETURN_IF_ERROR(MakeOwnFolder(folder.path));
   ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(folder.AuthorityPath(), authority.certificate_pem()));
+  if (keys.role == Role::kCoordinator && revoked != Revocations()) {
+    ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(folder.RevocationsPath(), RevocationsToText(revoked)));
+  }
   ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(folder.KeyPath(), key));
   return WriteSecretFile(folder.CertificatePath(), certificate);
+}
+
+absl::Status Revoke(const std::string& store, const Revocations& more) {
+  const absl::StatusOr<Revocations> checked = RevocationsFromText(RevocationsToText(more));
+  if (!checked.ok() || *checked != more)
+    return absl::InvalidArgumentError("give a participant's name or a certificate's serial number");
+  const TlsFolder authority = AuthorityFolder(store);
+  ORBWEAVE_RETURN_IF_ERROR(ReadSecretFile(authority.AuthorityPath()).status());
+  const std::vector<TlsFolder> coordinators = CoordinatorFolders(store);
+  for (const TlsFolder& folder : coordinators) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const CertificateFacts own, CheckTlsFolder(folder));
+    if (more.names.contains(own.identity.name) || more.serials.contains(own.serial)) {
+      return absl::InvalidArgumentError(
+          own.identity.name + " is a coordinator, whose callers would not ask: make new keys");
+    }
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(Revocations revoked, ReadRevocations(authority.RevocationsPath()));
+  revoked.names.insert(more.names.begin(), more.names.end());
+  revoked.serials.insert(more.serials.begin(), more.serials.end());
+  const std::string text = RevocationsToText(revoked);
+  ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(authority.RevocationsPath(), text));
+  for (const TlsFolder& folder : coordinators)
+    ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(folder.RevocationsPath(), text));
+  return absl::OkStatus();
 }
 
 absl::Status WriteJoinToken(const std::string& store,

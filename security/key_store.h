@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "security/identity.h"
+#include "security/revocations.h"
 
 namespace orbweave {
 
-/// The folder that `orbweave keys` keeps: `authority/` (ca.crt, ca.key, token.key) and one
+/// The folder that `orbweave keys` keeps: `authority/` (ca.crt, ca.key, token.key, revoked) and one
 /// TlsFolder per name. All files have mode 0600, all folders 0700. Nothing is ever overwritten.
 
 /// A new fleet: its authority, and folders `coordinator`, `client` and `admin`. The coordinator's
@@ -28,9 +29,15 @@ struct NewKeys {
 };
 
 /// A new key and certificate in the TlsFolder `store/name`. AlreadyExists: the name is taken.
+/// FailedPrecondition: it is revoked.
 [[nodiscard]] absl::Status AddKeys(const std::string& store,
                                    const NewKeys& keys,
                                    int64_t now_unix_s);
+
+/// Shuts out `more`, for good: adds them to what is revoked in `authority/` and in the folders of
+/// all coordinators, who heed it from the next call on. InvalidArgument: no such name or serial can
+/// be, or it is a coordinator's, whose callers would not ask. NotFound: no key store.
+[[nodiscard]] absl::Status Revoke(const std::string& store, const Revocations& more);
 
 /// A join token for a worker, written to `path`. NotFound: no key store.
 [[nodiscard]] absl::Status WriteJoinToken(const std::string& store,

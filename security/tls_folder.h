@@ -17,6 +17,8 @@ struct TlsFolder {
   /// The process's own certificate, and the chain behind it, and its private key.
   [[nodiscard]] std::string CertificatePath() const { return path + "/own.crt"; }
   [[nodiscard]] std::string KeyPath() const { return path + "/own.key"; }
+  /// Whom a coordinator no longer takes, see Revocations; need not be there.
+  [[nodiscard]] std::string RevocationsPath() const { return path + "/revoked"; }
   /// With these two, a coordinator takes join tokens: the authority's key and MakeTokenKey's.
   [[nodiscard]] std::string AuthorityKeyPath() const { return path + "/ca.key"; }
   [[nodiscard]] std::string TokenKeyPath() const { return path + "/token.key"; }

@@ -54,7 +54,8 @@ v1::JobRequest RequestFor(const Digest& job) {
 GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
                                              std::stop_token stop,
                                              const ClientOptions& options)
-    : channel_(OpenChannel(address, options.tls_folder)),
+    : handshake_(address, options.tls_folder),
+      channel_(OpenChannel(address, options.tls_folder)),
       stub_(v1::Coordinator::NewStub(channel_)),
       stop_(std::move(stop)),
       roots_(options.roots) {}
@@ -110,9 +111,9 @@ absl::Status GrpcCoordinatorClient::Write(const Digest& digest,
 }
 
 absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::JoinReply reply,
-                            Call(&Stub::Join, ToProto(worker), kQuick_s));
-  return FromProto(reply);
+  const auto reply = Call(&Stub::Join, ToProto(worker), kQuick_s);
+  if (!reply.ok()) return handshake_.Explain(reply.status());
+  return FromProto(*reply);
 }
 
 absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t session,
@@ -126,7 +127,8 @@ absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t s
   Begin(context, wait_s + kQuick_s);
   const std::stop_callback on_stop(stop_, [&context] { context.TryCancel(); });
   v1::LeaseTaskReply reply;
-  ORBWEAVE_RETURN_IF_ERROR(FromWire(stub_->LeaseTask(&context, request, &reply)));
+  ORBWEAVE_RETURN_IF_ERROR(
+      handshake_.Explain(FromWire(stub_->LeaseTask(&context, request, &reply))));
   if (!reply.has_lease()) return std::nullopt;
   ORBWEAVE_ASSIGN_OR_RETURN(Lease lease, FromProto(reply.lease()));
   return lease;
@@ -137,9 +139,9 @@ absl::StatusOr<HeartbeatReply> GrpcCoordinatorClient::Heartbeat(
   v1::HeartbeatRequest request;
   request.set_session(session);
   for (const LeaseProgress& lease : leases) *request.add_leases() = ToProto(lease);
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::HeartbeatReply reply,
-                            Call(&Stub::Heartbeat, request, kQuick_s));
-  return FromProto(reply);
+  const auto reply = Call(&Stub::Heartbeat, request, kQuick_s);
+  if (!reply.ok()) return handshake_.Explain(reply.status());
+  return FromProto(*reply);
 }
 
 absl::Status GrpcCoordinatorClient::CompleteTask(uint64_t session,

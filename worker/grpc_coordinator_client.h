@@ -9,6 +9,7 @@
 
 #include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
+#include "worker/refused_handshake.h"
 
 namespace orbweave {
 
@@ -19,7 +20,8 @@ struct ClientOptions {
 };
 
 /// CoordinatorApi at the other end of a gRPC channel (see OpenChannel). While it is not connected
-/// calls are Unavailable, as is a blob that was damaged on its way. Thread-safe.
+/// calls are Unavailable, as is a blob that was damaged on its way; a worker's calls are
+/// Unauthenticated when it will never be, see RefusedHandshake. Thread-safe.
 class GrpcCoordinatorClient final : public CoordinatorApi {
  public:
   /// `address` as the server prints it. `stop` ends a waiting LeaseTask with Cancelled.
@@ -82,6 +84,7 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
                                            const Request& request,
                                            double timeout_s);
 
+  RefusedHandshake handshake_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::Coordinator::Stub> stub_;
   std::stop_token stop_;

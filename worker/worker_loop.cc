@@ -35,6 +35,11 @@ LogEvent Describe(const Lease& lease, const std::string& event, const std::strin
           .message = message};
 }
 
+/// The coordinator will not have us: waiting does not help.
+bool IsRefusal(const absl::Status& status) {
+  return absl::IsPermissionDenied(status) || absl::IsUnauthenticated(status);
+}
+
 class Worker {
  public:
   Worker(CoordinatorApi& api, const MakeTaskExecutor& make_executor, const WorkerOptions& options)
@@ -116,6 +121,8 @@ class Worker {
         session_.Forget(session->session);
       } else if (absl::IsCancelled(lease.status())) {
         draining_.request_stop();
+      } else if (IsRefusal(lease.status())) {
+        End(lease.status());
       } else if (!draining_.stop_requested()) {
         Log({.level = LogLevel::kWarning,
              .event = "coordinator_away",
@@ -196,6 +203,7 @@ class Worker {
     }
     const absl::StatusOr<HeartbeatReply> reply = api_.Heartbeat(session->session, leases_.List());
     if (absl::IsNotFound(reply.status())) session_.Forget(session->session);
+    if (IsRefusal(reply.status())) End(reply.status());
     if (!reply.ok()) return kSoon;
     for (const Digest& task : reply->cancelled) leases_.StopTask(task);
     if (reply->shutdown) End(absl::OkStatus());

@@ -26,7 +26,7 @@ struct WorkerOptions {
 /// finishes those that run, and leaves; what is not done within the grace after `stop` is given
 /// back, and so is all when the coordinator shuts down. Outlasts a coordinator that is away for a
 /// while. Returns OK after leaving; FailedPrecondition when the coordinator does not take this
-/// worker (another version).
+/// worker (another version); PermissionDenied or Unauthenticated when it refuses its certificate.
 [[nodiscard]] absl::Status RunWorker(CoordinatorApi& api,
                                      const MakeTaskExecutor& make_executor,
                                      const WorkerOptions& options,

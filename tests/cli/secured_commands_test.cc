@@ -171,6 +171,41 @@ TEST_F(SecuredCommands, AWorkerThatTakesAnothersNameIsRefused) {
   EXPECT_THAT(posing.err, HasSubstr("not as 'node8'"));
 }
 
+TEST_F(SecuredCommands, ARevokedWorkerSaysSoAndEnds) {
+  ASSERT_EQ(RunCommand(Orbweave({"keys", "add", keys_, "worker", "node7"})).exit_code, kExitOk);
+  const std::vector<std::string> work =
+      Orbweave({"work", "--join", Address(), "--tls", keys_ + "/node7"});
+  Command worker(work);
+  ASSERT_TRUE(CoordinatorSays("worker_joined")) << worker.ErrSoFar();
+  const CommandOutcome revoked = RunCommand(Orbweave({"keys", "revoke", keys_, "node7"}));
+  ASSERT_EQ(revoked.exit_code, kExitOk) << revoked.err;
+  const CommandOutcome ended = worker.Wait();
+  EXPECT_EQ(ended.exit_code, kExitUsage);
+  EXPECT_THAT(ended.err, HasSubstr("orbweave: orbweave://city/worker/node7 is revoked"));
+  serve_->Signal(SIGKILL);
+  serve_->Wait();
+  Serve("0.0.0.0:" + port_);
+  EXPECT_EQ(RunCommand(work).exit_code, kExitUsage) << "also by a coordinator that came back";
+  EXPECT_EQ(Status(keys_ + "/client").exit_code, kExitOk);
+}
+
+TEST_F(SecuredCommands, AWorkerOfAnotherAuthoritySaysSoAndEnds) {
+  const std::string foreign = folder_ / "foreign";
+  ASSERT_EQ(RunCommand(Orbweave({"keys", "init", foreign, "--fleet", "city"})).exit_code, kExitOk);
+  ASSERT_EQ(RunCommand(Orbweave({"keys", "add", foreign, "worker", "node7"})).exit_code, kExitOk);
+  const std::vector<std::string> work =
+      Orbweave({"work", "--join", Address(), "--tls", foreign + "/node7"});
+  const CommandOutcome deceived = RunCommand(work);
+  EXPECT_EQ(deceived.exit_code, kExitUsage);
+  EXPECT_THAT(deceived.err, HasSubstr("certificate of the coordinator"));
+  std::filesystem::copy_file(keys_ + "/client/ca.crt",
+                             foreign + "/node7/ca.crt",
+                             std::filesystem::copy_options::overwrite_existing);
+  const CommandOutcome refused = RunCommand(work);
+  EXPECT_EQ(refused.exit_code, kExitUsage);
+  EXPECT_THAT(refused.err, HasSubstr("refuses the certificate"));
+}
+
 /// What `orbweave` would do with these arguments.
 int BeTheCommand(int argc, char** argv) {
   const testing::StageMap stages = testing::ToyStages();

@@ -98,7 +98,7 @@ TEST(Certificates, OfAnotherFleetUnderTheSameAuthorityAreRefused) {
 TEST(Certificates, ThatHaveEndedAreRefused) {
   TlsServer server;
   ASSERT_TRUE(AddKeys(server.keys(), {.name = "late", .valid_s = 60}, UnixNow() - 3600).ok());
-  EXPECT_TRUE(absl::IsUnavailable(server.As("late")->Join(Worker("late")).status()));
+  EXPECT_TRUE(absl::IsUnauthenticated(server.As("late")->Join(Worker("late")).status()));
 }
 
 TEST(Sessions, BelongToTheCertificateThatBeganThem) {
