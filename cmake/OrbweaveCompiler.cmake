@@ -26,6 +26,6 @@ endif()
 add_compile_options(-ffp-contract=off)
 
 if(ORBWEAVE_SANITIZE)
-  add_compile_options(-fsanitize=${ORBWEAVE_SANITIZE} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${ORBWEAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ORBWEAVE_SANITIZE})
 endif()

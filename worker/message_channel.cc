@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -24,6 +25,8 @@ struct Header {
 
 /// More than any message of ours; a header beyond it is none.
 constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+/// Memory is taken as bytes come, so much at a time: a header alone is no reason to.
+constexpr size_t kPieceBytes = size_t{1} << 20;
 
 union ControlBuffer {
   cmsghdr alignment;
@@ -67,9 +70,12 @@ ssize_t ReceiveHeader(int socket, Header& header, FileDescriptor& file) {
   const ssize_t received = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC | MSG_WAITALL);
   if (received <= 0) return received;
   const cmsghdr* const rights = CMSG_FIRSTHDR(&message);
-  if (rights != nullptr && rights->cmsg_type == SCM_RIGHTS) {
+  if (rights == nullptr || rights->cmsg_level != SOL_SOCKET || rights->cmsg_type != SCM_RIGHTS)
+    return received;
+  // The buffer has room for a second file behind the first, which must not stay open.
+  for (size_t i = 0; CMSG_LEN((i + 1) * sizeof(int)) <= rights->cmsg_len; ++i) {
     int fd = -1;
-    std::memcpy(&fd, CMSG_DATA(rights), sizeof(int));
+    std::memcpy(&fd, CMSG_DATA(rights) + i * sizeof(int), sizeof(int));
     file = FileDescriptor(fd);
   }
   return received;
@@ -114,6 +120,16 @@ absl::Status MessageChannel::ReceiveAll(void* bytes, size_t size) {
   return absl::OkStatus();
 }
 
+absl::StatusOr<std::string> MessageChannel::ReceiveText(size_t size) {
+  std::string text;
+  while (text.size() < size) {
+    const size_t piece = std::min(size - text.size(), kPieceBytes);
+    text.resize(text.size() + piece);
+    ORBWEAVE_RETURN_IF_ERROR(ReceiveAll(text.data() + text.size() - piece, piece));
+  }
+  return text;
+}
+
 absl::Status MessageChannel::Send(std::string_view message, const SharedBytes& bulk) {
   const bool has_file = bulk.descriptor() >= 0;
   const std::string_view inlined = has_file ? std::string_view() : bulk.View();
@@ -145,13 +161,11 @@ absl::StatusOr<Frame> MessageChannel::Receive() {
     return absl::DataLossError("the other process sent what is no frame");
   }
   Frame frame;
-  frame.message.resize(header.message_bytes);
-  ORBWEAVE_RETURN_IF_ERROR(ReceiveAll(frame.message.data(), frame.message.size()));
+  ORBWEAVE_ASSIGN_OR_RETURN(frame.message, ReceiveText(header.message_bytes));
   if (file.IsOpen()) {
     ORBWEAVE_ASSIGN_OR_RETURN(frame.bulk, SharedBytes::FromFile(std::move(file)));
   } else if (header.bulk_bytes > 0) {
-    std::string bytes(header.bulk_bytes, '\0');
-    ORBWEAVE_RETURN_IF_ERROR(ReceiveAll(bytes.data(), bytes.size()));
+    ORBWEAVE_ASSIGN_OR_RETURN(std::string bytes, ReceiveText(header.bulk_bytes));
     frame.bulk = SharedBytes::Of(std::move(bytes));
   }
   return frame;

@@ -40,6 +40,7 @@ class MessageChannel {
  private:
   [[nodiscard]] absl::Status SendAll(std::string_view bytes);
   [[nodiscard]] absl::Status ReceiveAll(void* bytes, size_t size);
+  [[nodiscard]] absl::StatusOr<std::string> ReceiveText(size_t size);
 
   FileDescriptor socket_;
 };

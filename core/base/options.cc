@@ -24,7 +24,7 @@ absl::StatusOr<double> DoubleFromText(std::string_view text) {
 }
 
 absl::StatusOr<int64_t> IntFromText(std::string_view text) {
-  int64_t value = 0;
+  int32_t value = 0;  // what every whole option fits into: a larger one must not wrap
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end.ec != std::errc() || end.ptr != text.data() + text.size()) {
     return absl::InvalidArgumentError("'" + std::string(text) + "' is not a whole number");

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
 #include "core/base/status.h"
 #include "core/features/image_header.h"
@@ -22,6 +23,8 @@ std::string SizeText(int width, int height) {
 absl::StatusOr<cv::Mat> Decode(std::string_view encoded, int flags) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageHeader header, ReadImageHeader(encoded));
   if (!header.complete) return absl::InvalidArgumentError("the file is truncated");
+  if (!std::in_range<int>(encoded.size()))
+    return absl::InvalidArgumentError("the file is larger than 2 GiB");
   cv::Mat image;
   try {
     const cv::Mat bytes(1,

@@ -90,6 +90,7 @@ ImageHeader ReadTiff(std::string_view data, Endian endian) {
   const size_t directory = bytes.U32(4);
   for (uint32_t i = 0; i < bytes.U16(directory); ++i) {
     const size_t entry = directory + 2 + size_t{12} * i;
+    if (entry >= bytes.size()) break;
     const uint32_t tag = bytes.U16(entry);
     const bool is_short = bytes.U16(entry + 2) == 3;
     const uint32_t value = is_short ? bytes.U16(entry + 8) : bytes.U32(entry + 8);

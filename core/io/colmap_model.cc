@@ -40,7 +40,10 @@ absl::Status ReadCameras(const std::string& path, ColmapModel& model) {
                        "; only EQUIRECTANGULAR (17) and SPHERE (11) are spherical"));
     }
     for (int i = 0; i < (kind == kColmapSphereId ? 3 : 2); ++i) in.Take<double>();
-    if (!in.ok() || width_px > kMaxSidePx || height_px > kMaxSidePx) return Damaged(path, in);
+    if (!in.ok() || width_px == 0 || width_px > kMaxSidePx || height_px == 0 ||
+        height_px > kMaxSidePx) {
+      return Damaged(path, in);
+    }
     camera.camera = {static_cast<int>(width_px), static_cast<int>(height_px)};
   }
   return in.ok() && in.AtEnd() ? absl::OkStatus() : Damaged(path, in);

@@ -54,7 +54,7 @@ std::optional<double> Degrees(const Exiv2::ExifData& exif,
   const double value = *degrees + minutes / 60.0 + seconds / 3600.0;
   const std::string reference = Text(exif, reference_key);
   const bool negative = reference.starts_with('S') || reference.starts_with('W');
-  if (value > limit) return std::nullopt;
+  if (std::abs(value) > limit) return std::nullopt;
   return negative ? -value : value;
 }
 

@@ -65,7 +65,7 @@ absl::StatusOr<std::map<std::string, Rigid3>> ParseReferencePoses(std::string_vi
       }
     }
     const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
-    if (!(q.norm() > 0.5))
+    if (!(q.norm() > 0.5 && q.norm() < 2.0))
       return Error(source, line_number, "the quaternion is not of unit length");
     poses[cells[columns[0]]] =
         Rigid3::FromCentre(q.normalized(), Eigen::Vector3d(v[0], v[1], v[2]));

@@ -9,7 +9,9 @@
 namespace orbweave {
 namespace {
 
-absl::Status UnknownOption(std::string_view name) {
+absl::Status UnknownOption(std::string_view given) {
+  constexpr size_t kLongestShown = 80;
+  const std::string_view name = given.substr(0, kLongestShown);
   std::vector<std::string> known;
   for (const OptionInfo& info : DescribePipelineOptions({})) known.push_back(info.name);
   return absl::InvalidArgumentError("there is no option '" + std::string(name) +

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/base/digest.h"
@@ -69,11 +70,12 @@ absl::StatusOr<Rigid3> FromProto(const v1::Rigid3& proto);
 void ToProto(const Sim3& value, v1::Sim3* proto);
 absl::StatusOr<Sim3> FromProto(const v1::Sim3& proto);
 
-/// Parses `bytes` as a message; DataLoss names `what`.
+/// Parses `bytes` as a message, which has less than 2 GiB; DataLoss names `what`.
 template <typename Message>
 absl::StatusOr<Message> Parse(std::string_view bytes, const char* what) {
   Message message;
-  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+  if (!std::in_range<int>(bytes.size()) ||
+      !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
     return absl::DataLossError(std::string(what) + ": not a valid artifact");
   }
   return message;

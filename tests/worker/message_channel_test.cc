@@ -7,6 +7,10 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <iterator>
 #include <thread>
 
 namespace orbweave {
@@ -64,6 +68,36 @@ TEST(MessageChannel, RefusesWhatIsNoFrame) {
   const std::string noise(100, '\xff');
   ASSERT_EQ(::send(connection.left.descriptor(), noise.data(), noise.size(), 0), 100);
   EXPECT_TRUE(absl::IsDataLoss(connection.right.Receive().status()));
+}
+
+/// Sends a header that promises nothing, and `files` along with it.
+void SendWithFiles(int socket, const std::array<int, 2>& files) {
+  std::array<char, 24> header{};
+  iovec part{header.data(), header.size()};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(files))> control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  cmsghdr* const rights = CMSG_FIRSTHDR(&message);
+  rights->cmsg_level = SOL_SOCKET;
+  rights->cmsg_type = SCM_RIGHTS;
+  rights->cmsg_len = CMSG_LEN(sizeof(files));
+  std::memcpy(CMSG_DATA(rights), files.data(), sizeof(files));
+  ASSERT_EQ(::sendmsg(socket, &message, 0), 24);
+}
+
+TEST(MessageChannel, KeepsNoFileOpenThatNobodyAskedFor) {
+  const auto open_files = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+  };
+  Connection connection = Connect();
+  const FileDescriptor file(::memfd_create("unasked", MFD_CLOEXEC));
+  const auto before = open_files();
+  SendWithFiles(connection.left.descriptor(), {file.get(), file.get()});
+  EXPECT_TRUE(absl::IsDataLoss(connection.right.Receive().status()));
+  EXPECT_EQ(open_files(), before);
 }
 
 TEST(SharedBytes, RefusesAFileThatMayStillChange) {

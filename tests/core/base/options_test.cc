@@ -65,6 +65,8 @@ TEST(Options, RefuseWhatDoesNotFitAndStayAsTheyWere) {
   EXPECT_EQ(SetOption(options, "sugar", "much").code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(SetOption(options, "sugar", "nan").code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(SetOption(options, "jars", "2.5").code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(SetOption(options, "jars", "4294967299").code(), absl::StatusCode::kInvalidArgument)
+      << "it would wrap to 3";
   EXPECT_EQ(SetOption(options, "jars", "0").code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(SetOption(options, "lids", "maybe").code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(SetOption(options, "flavour", "bitter").code(), absl::StatusCode::kInvalidArgument);

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "proto/codec/adjustment_codec.h"
+#include "proto/codec/block_codec.h"
+#include "tests/fuzz/artifact_values.h"
+#include "tests/fuzz/seeds.h"
+
+namespace orbweave {
+namespace {
+
+WorldBlock SmallBlock() {
+  WorldBlock block{.cluster = 3, .scene = TwoViewsOfAPoint(), .gravity_sigma_rad = 0.1};
+  block.images = {{.id = ImageId(0), .camera = {64, 32}, .is_owned = true, .is_held = true},
+                  {.id = ImageId(2), .camera = {64, 32}, .is_separator = true}};
+  block.split = {{.id = 5, .part = block.scene.tracks[0]}};
+  block.priors = {{.image = ImageId(0), .bias_group = 1}, {.image = ImageId(2)}};
+  block.biases = {{.group = 1, .is_separator = true, .sigma_m = 2.0}};
+  block.farthest = ImageId(2);
+  return block;
+}
+
+/// Two variables that share a block.
+SeparatorSystem SmallSystem() {
+  SymmetricBlockMatrix S{.num_blocks = 2, .column_start = {0, 1, 3}, .rows = {0, 0, 1}};
+  S.values.assign(3, Block6::Identity());
+  return {.variables = {{SeparatorId::Kind::kPose, 2}, {SeparatorId::Kind::kPoint, 5}},
+          .normal = MakeNormalSystem(std::move(S))};
+}
+
+BlockSummary SmallSummary() {
+  BlockSummary summary{.cluster = 3,
+                       .owned_images = TwoViewsOfAPoint().images,
+                       .observations_of_image = {{ImageId(0), 1}, {ImageId(2), 1}},
+                       .biases = SmallBlock().biases};
+  summary.pattern.count[0] = 1;
+  return summary;
+}
+
+GlobalAdjustReport SmallReport() {
+  GlobalAdjustReport report{.accepted_costs = {{2.0, 1.0}}, .bytes_of_block = {100}};
+  report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
+  report.uncertainty = {.known = true, .held_image = "b.jpg"};
+  report.adjustments.push_back({.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
+  report.unobserved_images = {"c.jpg"};
+  return report;
+}
+
+}  // namespace
+
+void AddAdjustmentSeeds(Seeds& seeds) {
+  const Digest digest = DigestOf("blob");
+  const WorldBlock block = SmallBlock();
+  seeds["world_block"] = {EncodeWorldBlock(block), EncodeWorldBlock({})};
+  seeds["assemble_recipe"] = {
+      EncodeAssembleRecipe({.joined = {.block = block, .components = {{.component = 1}}},
+                            .cluster_result = digest,
+                            .shared = {ImageId(2)}})};
+  seeds["joined_worlds"] = {EncodeJoinedWorlds(
+      {{.georeference = {.enu_from_world = Sim3{}, .reason = "r"}, .num_images = 2},
+       {.num_blocks = 1}})};
+  EvaluatedState state;
+  state.variables.poses = {{}, {}};
+  state.variables.points = {{1, 2, 3}};
+  state.variables.biases = {{0, 0, 1}};
+  state.costs.per_point = {0.5};
+  state.kept_points_before = {{1, 2, 2}};
+  seeds["block_state"] = {EncodeBlockState(state)};
+  BlockTask task{.block = digest, .state = digest};
+  task.order.shortened = {{5, 0.25}};
+  task.order.step = {.variables = {{SeparatorId::Kind::kPose, 2}}, .steps = {Vector6::Ones()}};
+  seeds["block_task"] = {EncodeBlockTask(task)};
+  BlockResult result{.block = digest, .state = digest};
+  result.answer.separators = SmallSystem().variables;
+  result.answer.system = SmallSystem();
+  result.answer.trial.kept_points = {{.cost_before = 1.0}};
+  result.answer.summary = SmallSummary();
+  seeds["block_result"] = {EncodeBlockResult(result)};
+  AdjustmentProgress progress{.worlds = {{.phase = 1, .report = SmallReport()}}, .is_asked = {1}};
+  progress.worlds[0].path.separators_of_block = {SmallSystem().variables};
+  progress.blocks = {{.block = digest, .state = digest, .summary = SmallSummary()}};
+  seeds["adjustment_progress"] = {EncodeAdjustmentProgress(progress)};
+  ConcludedModel model{.worlds = {{.images = TwoViewsOfAPoint().images, .report = SmallReport()}},
+                       .blocks = {{digest}}};
+  model.worlds[0].seams = {{.cluster_a = 1, .cluster_b = 3, .num_images = 2}};
+  seeds["concluded_model"] = {EncodeConcludedModel(model)};
+}
+
+}  // namespace orbweave

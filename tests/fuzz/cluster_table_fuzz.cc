@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/cluster_table.h"
+#include "tests/fuzz/round_trip.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::vector<std::string> images = {"a/1.jpg", "a/2.jpg", "b/1.jpg"};
+  const auto clusters = orbweave::ReadClusterTable(orbweave::BytesOf(data, size), "table", images);
+  if (!clusters.ok()) return 0;
+  for (const std::string& image : images) ORBWEAVE_CHECK(!clusters->at(image).empty());
+  return 0;
+}

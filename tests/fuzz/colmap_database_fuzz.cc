@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/io/colmap_database.h"
+#include "tests/fuzz/temporary_folder.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const orbweave::TemporaryFolder folder;
+  const auto database =
+      orbweave::ReadColmapDatabase(folder.Write("database.db", orbweave::BytesOf(data, size)));
+  if (!database.ok()) return 0;
+  for (const orbweave::TwoViewGeometry& pair : database->pairs) {
+    ORBWEAVE_CHECK(pair.pair.a < pair.pair.b && pair.pair.b.value < database->images.size());
+    for (const orbweave::FeatureMatch& match : pair.inliers) {
+      ORBWEAVE_CHECK(match.a < database->images[pair.pair.a.value].keypoints.size());
+      ORBWEAVE_CHECK(match.b < database->images[pair.pair.b.value].keypoints.size());
+    }
+  }
+  return 0;
+}

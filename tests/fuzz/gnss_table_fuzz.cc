@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+
+#include "core/io/gnss_table.h"
+#include "tests/fuzz/round_trip.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const auto table = orbweave::ParseGnssTable(orbweave::BytesOf(data, size), "table");
+  if (!table.ok()) return 0;
+  ORBWEAVE_CHECK(!table->rows.empty());
+  for (const orbweave::GnssRow& row : table->rows) {
+    ORBWEAVE_CHECK(!row.name.empty() &&
+                   row.geodetic.has_value() != row.position_in_local.has_value());
+    if (row.position_in_local) ORBWEAVE_CHECK(row.position_in_local->allFinite());
+    if (!row.geodetic) continue;
+    ORBWEAVE_CHECK(std::abs(row.geodetic->latitude_deg) <= 90.0);
+    ORBWEAVE_CHECK(std::abs(row.geodetic->longitude_deg) <= 180.0);
+    ORBWEAVE_CHECK(std::isfinite(row.geodetic->altitude_m));
+  }
+  return 0;
+}

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/features/decode_panorama.h"
+#include "tests/fuzz/round_trip.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  constexpr int kMaxWidth_px = 128;
+  const auto image = orbweave::DecodePanorama(orbweave::BytesOf(data, size), kMaxWidth_px);
+  if (!image.ok()) return 0;
+  ORBWEAVE_CHECK(image->cols > 0 && image->cols <= kMaxWidth_px && image->type() == CV_8UC3);
+  return 0;
+}

@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "security/certificate_request.h"
+#include "tests/fuzz/round_trip.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const auto request = orbweave::MakeCertificateRequest(orbweave::BytesOf(data, size));
+  if (request.ok()) ORBWEAVE_CHECK(request->starts_with("-----BEGIN CERTIFICATE REQUEST-----"));
+  return 0;
+}

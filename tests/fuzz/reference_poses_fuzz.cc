@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+
+#include "core/io/reference_poses.h"
+#include "tests/fuzz/round_trip.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const auto poses = orbweave::ParseReferencePoses(orbweave::BytesOf(data, size), "table");
+  if (!poses.ok()) return 0;
+  for (const auto& [name, pose] : *poses) {
+    ORBWEAVE_CHECK(std::abs(pose.rotation.norm() - 1.0) < 1e-9);
+    ORBWEAVE_CHECK(pose.translation.allFinite());
+  }
+  return 0;
+}

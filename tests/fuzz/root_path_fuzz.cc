@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <filesystem>
+
+#include "coordinator/file_roots.h"
+#include "tests/fuzz/temporary_folder.h"
+
+namespace {
+
+/// A root with a file, a link within and one that leads out to the file beside it.
+orbweave::FileRoots MakeRoots(const orbweave::TemporaryFolder& folder) {
+  const std::string root = folder.path() + "/root";
+  std::filesystem::create_directories(root + "/a");
+  folder.Write("root/a/b", "inside");
+  folder.Write("outside", "outside");
+  std::filesystem::create_symlink("a/b", root + "/in");
+  std::filesystem::create_symlink("../outside", root + "/out");
+  return {{"r", std::filesystem::canonical(root).string()}};
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const orbweave::TemporaryFolder folder;
+  static const orbweave::FileRoots roots = MakeRoots(folder);
+  const std::string path(orbweave::BytesOf(data, size));
+  const auto file = orbweave::ResolveBeneath(roots, "r", path);
+  if (file.ok()) ORBWEAVE_CHECK(*file == roots.at("r") + "/a/b");
+  return 0;
+}

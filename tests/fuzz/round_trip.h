@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/base/status.h"
+
+/// What every fuzz target defines: takes any bytes, ends the process when a law is broken.
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
+
+namespace orbweave {
+
+[[nodiscard]] inline std::string_view BytesOf(const uint8_t* data, size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+/// The law of a codec: what `decode` takes, `encode` turns into bytes that mean the same, as often
+/// as one likes. (The bytes given need not be those: fields may come in any order.)
+template <typename Decode, typename Encode>
+void CheckRoundTrip(std::string_view bytes, Decode decode, Encode encode) {
+  const auto value = decode(bytes);
+  if (!value.ok()) return;
+  const std::string encoded = encode(*value);
+  const auto again = decode(encoded);
+  ORBWEAVE_CHECK(again.ok());
+  ORBWEAVE_CHECK(encode(*again) == encoded);
+}
+
+}  // namespace orbweave

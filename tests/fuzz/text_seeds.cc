@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/base/digest.h"
+#include "core/stages/pipeline_options.h"
+#include "tests/fuzz/seeds.h"
+
+namespace orbweave {
+
+void AddTextSeeds(Seeds& seeds) {
+  seeds["gnss_table"] = {
+      "name,latitude,longitude,altitude,accuracy,heading,time,drive\n"
+      "a.jpg,47.5,8.5,400,1.5,90,2016:11:13 11:16:31.5+02:00,one\n"
+      "\"b,c.jpg\",47.6,8.6,401,,,2016-11-13T11:16:31Z,two\n",
+      "SourceFile;GPSLatitude;GPSLongitude\r\nd\\a.jpg;47 deg 36' 36.70\" N;8 deg 30' 0\" E\r\n",
+      "name\tx\ty\tz\na.jpg\t1\t2\t3\n",
+      "#F=N X Y Z R\na.jpg 8.5 47.5 400 1 0 0 0 1 0 0 0 1\nb.jpg 8.6 47.6 401\n",
+      "name,latitude,longitude\na.jpg,147.5,8.5\n"};
+  seeds["cluster_table"] = {"name,cluster\na/1.jpg,north\na/2.jpg,north\nb/1.jpg,\"south, old\"\n",
+                            "Cluster,Name,more\n1,1.jpg,x\n"};
+  seeds["reference_poses"] = {
+      "name,x,y,z,qw,qx,qy,qz\na.jpg,1,2,3,1,0,0,0\nb.jpg,1,2,3,0.6,0,0.8,0\n"};
+  seeds["pipeline_options"] = {PipelineOptionsToText({}),
+                               "features.max_image_width_px=4294967301\n",
+                               std::string(3000, 'x') + "=1\n",
+                               "# comment\nfeatures.max_image_width_px = 1024\n"};
+  seeds["option_sections"] = {"align.a=1\nmerge.b=2\nfeatures.c=3\n", "sparse"};
+  seeds["root_path"] = {"a/b", "in", "out", "a/../a/b", "../outside", "/etc/passwd"};
+  seeds["printable_text"] = {"Straße \x1b[2J\n<b> \xe2\x80\xae\xff \xc2\x9b\xf0\x9f\x9a\x8b"};
+  seeds["listen_address"] = {"127.0.0.1:7000", "unix:/run/orbweave.sock", "[::1]:0", "0.0.0.0:1"};
+  seeds["identity"] = {"orbweave://city/worker/node7"};
+  seeds["revocations"] = {"name node7\nserial 0A1B\n"};
+  seeds["digest"] = {DigestOf("blob").ToHex()};
+}
+
+}  // namespace orbweave
