@@ -36,7 +36,7 @@ struct Orientated {
   }
   [[nodiscard]] size_t NumRegistered() const {
     size_t n = 0;
-    for (const GloballyAdjusted& world : worlds) n += world.reconstruction.images.size();
+    for (const testing::GloballyAdjusted& world : worlds) n += world.reconstruction.images.size();
     return n;
   }
 };

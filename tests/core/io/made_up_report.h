@@ -42,8 +42,12 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
   for (size_t n = 2; n < 21; ++n)
     report.track_lengths[n] =
         static_cast<uint64_t>(14000.0 * std::exp(-0.38 * (static_cast<double>(n) - 2.0)));
-  report.gnss = {
-      true, "", num_images, num_images - 2, 0.84, 1.02, {"IMG_0020.jpg", "IMG_0060.jpg"}};
+  report.gnss = {.used = true,
+                 .num_priors = num_images,
+                 .num_inliers = num_images - 2,
+                 .residual_median_m = 0.84,
+                 .residual_rms_inliers_m = 1.02,
+                 .outliers = {"IMG_0020.jpg", "IMG_0060.jpg"}};
   report.origin = GeodeticPosition{47.61019, -122.32385, 60.0};
   for (uint32_t c = 0; c < num_clusters; ++c)
     report.clusters.push_back({num_images / num_clusters + 8,
