@@ -11,7 +11,6 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <utility>
 
 #include "core/base/status.h"
 
@@ -22,78 +21,35 @@ constexpr uint32_t kNoPart = std::numeric_limits<uint32_t>::max();
 // Sum of all weights handed to METIS: far from the end of a 32-bit idx_t.
 constexpr double kTotalWeight = 2.0e8;
 
-// METIS counts costs in whole numbers: so many are an image of cost 1.
-constexpr double kCostUnits = 64.0;
-
-// The groups of a piece in METIS's compressed rows, numbered in order of their first image.
+// The piece in METIS's compressed rows, images numbered by position.
 struct MetisGraph {
   std::vector<idx_t> begin{0};
   std::vector<idx_t> neighbour{};
   std::vector<idx_t> weight{};
-  std::vector<idx_t> cost{};      // per group
-  std::vector<idx_t> group_of{};  // per image of the piece
 };
 
-class MetisGraphBuilder {
- public:
-  explicit MetisGraphBuilder(const ConnectedPiece& piece) : piece_(piece) {}
-
-  MetisGraph Build() {
-    NumberGroups();
-    const double scale = std::min(1.0, kTotalWeight / TotalWeight());
-    for (const std::vector<uint32_t>& members : members_) AddRow(members, scale);
-    return std::move(graph_);
+MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
+  const auto position = [&](uint32_t image) {
+    return static_cast<idx_t>(std::lower_bound(piece.images.begin(), piece.images.end(), image) -
+                              piece.images.begin());
+  };
+  double total = 0.0;
+  for (const uint32_t image : piece.images) {
+    for (const Adjacency::Link& link : piece.adjacency.Of(image))
+      total += piece.edge_weight[link.edge];
   }
-
- private:
-  void NumberGroups() {
-    std::map<uint32_t, idx_t> number_of_first;
-    for (const uint32_t image : piece_.images) {
-      const auto next = static_cast<idx_t>(members_.size());
-      const auto [entry, is_new] = number_of_first.emplace(piece_.group_of[image], next);
-      if (is_new) members_.emplace_back();
-      members_[static_cast<size_t>(entry->second)].push_back(image);
-      graph_.group_of.push_back(entry->second);
+  const double scale = std::min(1.0, kTotalWeight / total);
+  MetisGraph graph;
+  for (const uint32_t image : piece.images) {
+    for (const Adjacency::Link& link : piece.adjacency.Of(image)) {
+      graph.neighbour.push_back(position(link.image));
+      const double weight = std::round(scale * piece.edge_weight[link.edge]);
+      graph.weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(weight)));
     }
+    graph.begin.push_back(static_cast<idx_t>(graph.neighbour.size()));
   }
-
-  [[nodiscard]] double TotalWeight() const {
-    double total = 0.0;
-    for (const uint32_t image : piece_.images) {
-      for (const Adjacency::Link& link : piece_.adjacency.Of(image))
-        total += piece_.edge_weight[link.edge];
-    }
-    return total;
-  }
-
-  [[nodiscard]] idx_t GroupOf(uint32_t image) const {
-    const auto position = std::lower_bound(piece_.images.begin(), piece_.images.end(), image);
-    return graph_.group_of[static_cast<size_t>(position - piece_.images.begin())];
-  }
-
-  void AddRow(const std::vector<uint32_t>& members, double scale) {
-    const idx_t own = static_cast<idx_t>(graph_.cost.size());
-    std::map<idx_t, double> weight_to;
-    double cost = 0.0;
-    for (const uint32_t image : members) {
-      cost += piece_.image_cost[image];
-      for (const Adjacency::Link& link : piece_.adjacency.Of(image)) {
-        const idx_t other = GroupOf(link.image);
-        if (other != own) weight_to[other] += piece_.edge_weight[link.edge];
-      }
-    }
-    for (const auto& [group, weight] : weight_to) {
-      graph_.neighbour.push_back(group);
-      graph_.weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(std::round(scale * weight))));
-    }
-    graph_.begin.push_back(static_cast<idx_t>(graph_.neighbour.size()));
-    graph_.cost.push_back(std::max<idx_t>(1, static_cast<idx_t>(std::round(kCostUnits * cost))));
-  }
-
-  const ConnectedPiece& piece_;
-  std::vector<std::vector<uint32_t>> members_{};
-  MetisGraph graph_{};
-};
+  return graph;
+}
 
 // Part of each image of the piece.
 absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts) {
@@ -106,12 +62,12 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts
   options[METIS_OPTION_SEED] = 1;
   options[METIS_OPTION_CONTIG] = 1;
   options[METIS_OPTION_NUMBERING] = 0;
-  std::vector<idx_t> part_of_group(graph.begin.size() - 1, 0);
+  std::vector<idx_t> part(graph.begin.size() - 1, 0);
   const int result = METIS_PartGraphKway(&num_vertices,
                                          &num_constraints,
                                          graph.begin.data(),
                                          graph.neighbour.data(),
-                                         graph.cost.data(),
+                                         nullptr,
                                          nullptr,
                                          graph.weight.data(),
                                          &parts,
@@ -119,13 +75,10 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts
                                          nullptr,
                                          options.data(),
                                          &cut,
-                                         part_of_group.data());
+                                         part.data());
   if (result != METIS_OK) {
     return absl::InternalError("METIS_PartGraphKway failed with code " + std::to_string(result));
   }
-  std::vector<idx_t> part;
-  for (const idx_t group : graph.group_of)
-    part.push_back(part_of_group[static_cast<size_t>(group)]);
   return part;
 }
 
@@ -211,7 +164,7 @@ absl::StatusOr<std::vector<std::vector<uint32_t>>> DivideGraph(const ConnectedPi
     return std::vector<Division::Chunk>{{piece.images.begin(), piece.images.end()}};
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<idx_t> part,
-                            RunMetis(MetisGraphBuilder(piece).Build(), num_parts));
+                            RunMetis(ToMetisGraph(piece), num_parts));
   Division division(piece, part);
   std::vector<Division::Chunk> chunks = division.Chunks();
   // Each gift unites two chunks, so this ends.

@@ -61,35 +61,14 @@ uint32_t MinPartSize(const PartitionOptions& options) {
   return static_cast<uint32_t>(std::min(options.cluster_size, options.min_cluster_size)) / 2;
 }
 
-// Per image, how many may stand still together in a cluster: half of those it is meant to have.
-std::vector<uint32_t> LimitsOfGroups(const std::vector<Images>& components,
-                                     uint32_t num_images,
-                                     const PartitionOptions& options) {
-  std::vector<uint32_t> limits(num_images, 1);
-  for (const Images& component : components) {
-    const uint32_t limit =
-        static_cast<uint32_t>(component.size()) / NumClusters(component.size(), options) / 2;
-    for (const uint32_t image : component) limits[image] = limit;
-  }
-  return limits;
-}
-
 // Interiors of all clusters, sorted by their first image.
 absl::StatusOr<std::vector<Images>> DivideComponents(const ViewGraph& graph,
                                                      const PartitionOptions& options) {
   const Adjacency adjacency(graph.num_images, graph.edges);
-  const std::vector<Images> components = FindComponents(graph);
   const std::vector<double> weights = EdgeWeights(graph);
-  const std::vector<double> costs = ImageCosts(graph);
-  const std::vector<uint32_t> groups =
-      StandingGroups(graph, LimitsOfGroups(components, graph.num_images, options));
   std::vector<Images> interiors;
-  for (const Images& component : components) {
-    const ConnectedPiece piece{.adjacency = adjacency,
-                               .edge_weight = weights,
-                               .image_cost = costs,
-                               .group_of = groups,
-                               .images = component};
+  for (const Images& component : FindComponents(graph)) {
+    const ConnectedPiece piece{.adjacency = adjacency, .edge_weight = weights, .images = component};
     ORBWEAVE_ASSIGN_OR_RETURN(
         std::vector<Images> parts,
         DivideGraph(piece, NumClusters(component.size(), options), MinPartSize(options)));

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numeric>
 
 #include "tests/core/graph/graph_samples.h"
@@ -15,27 +14,13 @@ namespace {
 
 using Parts = std::vector<std::vector<uint32_t>>;
 
-struct Demands {
-  std::vector<double> costs{};     // empty: all alike
-  std::vector<uint32_t> groups{};  // empty: each image alone
-};
-
-Parts Divide(const ViewGraph& graph,
-             uint32_t num_parts,
-             uint32_t min_part_size,
-             Demands demands = {}) {
+Parts Divide(const ViewGraph& graph, uint32_t num_parts, uint32_t min_part_size) {
   const Adjacency adjacency(graph.num_images, graph.edges);
   std::vector<double> weights;
   for (const ViewEdge& edge : graph.edges) weights.push_back(edge.num_inliers);
   std::vector<uint32_t> images(graph.num_images);
   std::iota(images.begin(), images.end(), 0U);
-  if (demands.costs.empty()) demands.costs.assign(graph.num_images, 1.0);
-  if (demands.groups.empty()) demands.groups = images;
-  const ConnectedPiece piece{.adjacency = adjacency,
-                             .edge_weight = weights,
-                             .image_cost = demands.costs,
-                             .group_of = demands.groups,
-                             .images = images};
+  const ConnectedPiece piece{.adjacency = adjacency, .edge_weight = weights, .images = images};
   const auto parts = DivideGraph(piece, num_parts, min_part_size);
   EXPECT_TRUE(parts.ok()) << parts.status();
   return parts.ok() ? *parts : Parts{};
@@ -59,31 +44,6 @@ TEST(DivideGraph, CutsWhereTheWeightIsSmall) {
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_GE(parts[0].size(), 18U);
   EXPECT_LE(parts[0].size(), 22U);
-}
-
-TEST(DivideGraph, BalancesCosts) {
-  Demands demands{.costs = std::vector<double>(90, 0.5)};
-  std::fill(demands.costs.begin(), demands.costs.begin() + 30, 2.0);
-  const Parts parts = Divide(Street(90, 4), 3, 4, demands);
-  ASSERT_EQ(parts.size(), 3U);
-  for (const auto& part : parts) {
-    double cost = 0.0;
-    for (const uint32_t image : part) cost += demands.costs[image];
-    EXPECT_NEAR(cost, 30.0, 4.0);
-  }
-  EXPECT_LT(parts[0].size(), 20U);
-}
-
-TEST(DivideGraph, LeavesGroupsWhole) {
-  Demands demands{.groups = std::vector<uint32_t>(60)};
-  std::iota(demands.groups.begin(), demands.groups.end(), 0U);
-  // Half a street wide, where two equal parts would meet.
-  std::fill(demands.groups.begin() + 20, demands.groups.begin() + 40, 20U);
-  const Parts parts = Divide(Street(60, 4), 2, 4, demands);
-  ASSERT_EQ(parts.size(), 2U);
-  for (const auto& part : parts) {
-    EXPECT_EQ(std::ranges::count(part, 20U), std::ranges::count(part, 39U));
-  }
 }
 
 TEST(DivideGraph, LeavesNoTinyPartsOfAStar) {

@@ -109,29 +109,6 @@ TEST(PartitionViewGraph, DividesACorridorByClusterSize) {
   for (const Seam& seam : partition.seams) EXPECT_EQ(seam.shared.size(), 12U);
 }
 
-TEST(PartitionViewGraph, DoesNotCutThroughAStop) {
-  for (const uint32_t begin : {60U, 80U, 100U, 140U}) {
-    ViewGraph street = Street(300, 10);
-    for (ViewEdge& edge : street.edges) {
-      if (edge.pair.a < ImageId(begin) || edge.pair.b >= ImageId(begin + 40)) continue;
-      edge.kind = TwoViewKind::kPureRotation;
-      edge.num_inliers *= 3;
-    }
-    const Partition partition = Divided(street);
-    ExpectLawful(street, partition, {});
-    int with_stop = 0;
-    for (const Cluster& cluster : partition.clusters) {
-      const auto standing = std::ranges::count_if(cluster.interior, [&](ImageId image) {
-        return image >= ImageId(begin) && image < ImageId(begin + 40);
-      });
-      if (standing == 0) continue;
-      ++with_stop;
-      EXPECT_GE(static_cast<int>(cluster.interior.size()) - standing, 4) << begin;
-    }
-    EXPECT_EQ(with_stop, 1) << begin;
-  }
-}
-
 TEST(PartitionViewGraph, DividesCrossingStreets) {
   const ViewGraph grid = Grid(20);
   const PartitionOptions options{.cluster_size = 50};
