@@ -24,13 +24,6 @@ bool IsFile(const std::string& path) {
   return fs::is_regular_file(path, error);
 }
 
-bool HoldsBytes(const std::string& path, std::string_view bytes) {
-  std::error_code error;
-  if (!IsFile(path) || fs::file_size(path, error) != bytes.size()) return false;
-  const absl::StatusOr<std::string> held = ReadWholeFile(path);
-  return held.ok() && *held == bytes;
-}
-
 std::string DescribeBlob(const Digest& digest) {
   return absl::StrCat("blob ", digest.ToShortHex());
 }
@@ -94,8 +87,7 @@ absl::Status BlobStore::Read(const Digest& digest, const TakePiece& take) {
 absl::StatusOr<Digest> BlobStore::Put(std::string_view bytes) {
   const Digest digest = DigestOf(bytes);
   const std::string path = BlobPath(digest);
-  const bool is_damaged = IsFile(path) && !HoldsBytes(path, bytes);
-  if (!is_damaged && Use(digest)) return digest;
+  if (Verify(digest) && Use(digest)) return digest;
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(fs::path(path).parent_path().string()));
   ORBWEAVE_RETURN_IF_ERROR(WriteFileDurably(ScratchDir(), path, bytes));
   return digest;

@@ -85,8 +85,8 @@ struct ReportSeam {
   double position_jump_m = 0.0;  ///< metres where georeferenced, model units otherwise
   double rotation_jump_deg = 0.0;
   bool used = true;
-  std::string reason{};  ///< why it is not used
-  ReportSeamFit after{};       ///< the global adjustment
+  std::string reason{};   ///< why it is not used
+  ReportSeamFit after{};  ///< the global adjustment
 };
 
 struct ReportGnss {

@@ -15,7 +15,8 @@ inline constexpr std::string_view kReplacementCharacter = "\xef\xbf\xbd";
 /// there is none.
 [[nodiscard]] size_t Utf8SequenceLength(std::string_view text);
 
-/// `text` with U+FFFD for every byte that belongs to no UTF-8: what messages between processes take.
+/// `text` with U+FFFD for every byte that belongs to no UTF-8: what messages between processes
+/// take.
 [[nodiscard]] std::string Utf8Text(std::string_view text);
 
 /// `text`, whoever wrote it, for a terminal: control characters other than those in `kept`, marks

@@ -74,7 +74,7 @@ struct GnssReport {
   uint32_t num_inliers = 0;
   double residual_median_m = 0.0;  ///< horizontal and vertical together, after adjustment
   double residual_rms_inliers_m = 0.0;
-  double bend_m = 0.0;  ///< Georeference::bend_m
+  double bend_m = 0.0;                  ///< Georeference::bend_m
   std::vector<std::string> outliers{};  ///< names of images whose GNSS position is contradicted
 };
 

@@ -16,8 +16,8 @@
 #include "core/graph/partition_view_graph.h"
 #include "core/graph/select_image_pairs.h"
 #include "core/mapping/reconstruct_cluster.h"
-#include "core/merging/global_options.h"
 #include "core/merging/align_submodels.h"
+#include "core/merging/global_options.h"
 #include "core/stages/ingest_images.h"
 
 namespace orbweave {

@@ -12,6 +12,7 @@
 #include "coordinator/postgres_journal.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
+#include "tests/support/command_or_tests.h"
 #include "tests/support/postgres_server.h"
 #include "worker/grpc_coordinator_client.h"
 
@@ -73,24 +74,13 @@ TEST(DeposedCoordinator, EndsAndSaysWhy) {
   EXPECT_TRUE(successor->Confirm().ok());
 }
 
-int BeTheCommand(int argc, char** argv) {
-  CLI::App app;
-  SelectedCommand selected;
+void AddCommands(CLI::App& app, SelectedCommand& selected) {
   AddServeCommand(app, selected);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError&) {
-    return kExitUsage;
-  }
-  return selected.run();
 }
 
 }  // namespace
 }  // namespace orbweave
 
 int main(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
+  return orbweave::testing::RunCommandOrTests(argc, argv, orbweave::AddCommands);
 }

@@ -20,6 +20,7 @@
 #include "cli/exit_code.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
+#include "tests/support/command_or_tests.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 
@@ -216,28 +217,17 @@ TEST(LocalFleet, RefusesAStateFolderInUse) {
 }
 
 /// What `orbweave` would do with these arguments.
-int BeTheCommand(int argc, char** argv) {
-  const testing::StageMap stages = DeadlyStages();
-  const StageLookup lookup = testing::LookupIn(stages);
-  CLI::App app;
-  SelectedCommand selected;
+void AddCommands(CLI::App& app, SelectedCommand& selected) {
+  static const testing::StageMap stages = DeadlyStages();
+  static const StageLookup lookup = testing::LookupIn(stages);
   AddWorkCommand(app, selected);
   AddDrainCommand(app, selected);
   AddExecTasksCommand(app, selected, lookup);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError&) {
-    return kExitUsage;
-  }
-  return selected.run();
 }
 
 }  // namespace
 }  // namespace orbweave
 
 int main(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
+  return orbweave::testing::RunCommandOrTests(argc, argv, orbweave::AddCommands);
 }

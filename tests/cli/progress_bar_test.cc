@@ -5,20 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/two_stages.h"
+
 namespace orbweave {
 namespace {
 
-JobStatus TwoStages() {
-  JobStatus status{.elapsed_s = 30.0};
-  status.stages = {{.stage = "first", .tasks_total = 4, .tasks_done = 4, .wall_s = 20.0},
-                   {.stage = "second",
-                    .tasks_total = 10,
-                    .tasks_done = 4,
-                    .tasks_running = 2,
-                    .wall_s = 8.0,
-                    .fraction_running = 1.0}};
-  return status;
-}
+using testing::TwoStages;
 
 TEST(FormatDuration, ReadsLikeAClock) {
   EXPECT_EQ(FormatDuration(0.2), "0 s");

@@ -14,6 +14,7 @@
 #include "cli/status_command.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
+#include "tests/support/command_or_tests.h"
 #include "tests/support/toy_job.h"
 
 namespace orbweave {
@@ -207,30 +208,19 @@ TEST_F(SecuredCommands, AWorkerOfAnotherAuthoritySaysSoAndEnds) {
 }
 
 /// What `orbweave` would do with these arguments.
-int BeTheCommand(int argc, char** argv) {
-  const testing::StageMap stages = testing::ToyStages();
-  const StageLookup lookup = testing::LookupIn(stages);
-  CLI::App app;
-  SelectedCommand selected;
+void AddCommands(CLI::App& app, SelectedCommand& selected) {
+  static const testing::StageMap stages = testing::ToyStages();
+  static const StageLookup lookup = testing::LookupIn(stages);
   AddKeysCommand(app, selected);
   AddServeCommand(app, selected);
   AddWorkCommand(app, selected);
   AddExecTasksCommand(app, selected, lookup);
   AddStatusCommand(app, selected);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError&) {
-    return kExitUsage;
-  }
-  return selected.run();
 }
 
 }  // namespace
 }  // namespace orbweave
 
 int main(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
+  return orbweave::testing::RunCommandOrTests(argc, argv, orbweave::AddCommands);
 }

@@ -19,6 +19,7 @@
 #include "cli/status_command.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
+#include "tests/support/command_or_tests.h"
 #include "tests/support/http_get.h"
 #include "tests/support/toy_job.h"
 #include "worker/grpc_coordinator_client.h"
@@ -221,11 +222,9 @@ TEST(StatusCommand, SaysSoWhenNobodyAnswersForLongEnough) {
 }
 
 /// What `orbweave` would do with these arguments.
-int BeTheCommand(int argc, char** argv) {
-  const testing::StageMap stages = testing::ToyStages();
-  const StageLookup lookup = testing::LookupIn(stages);
-  CLI::App app;
-  SelectedCommand selected;
+void AddCommands(CLI::App& app, SelectedCommand& selected) {
+  static const testing::StageMap stages = testing::ToyStages();
+  static const StageLookup lookup = testing::LookupIn(stages);
   AddServeCommand(app, selected);
   AddWorkCommand(app, selected);
   AddExecTasksCommand(app, selected, lookup);
@@ -236,20 +235,11 @@ int BeTheCommand(int argc, char** argv) {
   AddDrainCommand(app, selected);
   AddForgetCommand(app, selected);
   AddGcCommand(app, selected);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError&) {
-    return kExitUsage;
-  }
-  return selected.run();
 }
 
 }  // namespace
 }  // namespace orbweave
 
 int main(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-') return orbweave::BeTheCommand(argc, argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
+  return orbweave::testing::RunCommandOrTests(argc, argv, orbweave::AddCommands);
 }
