@@ -15,6 +15,7 @@ template <typename MayTake>
 std::optional<uint32_t> ChooseByHome(const StageRun& run,
                                      const WorkerSlot& at,
                                      const std::vector<std::string>& alive,
+                                     bool ahead,
                                      const MayTake& may_take) {
   if (const auto own = run.ready_at.find(at); own != run.ready_at.end()) {
     const auto part = std::ranges::find_if(own->second, may_take);
@@ -31,7 +32,7 @@ std::optional<uint32_t> ChooseByHome(const StageRun& run,
       if (first != parts.end() && (!nobodys || *first < *nobodys)) nobodys = *first;
     }
   }
-  return nobodys ? nobodys : somebodys;
+  return nobodys || ahead ? nobodys : somebodys;
 }
 
 /// Where a worker had better begin that has no part before it.
@@ -63,12 +64,15 @@ std::optional<uint32_t> ChooseNeighbour(const StageRun& run,
 std::optional<uint32_t> ChoosePart(const StageRun& run,
                                    const WorkerSlot& at,
                                    const std::vector<std::string>& alive,
-                                   double now_s) {
+                                   double now_s,
+                                   bool ahead) {
+  if (ahead && !run.IsQuick()) return std::nullopt;
   const auto may_take = [&](uint32_t part) {
-    return run.tasks[part].MayTake(at.worker, alive, now_s);
+    return run.tasks[part].MayTake(at.worker, alive, now_s) &&
+           !(ahead && run.failed.contains(part));
   };
   return run.homes.empty() ? ChooseNeighbour(run, at.worker, may_take)
-                           : ChooseByHome(run, at, alive, may_take);
+                           : ChooseByHome(run, at, alive, ahead, may_take);
 }
 
 }  // namespace orbweave

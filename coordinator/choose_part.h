@@ -11,8 +11,11 @@
 
 namespace orbweave {
 
-/// The ready part of a stage that a worker had better do now in this slot, so that what it reads is
-/// near; which part it is changes no result. `alive`: the workers that serve, in order of name.
+/// The ready part of a stage that a worker had better do next in this slot, so that what it reads
+/// is near; which part it is changes no result. `alive`: the workers that serve, in order of name.
+/// `ahead`: the slot is at work, and the part would wait there for the end of its task. Only parts
+/// of a quick stage do, that have not failed before and, in a loop's stage, are at home nowhere
+/// else: no other slot would have been the sooner done with it by much.
 ///
 /// Of a loop's stage: the first part that the slot had the last time, whose process may still know
 /// it; else one that nobody in `alive` had; else the last part of somebody else.
@@ -26,6 +29,7 @@ namespace orbweave {
 [[nodiscard]] std::optional<uint32_t> ChoosePart(const StageRun& run,
                                                  const WorkerSlot& at,
                                                  const std::vector<std::string>& alive,
-                                                 double now_s);
+                                                 double now_s,
+                                                 bool ahead);
 
 }  // namespace orbweave

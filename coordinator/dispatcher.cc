@@ -86,14 +86,18 @@ bool Dispatcher::MayHaveWork() const {
   });
 }
 
-std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at, double now_s) {
-  if (!MayHaveWork()) return std::nullopt;
+std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at,
+                                                        size_t held,
+                                                        double now_s) {
+  if (held > 1) return std::nullopt;
+  const bool ahead = held == 1;
   const std::vector<std::string> serving = roster_.Serving(now_s);
   if (!std::ranges::binary_search(serving, at.worker)) return std::nullopt;
   for (const auto& [number, id] : jobs_.order()) {
-    const auto ref = jobs_.At(id).machine->NextReady(at, serving, now_s);
+    const auto ref = jobs_.At(id).machine->NextReady(at, serving, now_s, ahead);
     if (ref) return JobTask{id, *ref};
   }
+  if (ahead) return std::nullopt;
   const uint32_t slots = roster_.Slots(now_s);
   for (const auto& [number, id] : jobs_.order()) {
     const auto ref = jobs_.At(id).machine->NextStraggler(at.worker, slots, now_s);
@@ -103,8 +107,9 @@ std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at, do
 }
 
 std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, double now_s) {
+  if (!MayHaveWork()) return std::nullopt;
   const std::string worker = roster_.NameOf(session);
-  const std::optional<JobTask> next = NextTask({worker, slot}, now_s);
+  const std::optional<JobTask> next = NextTask({worker, slot}, book_.CountAt(session, slot), now_s);
   if (!next) return std::nullopt;
   const auto& [job, ref] = *next;
   JobMachine& machine = *jobs_.At(job).machine;

@@ -64,6 +64,7 @@ class Dispatcher {
 
   /// Whether there may be a task to grant; quick.
   [[nodiscard]] bool MayHaveWork() const;
+  /// A slot that holds a lease may get one more, ahead; see ChoosePart.
   [[nodiscard]] std::optional<Grant> GrantNext(uint64_t session, uint32_t slot, double now_s);
   /// A lease of an earlier generation, whose holder has one lease time to come back.
   void Await(const Attempt& attempt, double now_s);
@@ -106,8 +107,9 @@ class Dispatcher {
     Digest job{};
     TaskRef task{};
   };
-  /// What a worker is to do now in this slot: what is ready in the oldest job, or else a straggler.
-  [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at, double now_s);
+  /// What a worker is to do next in this slot, which holds so many leases: what is ready in the
+  /// oldest job, or else a straggler.
+  [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at, size_t held, double now_s);
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
   void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
   /// What the book knows of an attempt, to be logged as `event`.

@@ -29,9 +29,10 @@ uint32_t JobMachine::NextStage() const {
 
 std::optional<TaskRef> JobMachine::NextReady(const WorkerSlot& at,
                                              const std::vector<std::string>& alive,
-                                             double now_s) const {
+                                             double now_s,
+                                             bool ahead) const {
   if (!MayHaveWork()) return std::nullopt;
-  const std::optional<uint32_t> part = ChoosePart(runs_.back(), at, alive, now_s);
+  const std::optional<uint32_t> part = ChoosePart(runs_.back(), at, alive, now_s, ahead);
   if (!part) return std::nullopt;
   return TaskRef{static_cast<uint32_t>(runs_.size() - 1), *part};
 }
@@ -155,15 +156,18 @@ double JobMachine::AttemptEnds(AttemptRef ref, bool ok, double now_s) {
   const RunningAttempt attempt = std::move(*found);
   task.attempts.erase(task.attempts.begin() + (found - task.attempts.data()));
   if (task.attempts.empty()) runs_[ref.task.run].running.erase(ref.task.part);
+  double& free_since_s = free_since_s_[{attempt.holder.worker, attempt.holder.slot}];
+  const double start_s = std::max(attempt.leased_s, free_since_s);
+  free_since_s = now_s;
   timings_.push_back({.run = ref.task.run,
                       .stage = task.spec.stage,
                       .part = ref.task.part,
                       .worker = attempt.holder.worker,
                       .slot = attempt.holder.slot,
-                      .start_s = attempt.leased_s - submitted_s_,
+                      .start_s = start_s - submitted_s_,
                       .end_s = now_s - submitted_s_,
                       .ok = ok});
-  return now_s - attempt.leased_s;
+  return now_s - start_s;
 }
 
 void JobMachine::TaskDone(AttemptRef ref, TaskResult result, double now_s) {
@@ -180,6 +184,7 @@ void JobMachine::TaskDone(AttemptRef ref, TaskResult result, double now_s) {
   ++run.done;
   run.last_result_s = now_s;
   run.cpu_s += result.cost.cpu_s;
+  run.wall_s += result.cost.wall_s;
   run.UpdateStragglerTime(policy_);
   results_[run.stage][ref.task.part] = std::move(result);
   EndIfAllDone(now_s);

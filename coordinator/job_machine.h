@@ -60,10 +60,11 @@ class JobMachine {
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
   /// Whether a task may be ready, or wait too long for the one who does it.
   [[nodiscard]] bool MayHaveWork() const;
-  /// The task that a worker had better do now in this slot; see ChoosePart.
+  /// The task that a worker had better do next in this slot; see ChoosePart.
   [[nodiscard]] std::optional<TaskRef> NextReady(const WorkerSlot& at,
                                                  const std::vector<std::string>& alive,
-                                                 double now_s) const;
+                                                 double now_s,
+                                                 bool ahead = false) const;
   /// Where a task is, while it is ready.
   [[nodiscard]] std::optional<TaskRef> FindReady(const Digest& task) const;
   /// A task that `worker` may do beside the one who does it already: no task is ready, this one
@@ -131,6 +132,7 @@ class JobMachine {
   std::map<Digest, TaskRef> refs_;
   std::map<Digest, std::vector<FailedAttempt>> past_failures_;  ///< by task
   std::vector<TaskTiming> timings_;
+  std::map<WorkerSlot, double> free_since_s_;  ///< when a task last ended there
 };
 
 }  // namespace orbweave

@@ -71,6 +71,12 @@ std::vector<LeaseEntry> LeaseBook::Adopt(std::string_view worker,
       [&](const LeaseEntry& entry) { return entry.worker == worker && entry.session != session; });
 }
 
+size_t LeaseBook::CountAt(uint64_t session, uint32_t slot) const {
+  return static_cast<size_t>(std::ranges::count_if(entries_, [&](const auto& item) {
+    return item.second.session == session && item.second.slot == slot;
+  }));
+}
+
 std::map<std::string, uint32_t> LeaseBook::CountByWorker() const {
   std::map<std::string, uint32_t> counts;
   for (const auto& [epoch, entry] : entries_) ++counts[entry.worker];

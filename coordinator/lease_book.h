@@ -53,6 +53,8 @@ class LeaseBook {
   /// Leases of a job without a place in it; valid until the book changes.
   [[nodiscard]] std::vector<LeaseEntry*> AwaitingPlace(const Digest& job);
 
+  /// How many leases a slot holds.
+  [[nodiscard]] size_t CountAt(uint64_t session, uint32_t slot) const;
   /// How many leases the workers that have any hold.
   [[nodiscard]] std::map<std::string, uint32_t> CountByWorker() const;
 

@@ -6,8 +6,22 @@
 #include <algorithm>
 
 namespace orbweave {
+namespace {
+
+/// About as long as it may take to lease a task and to hand its result in on a busy machine.
+constexpr double kQuick_s = 0.25;
+
+}  // namespace
+
+std::optional<double> StageRun::mean_s() const {
+  const uint32_t computed = done - reused;
+  return computed > 0 ? std::optional(wall_s / computed) : earlier_mean_s;
+}
+
+bool StageRun::IsQuick() const { return mean_s().value_or(kQuick_s) < kQuick_s; }
 
 void StageRun::FindHomes(const StageRun& earlier) {
+  earlier_mean_s = earlier.mean_s();
   homes.resize(tasks.size());
   for (uint32_t part = 0; part < std::min(tasks.size(), earlier.tasks.size()); ++part) {
     const TaskHolder& holder = earlier.tasks[part].done_by;

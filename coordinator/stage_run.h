@@ -32,10 +32,16 @@ struct StageRun {
   std::optional<double> first_lease_s{};
   double last_result_s = 0.0;
   double cpu_s = 0.0;
+  double wall_s = 0.0;                        ///< sum over tasks computed now
+  std::optional<double> earlier_mean_s{};     ///< of a loop's stage: mean_s() of the run before
   std::vector<double> durations_s{};          ///< of the attempts whose results were taken
   std::optional<double> straggler_after_s{};  ///< how long a task may run that nobody waits beside
 
   [[nodiscard]] bool IsDone() const { return done == tasks.size(); }
+  /// How long a task takes: the mean of those computed now, or else of those of the run before.
+  [[nodiscard]] std::optional<double> mean_s() const;
+  /// Whether a task may as well wait behind another one for a while.
+  [[nodiscard]] bool IsQuick() const;
   /// Looks up the homes of all parts in `earlier`, the run before; to be called before any is
   /// ready.
   void FindHomes(const StageRun& earlier);

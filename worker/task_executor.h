@@ -22,7 +22,7 @@ class TaskExecutor {
                                                        const StageContext& context) = 0;
 };
 
-/// Called once by each slot, on its own thread.
+/// Called once by each slot.
 using MakeTaskExecutor = std::function<std::unique_ptr<TaskExecutor>()>;
 
 }  // namespace orbweave

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <latch>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -40,6 +41,18 @@ bool IsRefusal(const absl::Status& status) {
   return absl::IsPermissionDenied(status) || absl::IsUnauthenticated(status);
 }
 
+/// A slot has one executor and two hands: while one's task runs, the other hands in the result
+/// before it and takes what the coordinator gives ahead.
+constexpr int kHands = 2;
+
+struct Slot {
+  uint32_t number = 0;
+  std::unique_ptr<TaskExecutor> executor{};
+  std::mutex asking{};         ///< one hand asks for a task at a time
+  std::mutex running{};        ///< of the executor
+  std::latch leaving{kHands};  ///< its process dies with the hand that started it
+};
+
 class Worker {
  public:
   Worker(CoordinatorApi& api, const MakeTaskExecutor& make_executor, const WorkerOptions& options)
@@ -60,7 +73,7 @@ class Worker {
       const std::jthread heartbeat([this] { BeatUntilEnd(); });
       std::vector<std::jthread> slots;
       for (uint32_t slot = 0; slot < options_.slots; ++slot) {
-        slots.emplace_back([this, slot] { WorkUntilEnd(slot); });
+        slots.emplace_back([this, slot] { Staff(slot); });
       }
       slots.clear();  // joins: the heart beats until the last task is handed in or given back
       beating_.request_stop();
@@ -106,17 +119,26 @@ class Worker {
     return std::nullopt;
   }
 
-  void WorkUntilEnd(uint32_t slot) {
-    const std::unique_ptr<TaskExecutor> executor = make_executor_();
+  void Staff(uint32_t number) {
+    Slot slot{.number = number, .executor = make_executor_()};
+    std::vector<std::jthread> hands;
+    for (int hand = 0; hand < kHands; ++hand) {
+      hands.emplace_back([this, &slot] {
+        WorkUntilEnd(slot);
+        slot.leaving.arrive_and_wait();
+      });
+    }
+  }
+
+  void WorkUntilEnd(Slot& slot) {
     Backoff backoff;
     while (!draining_.stop_requested()) {
       const std::optional<JoinReply> session = Session();
       if (!session) return;
-      const absl::StatusOr<std::optional<Lease>> lease =
-          api_.LeaseTask(session->session, slot, options_.poll_s);
+      const absl::StatusOr<std::optional<Lease>> lease = Ask(slot, session->session);
       if (lease.ok()) {
         backoff = {};
-        if (*lease) Work(**lease, *executor);
+        if (*lease) Work(**lease, slot);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
       } else if (absl::IsCancelled(lease.status())) {
@@ -132,7 +154,19 @@ class Worker {
     }
   }
 
-  void Work(const Lease& lease, TaskExecutor& executor) {
+  /// Nothing when there is none, or the other hand asked until this one need not any more.
+  absl::StatusOr<std::optional<Lease>> Ask(Slot& slot, uint64_t session) {
+    const std::lock_guard asking(slot.asking);
+    if (draining_.stop_requested()) return std::nullopt;
+    return api_.LeaseTask(session, slot.number, options_.poll_s);
+  }
+
+  absl::StatusOr<TaskResult> Run(Slot& slot, const TaskSpec& spec, const StageContext& context) {
+    const std::lock_guard running(slot.running);
+    return slot.executor->Run(spec, blobs_, context);
+  }
+
+  void Work(const Lease& lease, Slot& slot) {
     StageContext context;
     context.stop = leases_.Add(lease);
     context.num_threads = options_.threads_per_task;
@@ -143,7 +177,7 @@ class Worker {
     if (ending_.stop_requested())
       leases_.StopAll();  // the end may have come between leasing and adding
     Log(Describe(lease, "task_leased"));
-    const absl::StatusOr<TaskResult> result = executor.Run(lease.spec, blobs_, context);
+    const absl::StatusOr<TaskResult> result = Run(slot, lease.spec, context);
     const absl::Status handed_in = result.ok() ? HandIn(lease, *result) : result.status();
     if (!handed_in.ok()) {
       const bool given_up = context.stop.stop_requested();

@@ -49,7 +49,7 @@ struct TaskTiming {
   uint32_t part = 0;
   std::string worker{};
   uint32_t slot = 0;
-  double start_s = 0.0;  ///< since the job was submitted
+  double start_s = 0.0;  ///< since the job was submitted: leased, and the slot's task before ended
   double end_s = 0.0;
   bool ok = true;
 };

@@ -327,6 +327,23 @@ TEST_F(CoordinatorTest, ServesTheOldestJobFirst) {
   EXPECT_THAT(lease.spec.inputs, ::testing::ElementsAre(DigestOf("1")));
 }
 
+TEST_F(CoordinatorTest, ASlotHoldsAQuickTaskAheadAndNoMore) {
+  const uint64_t session = Join("w");
+  Submit("1 2 3 4 5");
+  const Lease split = MustLease(session);
+  EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.2)->has_value());
+  ASSERT_TRUE(Do(session, split).ok());
+  ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const Lease first = MustLease(session);
+  const Lease ahead = MustLease(session);
+  EXPECT_NE(first.task, ahead.task);
+  EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.2)->has_value());
+  EXPECT_TRUE(coordinator_->LeaseTask(session, 1, kWait_s)->has_value()) << "another slot may";
+  ASSERT_TRUE(Do(session, ahead).ok()) << "in whatever order they end";
+  EXPECT_TRUE(Do(session, MustLease(session)).ok());
+  EXPECT_TRUE(Do(session, first).ok());
+}
+
 TEST_F(CoordinatorTest, RefusesASecondCoordinatorOnTheSameState) {
   const auto second = Coordinator::Open(Options(), clock_);
   EXPECT_TRUE(absl::IsFailedPrecondition(second.status()));

@@ -177,6 +177,51 @@ TEST(JobMachine, TellsTheSlotsOfAWorkerApart) {
   EXPECT_EQ(machine.NextReady({"w2", 1}, {"w2"}, 102.0)->part, 0U) << "whose worker is gone";
 }
 
+TEST(JobMachine, OnlyQuickTasksWaitBehindAnother) {
+  for (const double wall_s : {0.1, 1.0}) {
+    JobMachine machine = MachineFor({"a"});
+    Begin(machine, "a", 4);
+    const AttemptRef first = LeaseNext(machine, "w", 100.0);
+    EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 100.0, true), std::nullopt) << "who knows how long";
+    machine.TaskDone(first, {.cost = {.wall_s = wall_s}}, 101.0);
+    EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 101.0, true).has_value(), wall_s < 0.2);
+    const AttemptRef failed = LeaseNext(machine, "w", 101.0);
+    machine.TaskFailed(failed, absl::AbortedError("signal 11"), 102.0);
+    for (int rest = 0; rest < 2; ++rest) {
+      const TaskRef other = *machine.NextReady({"w"}, {"v", "w"}, 102.0);
+      machine.TaskLeased(other, {.epoch = 9, .worker = "w"}, 102.0);
+    }
+    EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 200.0, true), std::nullopt) << "it failed before";
+    EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 200.0), failed.task);
+  }
+}
+
+TEST(JobMachine, WhatIsAtHomeElsewhereDoesNotWait) {
+  JobMachine machine = SecondRound();
+  const std::vector<std::string> alive = {"w1", "w2"};
+  for (const uint32_t own : {2U, 3U}) {
+    const std::optional<TaskRef> ref = machine.NextReady({"w2"}, alive, 102.0, true);
+    ASSERT_TRUE(ref.has_value());
+    EXPECT_EQ(ref->part, own);
+    machine.TaskLeased(*ref, {.epoch = 9, .worker = "w2"}, 102.0);
+  }
+  EXPECT_EQ(machine.NextReady({"w2"}, alive, 102.0, true), std::nullopt);
+  EXPECT_EQ(machine.NextReady({"w2"}, alive, 102.0)->part, 1U);
+}
+
+TEST(JobMachine, TheTimeThatATaskWaitsBehindAnotherIsNotItsOwn) {
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", 2);
+  const AttemptRef first = LeaseNext(machine, "w", 101.0);
+  const AttemptRef second = LeaseNext(machine, "w", 101.0);
+  machine.TaskDone(first, {}, 103.0);
+  machine.TaskDone(second, {}, 106.0);
+  ASSERT_EQ(machine.Timings().size(), 2U);
+  EXPECT_EQ(machine.Timings()[0].start_s, 1.0);
+  EXPECT_EQ(machine.Timings()[1].start_s, machine.Timings()[0].end_s);
+  EXPECT_EQ(machine.Timings()[1].end_s, 6.0);
+}
+
 TEST(JobMachine, GivesWorkersNeighbouringParts) {
   constexpr uint32_t kParts = 1000;
   const std::vector<std::string> workers = {"w1", "w2", "w3", "w4", "w5"};

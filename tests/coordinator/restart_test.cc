@@ -133,8 +133,8 @@ class RestartTest : public ::testing::Test {
     return *coordinator_->SubmitJob(*PrepareToyJob(*coordinator_, numbers));
   }
 
-  Lease MustLease(uint64_t session) {
-    auto lease = coordinator_->LeaseTask(session, 0, 5.0);
+  Lease MustLease(uint64_t session, uint32_t slot = 0) {
+    auto lease = coordinator_->LeaseTask(session, slot, 5.0);
     ORBWEAVE_CHECK(lease.ok() && lease->has_value());
     return **lease;
   }
@@ -189,7 +189,7 @@ TEST_F(RestartTest, AHolderThatComesBackGoesOnAndHandsItsResultIn) {
   ASSERT_TRUE(IsStagePlanned(job, 1));
   EXPECT_EQ(coordinator_->GetJob(job)->stages[1].tasks_running, 1U);
   EXPECT_EQ(coordinator_->GetJob(job)->stages[0].tasks_reused, 1U);
-  const Lease other = MustLease(session);
+  const Lease other = MustLease(session, 1);
   EXPECT_NE(other.task, lease.task) << "the task was given out twice";
   EXPECT_GT(other.epoch >> 32, lease.epoch >> 32);
   EXPECT_TRUE(coordinator_->Heartbeat(session, {Held(lease), Held(other)})->cancelled.empty());

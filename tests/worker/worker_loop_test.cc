@@ -107,6 +107,29 @@ TEST_F(WorkerLoopTest, DoesAJobWithSeveralWorkersAndSlots) {
   for (const WorkerStatus& worker : status->workers) EXPECT_FALSE(worker.alive) << worker.name;
 }
 
+TEST_F(WorkerLoopTest, TakesQuickTasksAheadAndRunsThemOneAfterAnother) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  std::atomic<int> running = 0;
+  std::atomic<bool> overlap = false;
+  std::atomic<bool> held_two = false;
+  Digest job;
+  testing::StageMap stages = ToyStages();
+  stages["square"] = [&](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    if (++running > 1) overlap = true;
+    const auto holds_two = [&] { return coordinator->GetJob(job)->stages[1].tasks_running == 2; };
+    if (!held_two && spec.part > 0) held_two = WaitUntil(holds_two, 0.1);
+    const auto result = testing::Square(spec, blobs, context);
+    --running;
+    return result;
+  };
+  job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10");
+  RunningWorker worker(*coordinator, stages, "w");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator, job), "385");
+  EXPECT_FALSE(overlap);
+  EXPECT_TRUE(held_two);
+}
+
 TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
   const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
   const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
