@@ -72,10 +72,10 @@ void Dispatcher::WorkerDied(std::string_view name, double now_s) {
 
 std::vector<WorkerStatus> Dispatcher::WorkerStatuses(double now_s) const {
   std::vector<WorkerStatus> workers = roster_.Status(now_s);
-  const std::map<std::string, uint32_t> leases = book_.CountByWorker();
+  const std::map<std::string, uint32_t> busy = book_.BusySlots();
   for (WorkerStatus& worker : workers) {
-    const auto it = leases.find(worker.name);
-    if (it != leases.end()) worker.tasks_running = it->second;
+    const auto it = busy.find(worker.name);
+    if (it != busy.end()) worker.tasks_running = it->second;
   }
   return workers;
 }

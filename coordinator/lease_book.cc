@@ -3,6 +3,10 @@
 
 #include "coordinator/lease_book.h"
 
+#include <algorithm>
+#include <set>
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 
 namespace orbweave {
@@ -77,9 +81,11 @@ size_t LeaseBook::CountAt(uint64_t session, uint32_t slot) const {
   }));
 }
 
-std::map<std::string, uint32_t> LeaseBook::CountByWorker() const {
+std::map<std::string, uint32_t> LeaseBook::BusySlots() const {
+  std::set<std::pair<std::string_view, uint32_t>> busy;
+  for (const auto& [epoch, entry] : entries_) busy.emplace(entry.worker, entry.slot);
   std::map<std::string, uint32_t> counts;
-  for (const auto& [epoch, entry] : entries_) ++counts[entry.worker];
+  for (const auto& [worker, slot] : busy) ++counts[std::string(worker)];
   return counts;
 }
 

@@ -55,8 +55,8 @@ class LeaseBook {
 
   /// How many leases a slot holds.
   [[nodiscard]] size_t CountAt(uint64_t session, uint32_t slot) const;
-  /// How many leases the workers that have any hold.
-  [[nodiscard]] std::map<std::string, uint32_t> CountByWorker() const;
+  /// How many slots of a worker hold leases, of those that do.
+  [[nodiscard]] std::map<std::string, uint32_t> BusySlots() const;
 
   /// Strike out and return, in order of epoch.
   [[nodiscard]] std::vector<LeaseEntry> TakeTask(const Digest& job, TaskRef ref);

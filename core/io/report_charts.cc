@@ -45,6 +45,11 @@ double NiceCeiling(double value) {
   return 10.0 * power;
 }
 
+/// Short enough for the space left of a chart.
+std::string AxisText(double value) {
+  return value < 1e6 ? ShortText(value) : ShortText(1e-6 * value) + " M";
+}
+
 std::string Gridline(double y, double width, const std::string& label) {
   const std::string y_text = DecimalText(y, 1);
   return absl::StrCat("<path class=\"grid\" d=\"M",
@@ -83,7 +88,7 @@ std::string BarChart(double width,
                                  EscapeHtml(caption),
                                  "\">");
   for (const double share : {0.0, 0.5, 1.0})
-    svg += Gridline(y_of(share * top), width, ShortText(share * top));
+    svg += Gridline(y_of(share * top), width, AxisText(share * top));
   const double gap = bar_width > 4.0 ? 1.0 : 0.0;
   for (size_t i = 0; i < bars.size(); ++i) {
     if (bars[i].value <= 0.0) continue;

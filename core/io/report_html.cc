@@ -33,13 +33,19 @@ std::string Header(const JobReport& report) {
                       "</p></header>\n");
 }
 
+/// Tiles are narrow: eight digits and more are shortened.
+std::string CountCard(uint64_t count, const std::string& what) {
+  if (count < 10'000'000) return Card(CountText(count), "", what);
+  return Card(DecimalText(1e-6 * static_cast<double>(count), 1), "million", what);
+}
+
 std::string Cards(const JobReport& report) {
   std::string cards =
       absl::StrCat(Card(CountText(report.registered),
                         "of " + CountText(report.images_total),
                         "panoramas registered"),
-                   Card(CountText(report.points), "", "points"),
-                   Card(CountText(report.observations), "", "observations"),
+                   CountCard(report.points, "points"),
+                   CountCard(report.observations, "observations"),
                    Card(DecimalText(report.mean_track_length, 2), "images", "mean track length"),
                    Card(DecimalText(report.residual_px_mean, 3),
                         "px",

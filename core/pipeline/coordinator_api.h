@@ -68,7 +68,7 @@ struct WorkerStatus {
   bool alive = true;
   bool set_aside = false;  ///< it failed tasks that others then did, and gets no more
   bool draining = false;   ///< it finishes what it has
-  uint32_t tasks_running = 0;
+  uint32_t tasks_running = 0;  ///< in so many slots
 };
 
 struct JobStatus {
