@@ -8,24 +8,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/status.h"
 
 namespace orbweave {
 namespace {
 
-constexpr uint32_t kNoPart = std::numeric_limits<uint32_t>::max();
 // Sum of all weights handed to METIS: far from the end of a 32-bit idx_t.
 constexpr double kTotalWeight = 2.0e8;
+// METIS counts costs in whole numbers: so many are an image of cost 1.
+constexpr double kCostUnits = 64.0;
+// A link weaker than this share of the strongest of either image passes others by: to METIS it
+// keeps a part in one piece all the same, to reconstruct across it takes the images between.
+constexpr double kWeak = 0.1;
 
 // The piece in METIS's compressed rows, images numbered by position.
 struct MetisGraph {
   std::vector<idx_t> begin{0};
   std::vector<idx_t> neighbour{};
   std::vector<idx_t> weight{};
+  std::vector<idx_t> cost{};
 };
 
 MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
@@ -47,6 +53,8 @@ MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
       graph.weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(weight)));
     }
     graph.begin.push_back(static_cast<idx_t>(graph.neighbour.size()));
+    const double cost = std::round(kCostUnits * piece.image_cost[image]);
+    graph.cost.push_back(std::max<idx_t>(1, static_cast<idx_t>(cost)));
   }
   return graph;
 }
@@ -67,7 +75,7 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts
                                          &num_constraints,
                                          graph.begin.data(),
                                          graph.neighbour.data(),
-                                         nullptr,
+                                         graph.cost.data(),
                                          nullptr,
                                          graph.weight.data(),
                                          &parts,
@@ -82,20 +90,23 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts
   return part;
 }
 
-// A part that may hold several unconnected chunks of images.
-class Division {
+using Chunk = std::vector<uint32_t>;
+
+// Chunks of equal part that strong links hold together, sorted, in order of their first image.
+class StrongChunks {
  public:
-  Division(const ConnectedPiece& piece, const std::vector<idx_t>& part)
-      : piece_(piece), part_of_(piece.adjacency.num_images(), kNoPart) {
+  StrongChunks(const ConnectedPiece& piece, const std::vector<idx_t>& part)
+      : piece_(piece), part_of_(piece.adjacency.num_images(), -1) {
+    strongest_.resize(part_of_.size(), 0.0);
     for (size_t i = 0; i < piece.images.size(); ++i) {
-      part_of_[piece.images[i]] = static_cast<uint32_t>(part[i]);
+      const uint32_t image = piece.images[i];
+      part_of_[image] = part[i];
+      for (const Adjacency::Link& link : piece.adjacency.Of(image))
+        strongest_[image] = std::max(strongest_[image], piece.edge_weight[link.edge]);
     }
   }
 
-  using Chunk = std::vector<uint32_t>;
-
-  // Connected chunks of images of equal part, in order of their first image.
-  [[nodiscard]] std::vector<Chunk> Chunks() const {
+  [[nodiscard]] std::vector<Chunk> Find() const {
     std::vector<Chunk> chunks;
     std::vector<uint8_t> is_seen(part_of_.size(), 0);
     for (const uint32_t start : piece_.images) {
@@ -104,77 +115,120 @@ class Division {
       Chunk& chunk = chunks.emplace_back(1, start);
       for (size_t next = 0; next < chunk.size(); ++next) {
         for (const Adjacency::Link& link : piece_.adjacency.Of(chunk[next])) {
-          if (is_seen[link.image] != 0 || part_of_[link.image] != part_of_[start]) continue;
+          if (is_seen[link.image] != 0 || !Holds(chunk[next], link)) continue;
           is_seen[link.image] = 1;
           chunk.push_back(link.image);
         }
       }
-      std::sort(chunk.begin(), chunk.end());
+      std::ranges::sort(chunk);
     }
     return chunks;
   }
 
-  // Gives a chunk to the part it shares most weight with.
-  void GiveAway(const Chunk& chunk) {
-    std::map<uint32_t, double> weight_to_part;
-    for (const uint32_t image : chunk) {
-      for (const Adjacency::Link& link : piece_.adjacency.Of(image)) {
-        const uint32_t part = part_of_[link.image];
-        if (part != part_of_[image]) weight_to_part[part] += piece_.edge_weight[link.edge];
-      }
-    }
-    if (weight_to_part.empty()) return;
-    const auto strongest = std::max_element(
-        weight_to_part.begin(), weight_to_part.end(), [](const auto& x, const auto& y) {
-          return x.second < y.second;
-        });
-    for (const uint32_t image : chunk) part_of_[image] = strongest->first;
-  }
-
-  [[nodiscard]] uint32_t PartOf(const Chunk& chunk) const { return part_of_[chunk.front()]; }
+  [[nodiscard]] idx_t PartOf(const Chunk& chunk) const { return part_of_[chunk.front()]; }
 
  private:
+  [[nodiscard]] bool Holds(uint32_t image, const Adjacency::Link& link) const {
+    return part_of_[image] == part_of_[link.image] &&
+           piece_.edge_weight[link.edge] >=
+               kWeak * std::min(strongest_[image], strongest_[link.image]);
+  }
+
   const ConnectedPiece& piece_;
-  std::vector<uint32_t> part_of_;
+  std::vector<idx_t> part_of_;
+  std::vector<double> strongest_;
 };
 
-// The smallest chunk that cannot stay: one too small, or not the largest of its part.
-const Division::Chunk* SmallestHomeless(const Division& division,
-                                        const std::vector<Division::Chunk>& chunks,
-                                        size_t min_size) {
-  std::map<uint32_t, const Division::Chunk*> largest;
-  for (const Division::Chunk& chunk : chunks) {
-    const Division::Chunk*& best = largest[division.PartOf(chunk)];
-    if (best == nullptr || chunk.size() > best->size()) best = &chunk;
+// Chunks that become parts, or join others.
+class Settlement {
+ public:
+  Settlement(const ConnectedPiece& piece, const StrongChunks& strong) : chunks_(strong.Find()) {
+    std::map<idx_t, size_t> largest;
+    for (size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+      const size_t best = largest.emplace(strong.PartOf(chunks_[chunk]), chunk).first->second;
+      if (chunks_[chunk].size() > chunks_[best].size())
+        largest[strong.PartOf(chunks_[chunk])] = chunk;
+    }
+    is_core_.resize(chunks_.size(), 0);
+    for (const auto& [part, chunk] : largest) is_core_[chunk] = 1;
+    WeighLinks(piece);
   }
-  const Division::Chunk* homeless = nullptr;
-  for (const Division::Chunk& chunk : chunks) {
-    if (chunk.size() >= min_size && largest[division.PartOf(chunk)] == &chunk) continue;
-    if (homeless == nullptr || chunk.size() < homeless->size()) homeless = &chunk;
+
+  // Chunks of fewer images than this stay alone only as the largest of their part, and none of
+  // fewer than `min_size`: smallest first, they join the neighbour they share most weight with.
+  void Settle(size_t min_size, size_t own_size) {
+    while (const std::optional<size_t> chunk = SmallestHomeless(min_size, own_size)) {
+      const std::map<size_t, double>& weights = weight_to_[*chunk];
+      const auto strongest = std::ranges::max_element(
+          weights, {}, [](const auto& neighbour) { return neighbour.second; });
+      if (strongest == weights.end()) return;  // nobody else is left
+      Join(*chunk, strongest->first);
+    }
   }
-  return homeless;
-}
+
+  [[nodiscard]] std::vector<Chunk> Parts() && {
+    std::erase_if(chunks_, [](const Chunk& chunk) { return chunk.empty(); });
+    for (Chunk& chunk : chunks_) std::ranges::sort(chunk);
+    std::ranges::sort(chunks_);
+    return std::move(chunks_);
+  }
+
+ private:
+  void WeighLinks(const ConnectedPiece& piece) {
+    std::vector<size_t> chunk_of(piece.adjacency.num_images(), 0);
+    for (size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+      for (const uint32_t image : chunks_[chunk]) chunk_of[image] = chunk;
+    }
+    weight_to_.resize(chunks_.size());
+    for (const uint32_t image : piece.images) {
+      for (const Adjacency::Link& link : piece.adjacency.Of(image)) {
+        if (chunk_of[link.image] == chunk_of[image]) continue;
+        weight_to_[chunk_of[image]][chunk_of[link.image]] += piece.edge_weight[link.edge];
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<size_t> SmallestHomeless(size_t min_size, size_t own_size) const {
+    std::optional<size_t> smallest;
+    for (size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+      const size_t size = chunks_[chunk].size();
+      const bool stays = size >= own_size || (is_core_[chunk] != 0 && size >= min_size);
+      if (size == 0 || stays) continue;
+      if (!smallest || size < chunks_[*smallest].size()) smallest = chunk;
+    }
+    return smallest;
+  }
+
+  void Join(size_t from, size_t to) {
+    chunks_[to].insert(chunks_[to].end(), chunks_[from].begin(), chunks_[from].end());
+    chunks_[from].clear();
+    is_core_[to] |= is_core_[from];
+    for (const auto& [other, weight] : weight_to_[from]) {
+      weight_to_[other].erase(from);
+      if (other == to) continue;
+      weight_to_[to][other] += weight;
+      weight_to_[other][to] += weight;
+    }
+    weight_to_[from].clear();
+  }
+
+  std::vector<Chunk> chunks_;  // empty: joined another
+  std::vector<uint8_t> is_core_;
+  std::vector<std::map<size_t, double>> weight_to_;
+};
 
 }  // namespace
 
 absl::StatusOr<std::vector<std::vector<uint32_t>>> DivideGraph(const ConnectedPiece& piece,
                                                                uint32_t num_parts,
                                                                uint32_t min_part_size) {
-  if (num_parts <= 1) {
-    return std::vector<Division::Chunk>{{piece.images.begin(), piece.images.end()}};
-  }
+  if (num_parts <= 1) return std::vector<Chunk>{{piece.images.begin(), piece.images.end()}};
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<idx_t> part,
                             RunMetis(ToMetisGraph(piece), num_parts));
-  Division division(piece, part);
-  std::vector<Division::Chunk> chunks = division.Chunks();
-  // Each gift unites two chunks, so this ends.
-  while (chunks.size() > 1) {
-    const Division::Chunk* homeless = SmallestHomeless(division, chunks, min_part_size);
-    if (homeless == nullptr) break;
-    division.GiveAway(*homeless);
-    chunks = division.Chunks();
-  }
-  return chunks;
+  Settlement settlement(piece, StrongChunks(piece, part));
+  const size_t half = piece.images.size() / num_parts / 2;
+  settlement.Settle(min_part_size, std::max<size_t>(min_part_size, half));
+  return std::move(settlement).Parts();
 }
 
 }  // namespace orbweave

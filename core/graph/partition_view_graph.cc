@@ -66,9 +66,11 @@ absl::StatusOr<std::vector<Images>> DivideComponents(const ViewGraph& graph,
                                                      const PartitionOptions& options) {
   const Adjacency adjacency(graph.num_images, graph.edges);
   const std::vector<double> weights = EdgeWeights(graph);
+  const std::vector<double> costs = ImageCosts(graph);
   std::vector<Images> interiors;
   for (const Images& component : FindComponents(graph)) {
-    const ConnectedPiece piece{.adjacency = adjacency, .edge_weight = weights, .images = component};
+    const ConnectedPiece piece{
+        .adjacency = adjacency, .edge_weight = weights, .image_cost = costs, .images = component};
     ORBWEAVE_ASSIGN_OR_RETURN(
         std::vector<Images> parts,
         DivideGraph(piece, NumClusters(component.size(), options), MinPartSize(options)));

@@ -57,7 +57,7 @@ struct PartitionOptions {
 /// A component of n images becomes max(round(n / cluster_size), min(min_clusters, n /
 /// min_cluster_size)) clusters: the number depends on the images alone, never on who will compute
 /// them. METIS k-way with edge weight = inliers x spread (EdgeWeights) cuts it into parts of
-/// about as many images; the interior of every cluster is connected. At every seam images
+/// about equal cost (ImageCosts); the interior of every cluster is connected. At every seam images
 /// are then shared, those with the strongest edges to the other side first and alternating between
 /// both sides, until `overlap` are shared or no more are connected. Clusters are sorted by their
 /// smallest interior image. Images without an edge are in no cluster. InvalidArgument when an edge

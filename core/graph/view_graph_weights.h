@@ -12,4 +12,11 @@ namespace orbweave {
 /// cells at least.
 [[nodiscard]] std::vector<double> EdgeWeights(const ViewGraph& graph);
 
+/// Per image: what it adds to the time and memory of a cluster, which grow with its observations,
+/// in units of an average image. About as many as its observations are the inliers of its best
+/// pair (matches in all its pairs would count a stop of the camera many times over). Half of it is
+/// for the image itself, so that no cluster of poor images grows to more than twice the size of
+/// others: 1/2 (1 + inliers / mean inliers).
+[[nodiscard]] std::vector<double> ImageCosts(const ViewGraph& graph);
+
 }  // namespace orbweave

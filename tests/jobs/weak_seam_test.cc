@@ -39,8 +39,27 @@ std::string MakeWeakStreet(const TemporaryFolder& folder) {
                      "3"});
 }
 
-const std::vector<std::string> kSmallOverlap = {
-    "--set", "partition.min_clusters=4", "--set", "partition.overlap=2"};
+std::string NameOf(uint32_t image) {
+  const std::string number = std::to_string(image);
+  return "pano_" + std::string(6 - number.size(), '0') + number + ".jpg";
+}
+
+/// Clusters of consecutive panoramas, so many each.
+std::string ClustersByHand(const std::vector<uint32_t>& sizes) {
+  std::string csv = "name,cluster\n";
+  uint32_t image = 0;
+  for (size_t cluster = 0; cluster < sizes.size(); ++cluster) {
+    for (uint32_t i = 0; i < sizes[cluster]; ++i)
+      csv += NameOf(image++) + ",cluster " + std::to_string(cluster) + "\n";
+  }
+  return csv;
+}
+
+/// Cuts the weak street where it is weak, with a small overlap.
+std::vector<std::string> CutWeakly(const TemporaryFolder& folder) {
+  WriteAll(folder / "clusters.csv", ClustersByHand({31, 16, 17, 16}));
+  return {"--clusters", folder / "clusters.csv", "--set", "partition.overlap=2"};
+}
 
 CommandOutcome Reconstruct(const std::string& street,
                            const std::string& output,
@@ -76,13 +95,14 @@ bool MiddleIsJoined(const nlohmann::json& report) {
 TEST(WeakSeam, AReviewJoinsWhatTheUsualOverlapLeavesApart) {
   const TemporaryFolder folder;
   const std::string street = MakeWeakStreet(folder);
-  std::vector<std::string> without = kSmallOverlap;
+  const std::vector<std::string> with = CutWeakly(folder);
+  std::vector<std::string> without = with;
   without.insert(without.end(), {"--set", "partition.reviews=0"});
   ASSERT_EQ(Reconstruct(street, folder / "left", without).exit_code, 0);
   const nlohmann::json left = ReportOf(folder / "left");
   EXPECT_FALSE(MiddleIsJoined(left)) << left["seams"].dump(1);
 
-  ASSERT_EQ(Reconstruct(street, folder / "mended", kSmallOverlap).exit_code, 0);
+  ASSERT_EQ(Reconstruct(street, folder / "mended", with).exit_code, 0);
   const nlohmann::json mended = ReportOf(folder / "mended");
   EXPECT_TRUE(MiddleIsJoined(mended)) << mended["seams"].dump(1);
   EXPECT_LT(mended["models"], left["models"]);
@@ -96,7 +116,7 @@ TEST(WeakSeam, AReviewLeavesTheSameBytesForAnyNumberOfWorkersAndARestartComputes
   const TemporaryFolder folder;
   const std::string street = MakeWeakStreet(folder);
   for (const char* workers : {"1", "3", "3"}) {
-    std::vector<std::string> options = kSmallOverlap;
+    std::vector<std::string> options = CutWeakly(folder);
     options.insert(options.end(), {"--workers", workers});
     const CommandOutcome run = Reconstruct(street, folder / workers, options);
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -122,19 +142,9 @@ TEST(LooseImages, ArePlacedByGnssWhereATunnelShowsNothing) {
   EXPECT_EQ(ReportOf(folder / "without")["registered"], registered);
 }
 
-std::string ClustersByHand(uint32_t num_images) {
-  std::string csv = "name,cluster\n";
-  for (uint32_t i = 0; i < num_images; ++i) {
-    const std::string number = std::to_string(i);
-    csv += "pano_" + std::string(6 - number.size(), '0') + number + ".jpg," +
-           (i < 25 ? "east\n" : "west\n");
-  }
-  return csv;
-}
-
 TEST(ClustersByHand, AreTakenInsteadOfAutomaticOnes) {
   const TemporaryFolder folder;
-  WriteAll(folder / "clusters.csv", ClustersByHand(60));
+  WriteAll(folder / "clusters.csv", ClustersByHand({25, 35}));
   const CommandOutcome run =
       Reconstruct(CorridorFolder(), folder / "out", {"--clusters", folder / "clusters.csv"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -147,7 +157,7 @@ TEST(ClustersByHand, AreTakenInsteadOfAutomaticOnes) {
 
 TEST(ClustersByHand, ThatForgetAnImageAreRefusedByName) {
   const TemporaryFolder folder;
-  WriteAll(folder / "clusters.csv", ClustersByHand(59));
+  WriteAll(folder / "clusters.csv", ClustersByHand({25, 34}));
   const CommandOutcome run =
       Reconstruct(CorridorFolder(), folder / "out", {"--clusters", folder / "clusters.csv"});
   EXPECT_EQ(run.exit_code, 2);

@@ -55,6 +55,20 @@ TEST(HardCases, StopAtATrafficLight) {
   ExpectWholeAndExact(corridor, Orientate(corridor));
 }
 
+TEST(HardCases, StopWhereClustersMeet) {
+  for (const int seed : {3, 4, 6}) {
+    SCOPED_TRACE(seed);
+    const Corridor corridor = MakeCorridor(
+        {.panoramas = 150, .features_per_panorama = kFeatures, .stop_panoramas = 15, .seed = seed});
+    const Orientated result = Orientate(corridor, {.cluster_size = 40});
+    ASSERT_EQ(result.worlds.size(), 1U);
+    const Reconstruction& model = result.worlds[0].reconstruction;
+    EXPECT_EQ(model.images.size(), 150U);
+    EXPECT_LT(ErrorsOf(corridor, model).window_rmse_m, 0.005);
+    EXPECT_FALSE(result.NamesAContradiction());
+  }
+}
+
 TEST(HardCases, TunnelMaySplitTheStreetButNotBendIt) {
   const Corridor corridor =
       MakeCorridor({.panoramas = 60, .features_per_panorama = kFeatures, .tunnel_panoramas = 20});

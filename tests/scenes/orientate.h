@@ -85,7 +85,7 @@ inline ClusterProblem Problem(const Corridor& corridor,
 
 /// Verification, view graph, partition, clusters, alignment, merging and global adjustment, each
 /// with its defaults, as the stages of a job do them.
-inline Orientated Orientate(const Corridor& corridor) {
+inline Orientated Orientate(const Corridor& corridor, const PartitionOptions& options = {}) {
   const std::vector<TwoViewGeometry> geometries = orientate_internal::Verify(corridor);
   std::vector<ViewEdge> edges;
   for (const TwoViewGeometry& geometry : geometries) edges.push_back(ViewEdgeOf(geometry));
@@ -94,7 +94,7 @@ inline Orientated Orientate(const Corridor& corridor) {
   const ViewGraph graph =
       BuildViewGraph(static_cast<uint32_t>(corridor.features.size()), std::move(by_gnss.kept), {})
           .graph;
-  const Partition partition = PartitionViewGraph(graph, {}).value();
+  const Partition partition = PartitionViewGraph(graph, options).value();
   std::vector<Submodel> submodels;
   for (uint32_t c = 0; c < partition.clusters.size(); ++c) {
     ClusterReconstruction cluster =

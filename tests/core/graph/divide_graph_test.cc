@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/core/graph/graph_samples.h"
@@ -14,13 +16,18 @@ namespace {
 
 using Parts = std::vector<std::vector<uint32_t>>;
 
-Parts Divide(const ViewGraph& graph, uint32_t num_parts, uint32_t min_part_size) {
+Parts Divide(const ViewGraph& graph,
+             uint32_t num_parts,
+             uint32_t min_part_size,
+             std::vector<double> costs = {}) {
+  if (costs.empty()) costs.assign(graph.num_images, 1.0);
   const Adjacency adjacency(graph.num_images, graph.edges);
   std::vector<double> weights;
   for (const ViewEdge& edge : graph.edges) weights.push_back(edge.num_inliers);
   std::vector<uint32_t> images(graph.num_images);
   std::iota(images.begin(), images.end(), 0U);
-  const ConnectedPiece piece{.adjacency = adjacency, .edge_weight = weights, .images = images};
+  const ConnectedPiece piece{
+      .adjacency = adjacency, .edge_weight = weights, .image_cost = costs, .images = images};
   const auto parts = DivideGraph(piece, num_parts, min_part_size);
   EXPECT_TRUE(parts.ok()) << parts.status();
   return parts.ok() ? *parts : Parts{};
@@ -44,6 +51,51 @@ TEST(DivideGraph, CutsWhereTheWeightIsSmall) {
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_GE(parts[0].size(), 18U);
   EXPECT_LE(parts[0].size(), 22U);
+}
+
+TEST(DivideGraph, BalancesCosts) {
+  std::vector<double> costs(90, 0.5);
+  std::fill(costs.begin(), costs.begin() + 30, 2.0);
+  const Parts parts = Divide(Street(90, 4), 3, 4, costs);
+  ASSERT_EQ(parts.size(), 3U);
+  for (const auto& part : parts) {
+    double cost = 0.0;
+    for (const uint32_t image : part) cost += costs[image];
+    EXPECT_NEAR(cost, 30.0, 4.0);
+  }
+  EXPECT_LT(parts[0].size(), 20U);
+}
+
+/// A drive whose camera stands still for 15 images from `begin`: they see the same, and have most
+/// in common.
+ViewGraph StreetWithStop(uint32_t num_images, uint32_t begin) {
+  constexpr uint32_t kStop = 15;
+  const auto place = [&](uint32_t image) {
+    return image < begin ? image : image < begin + kStop ? begin : image - kStop + 1;
+  };
+  ViewGraph graph{.num_images = num_images};
+  for (uint32_t a = 0; a < num_images; ++a) {
+    for (uint32_t b = a + 1; b <= a + 8 && b < num_images; ++b) {
+      const double share = std::pow(0.6, place(b) - place(a));
+      graph.edges.push_back(Edge(a, b, static_cast<uint32_t>(1000.0 * share)));
+    }
+  }
+  return graph;
+}
+
+TEST(DivideGraph, MakesNoPartsThatHangTogetherByTheirWeakestLinks) {
+  for (uint32_t begin = 40; begin < 100; ++begin) {
+    const ViewGraph street = StreetWithStop(150, begin);
+    const Parts parts = Divide(street, 4, 8);
+    EXPECT_GE(parts.size(), 3U);
+    EXPECT_LE(parts.size(), 6U);
+    for (const auto& part : parts) {
+      for (size_t i = 1; i < part.size(); ++i) {
+        const bool stands = part[i] > begin && part[i] < begin + 15;
+        EXPECT_LE(part[i] - part[i - 1], stands ? 15U : 5U) << "stop at " << begin;
+      }
+    }
+  }
 }
 
 TEST(DivideGraph, LeavesNoTinyPartsOfAStar) {
