@@ -9,6 +9,7 @@
 
 #include "core/geometry/rotation.h"
 #include "core/merging/carry_point.h"
+#include "core/merging/cluster_spreads.h"
 
 namespace orbweave {
 namespace {
@@ -27,20 +28,12 @@ PlacedClusters PlaceAll(const Reconstruction& scene,
                         const std::vector<WorldSeam>& seams,
                         const std::map<uint32_t, Sim3>& places) {
   PlacedClusters clusters;
-  std::map<uint32_t, double> num_images;
   for (const auto& [cluster, enu_from_world] : places) {
     clusters[cluster].enu_from_world = enu_from_world;
     clusters[cluster].near_clusters.push_back(cluster);
   }
-  for (const auto& [id, image] : scene.images) {
-    if (image.loose) continue;
-    const uint32_t cluster = cluster_of_image.at(id);
-    clusters.at(cluster).centre_in_world += image.cam_from_world.Centre();
-    num_images[cluster] += 1.0;
-  }
-  for (auto& [cluster, placed] : clusters) {
-    if (num_images[cluster] > 0.0) placed.centre_in_world /= num_images[cluster];
-  }
+  for (const auto& [cluster, spread] : ClusterSpreads(scene, cluster_of_image))
+    clusters.at(cluster).centre_in_world = spread.centre;
   for (const WorldSeam& seam : seams) {
     if (!clusters.contains(seam.cluster_a) || !clusters.contains(seam.cluster_b)) continue;
     clusters[seam.cluster_a].near_clusters.push_back(seam.cluster_b);

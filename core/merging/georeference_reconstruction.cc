@@ -12,6 +12,7 @@
 #include "core/base/random.h"
 #include "core/estimators/estimate_similarity.h"
 #include "core/geometry/rotation.h"
+#include "core/merging/cluster_spreads.h"
 #include "core/merging/find_gravity.h"
 #include "core/merging/quantile.h"
 
@@ -47,15 +48,6 @@ Positions Collect(const Reconstruction& reconstruction, const ImageManifest& man
     positions.drive.push_back(manifest.At(id).drive);
   }
   return positions;
-}
-
-double SpreadOf(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
-  double sum = 0.0;
-  for (const Eigen::Vector3d& point : points) sum += (point - mean).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
 // Yaw, scale and translation from two pairs of an upright model; nullopt when either is one point.
@@ -113,7 +105,7 @@ void AddGravity(const Eigen::Vector3d& down,
   for (const Eigen::Vector3d& point : positions.in_world) middle += point;
   middle /= static_cast<double>(positions.size());
   const Eigen::Vector3d middle_in_enu = enu_from_world * middle;
-  const double extent = SpreadOf(positions.in_world);
+  const double extent = SpreadOf(positions.in_world).rms;
   const double extent_m = enu_from_world.scale * extent;
   for (const double side : {-1.0, 1.0}) {
     positions.in_world.push_back(middle + side * extent * down);
@@ -216,7 +208,7 @@ std::string Metres(double value_m) {
 void Judge(const Positions& positions, Georeference& result) {
   const std::vector<Eigen::Vector3d> residuals = Residuals(positions, *result.enu_from_world);
   MeasureScatter(residuals, result);
-  const double extent_m = result.enu_from_world->scale * SpreadOf(positions.in_world);
+  const double extent_m = result.enu_from_world->scale * SpreadOf(positions.in_world).rms;
   const double scatter_m = result.horizontal_scatter_m;
   result.scale_uncertainty =
       scatter_m / (extent_m * std::sqrt(static_cast<double>(positions.size())));

@@ -4,13 +4,13 @@
 #include "core/merging/place_clusters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "core/averaging/solve_similarity_graph.h"
 #include "core/base/parallel_for.h"
+#include "core/merging/cluster_spreads.h"
 #include "core/merging/find_gravity.h"
 #include "core/merging/quantile.h"
 
@@ -37,20 +37,16 @@ std::vector<Node> MakeNodes(const ClusteredWorld& world) {
   std::map<uint32_t, Node> nodes;
   for (const auto& [id, image] : world.scene.images) {
     if (image.loose) continue;
-    Node& node = nodes[world.cluster_of_image.at(id)];
-    node.images.images.emplace(id, image);
-    node.centre_in_world += image.cam_from_world.Centre();
+    nodes[world.cluster_of_image.at(id)].images.images.emplace(id, image);
   }
+  const std::map<uint32_t, Spread> spreads = ClusterSpreads(world.scene, world.cluster_of_image);
   std::vector<Node> list;
   for (auto& [cluster, node] : nodes) {
     node.cluster = cluster;
-    node.centre_in_world /= static_cast<double>(node.images.images.size());
+    const Spread& spread = spreads.at(cluster);
+    node.centre_in_world = spread.centre;
     node.images = Transformed({.translation = -node.centre_in_world}, std::move(node.images));
-    double squares = 0.0;
-    for (const auto& [id, image] : node.images.images)
-      squares += image.cam_from_world.Centre().squaredNorm();
-    const double extent = std::sqrt(squares / static_cast<double>(node.images.images.size()));
-    if (extent > 0.0) node.extent = extent;
+    if (spread.rms > 0.0) node.extent = spread.rms;
     list.push_back(std::move(node));
   }
   return list;

@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/pipeline/build_version.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 #include "tests/support/tls_server.h"
 #include "worker/grpc_channel.h"
@@ -21,10 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::PrepareToyJob;
 using testing::TlsServer;
-
-WorkerInfo Worker(const std::string& name) {
-  return {.name = name, .version = std::string(BuildVersion()), .slots = 1};
-}
+using testing::Worker;
 
 TEST(Limits, AMessageHasItsSize) {
   TlsServer server({.limits = {.message_bytes = 100'000}});

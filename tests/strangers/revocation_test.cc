@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/pipeline/build_version.h"
 #include "security/handshake_probe.h"
 #include "security/secret_file.h"
 #include "tests/support/tls_server.h"
@@ -18,10 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::TlsServer;
-
-WorkerInfo Worker(const std::string& name) {
-  return {.name = name, .version = std::string(BuildVersion()), .slots = 1};
-}
+using testing::Worker;
 
 std::string SerialOf(const TlsServer& server, const std::string& name) {
   return CheckTlsFolder({server.keys() + "/" + name})->serial;

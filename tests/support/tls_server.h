@@ -7,6 +7,7 @@
 
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
+#include "core/pipeline/build_version.h"
 #include "security/key_store.h"
 #include "security/unix_time.h"
 #include "tests/support/command.h"
@@ -23,6 +24,11 @@ inline std::string MakeKeys(const std::string& store) {
   for (const char* name : {"node", "other"})
     ORBWEAVE_CHECK(AddKeys(store, {.name = name}, now_unix_s).ok());
   return store;
+}
+
+/// A worker of this very version with one slot.
+inline WorkerInfo Worker(const std::string& name) {
+  return {.name = name, .version = std::string(BuildVersion()), .slots = 1};
 }
 
 /// A coordinator of toy jobs behind TLS on a loopback port.
