@@ -86,7 +86,7 @@ std::vector<ScalingStage> StagesOf(const std::vector<JobMeasurement>& jobs,
 }
 
 /// A schedule's time by stage, in the order of `stages`.
-std::vector<double> ByStage(const std::vector<StageRun>& runs,
+std::vector<double> ByStage(const std::vector<StageLoad>& runs,
                             const Schedule& schedule,
                             const std::vector<ScalingStage>& stages) {
   std::vector<double> stage_s(stages.size(), 0.0);
@@ -110,7 +110,7 @@ std::set<uint32_t> WorkerNumbers(const std::vector<JobMeasurement>& jobs) {
   return numbers;
 }
 
-ScalingPrediction Predict(const std::vector<StageRun>& runs,
+ScalingPrediction Predict(const std::vector<StageLoad>& runs,
                           const std::vector<ScalingStage>& stages,
                           const std::set<uint32_t>& workers,
                           const FleetModel& model) {
@@ -130,7 +130,7 @@ ScalingPrediction Predict(const std::vector<StageRun>& runs,
 }
 
 /// As many times the measured job as there are workers.
-std::vector<ScalingWeakPoint> WeakScaling(const std::vector<StageRun>& runs,
+std::vector<ScalingWeakPoint> WeakScaling(const std::vector<StageLoad>& runs,
                                           const std::map<std::string, StageGrowth>& growth,
                                           uint32_t panoramas,
                                           const FleetModel& model) {
@@ -175,7 +175,7 @@ std::vector<ScalingRun> RunsOf(const std::vector<JobMeasurement>& jobs, FleetMod
     run.workers = job.workers;
     run.wall_s = job.wall_s;
     for (const MeasuredTask& task : job.tasks) run.cpu_s += task.cost.cpu_s;
-    run.simulated_s = SimulateSchedule(StageRunsOf(job.tasks), job.workers, model).makespan_s;
+    run.simulated_s = SimulateSchedule(StageLoadsOf(job.tasks), job.workers, model).makespan_s;
     run.residual_px_rms = job.residual_px_rms;
     run.coordinator_peak_bytes = job.coordinator_peak_bytes;
   }
@@ -217,7 +217,7 @@ ScalingReport BuildScalingReport(const std::vector<JobMeasurement>& jobs,
                                        .coordinator_s_per_task = model.coordinator_s_per_task}};
   CompareRuns(report.runs);
   const std::set<uint32_t> workers = WorkerNumbers(jobs);
-  const std::vector<StageRun> runs = StageRunsOf(base.tasks);
+  const std::vector<StageLoad> runs = StageLoadsOf(base.tasks);
   report.predictions.push_back(Predict(runs, report.stages, workers, model));
   report.predictions.back().panoramas = base.panoramas;
   const std::map<std::string, StageGrowth> growth = CarefulGrowth(jobs, base);

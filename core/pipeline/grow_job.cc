@@ -20,12 +20,12 @@ PartLoad SumOf(const std::vector<PartLoad>& parts) {
 
 double Ratio(double wanted, double present) { return present > 0.0 ? wanted / present : 1.0; }
 
-StageRun GrowRun(const StageRun& run, double factor, const StageGrowth& growth) {
+StageLoad GrowRun(const StageLoad& run, double factor, const StageGrowth& growth) {
   const auto count = static_cast<double>(run.parts.size());
   const size_t parts = run.parts.size() < 2
                            ? run.parts.size()
                            : static_cast<size_t>(std::max(1.0, std::round(count * factor)));
-  StageRun grown{.stage = run.stage};
+  StageLoad grown{.stage = run.stage};
   for (size_t part = 0; part < parts; ++part)
     grown.parts.push_back(run.parts[part % run.parts.size()]);
   const PartLoad before = SumOf(run.parts);
@@ -42,11 +42,11 @@ StageRun GrowRun(const StageRun& run, double factor, const StageGrowth& growth) 
 
 }  // namespace
 
-std::vector<StageRun> GrowJob(const std::vector<StageRun>& runs,
-                              double factor,
-                              const std::map<std::string, StageGrowth>& growth) {
-  std::vector<StageRun> grown;
-  for (const StageRun& run : runs) {
+std::vector<StageLoad> GrowJob(const std::vector<StageLoad>& runs,
+                               double factor,
+                               const std::map<std::string, StageGrowth>& growth) {
+  std::vector<StageLoad> grown;
+  for (const StageLoad& run : runs) {
     const auto found = growth.find(run.stage);
     grown.push_back(GrowRun(run, factor, found == growth.end() ? StageGrowth{} : found->second));
   }

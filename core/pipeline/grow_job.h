@@ -21,8 +21,8 @@ struct StageGrowth {
 /// every run are scaled so that their time and bytes grow together by factor^compute and
 /// factor^bytes. Loops run as often as they did. A stage that `growth` does not name grows
 /// linearly.
-[[nodiscard]] std::vector<StageRun> GrowJob(const std::vector<StageRun>& runs,
-                                            double factor,
-                                            const std::map<std::string, StageGrowth>& growth);
+[[nodiscard]] std::vector<StageLoad> GrowJob(const std::vector<StageLoad>& runs,
+                                             double factor,
+                                             const std::map<std::string, StageGrowth>& growth);
 
 }  // namespace orbweave

@@ -20,14 +20,14 @@ double TaskSeconds(const PartLoad& part, const FleetModel& model) {
 }
 
 /// What the coordinator needs for a run, however many workers there are.
-double CoordinatorSeconds(const StageRun& run, const FleetModel& model) {
+double CoordinatorSeconds(const StageLoad& run, const FleetModel& model) {
   double bytes = 0.0;
   for (const PartLoad& part : run.parts) bytes += part.bytes;
   return std::max(TransferSeconds(bytes, model.coordinator_gbit_per_s),
                   static_cast<double>(run.parts.size()) * model.coordinator_s_per_task);
 }
 
-double ListSchedule(const StageRun& run, uint32_t workers, const FleetModel& model) {
+double ListSchedule(const StageLoad& run, uint32_t workers, const FleetModel& model) {
   std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
   for (size_t w = 0; w < std::min<size_t>(workers, run.parts.size()); ++w) free_at.push(0.0);
   double end_s = 0.0;
@@ -40,11 +40,11 @@ double ListSchedule(const StageRun& run, uint32_t workers, const FleetModel& mod
   return end_s;
 }
 
-Schedule InOrder(const std::vector<StageRun>& runs,
+Schedule InOrder(const std::vector<StageLoad>& runs,
                  const FleetModel& model,
-                 const std::function<double(const StageRun&)>& seconds_of) {
+                 const std::function<double(const StageLoad&)>& seconds_of) {
   Schedule schedule;
-  for (const StageRun& run : runs) {
+  for (const StageLoad& run : runs) {
     schedule.run_s.push_back(model.stage_overhead_s + seconds_of(run));
     schedule.makespan_s += schedule.run_s.back();
   }
@@ -53,8 +53,8 @@ Schedule InOrder(const std::vector<StageRun>& runs,
 
 }  // namespace
 
-std::vector<StageRun> StageRunsOf(const std::vector<MeasuredTask>& tasks) {
-  std::vector<StageRun> runs;
+std::vector<StageLoad> StageLoadsOf(const std::vector<MeasuredTask>& tasks) {
+  std::vector<StageLoad> runs;
   for (size_t i = 0; i < tasks.size(); ++i) {
     if (i == 0 || tasks[i].run != tasks[i - 1].run) runs.push_back({.stage = tasks[i].stage});
     const TaskCost& cost = tasks[i].cost;
@@ -64,17 +64,17 @@ std::vector<StageRun> StageRunsOf(const std::vector<MeasuredTask>& tasks) {
   return runs;
 }
 
-Schedule SimulateSchedule(const std::vector<StageRun>& runs,
+Schedule SimulateSchedule(const std::vector<StageLoad>& runs,
                           uint32_t workers,
                           const FleetModel& model) {
   ORBWEAVE_CHECK(workers > 0);
-  return InOrder(runs, model, [&](const StageRun& run) {
+  return InOrder(runs, model, [&](const StageLoad& run) {
     return std::max(ListSchedule(run, workers, model), CoordinatorSeconds(run, model));
   });
 }
 
-Schedule CriticalPath(const std::vector<StageRun>& runs, const FleetModel& model) {
-  return InOrder(runs, model, [&](const StageRun& run) {
+Schedule CriticalPath(const std::vector<StageLoad>& runs, const FleetModel& model) {
+  return InOrder(runs, model, [&](const StageLoad& run) {
     double longest_s = 0.0;
     for (const PartLoad& part : run.parts)
       longest_s = std::max(longest_s, TaskSeconds(part, model));

@@ -17,7 +17,7 @@ struct PartLoad {
 };
 
 /// One run of a stage: no task of it starts before the run before is done.
-struct StageRun {
+struct StageLoad {
   std::string stage{};
   std::vector<PartLoad> parts{};
 };
@@ -25,7 +25,7 @@ struct StageRun {
 /// The runs of a job from its measured tasks, in (run, part) order. A task computes for as long as
 /// its CPU time: a worker has one thread, and waiting for processors that others keep busy is no
 /// property of the task.
-[[nodiscard]] std::vector<StageRun> StageRunsOf(const std::vector<MeasuredTask>& tasks);
+[[nodiscard]] std::vector<StageLoad> StageLoadsOf(const std::vector<MeasuredTask>& tasks);
 
 /// What is assumed of the machines.
 struct FleetModel {
@@ -49,11 +49,11 @@ struct Schedule {
 /// A run takes no less than its bytes need on the coordinator's link and its tasks in the
 /// coordinator's time. More workers are never slower; the makespan is never below the sum of all
 /// tasks over `workers`. CHECK: at least one worker.
-[[nodiscard]] Schedule SimulateSchedule(const std::vector<StageRun>& runs,
+[[nodiscard]] Schedule SimulateSchedule(const std::vector<StageLoad>& runs,
                                         uint32_t workers,
                                         const FleetModel& model);
 
 /// The same with a worker for every task and an endless coordinator: the longest task of each run.
-[[nodiscard]] Schedule CriticalPath(const std::vector<StageRun>& runs, const FleetModel& model);
+[[nodiscard]] Schedule CriticalPath(const std::vector<StageLoad>& runs, const FleetModel& model);
 
 }  // namespace orbweave

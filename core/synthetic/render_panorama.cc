@@ -67,7 +67,7 @@ class Renderer {
         return RoofColour(sample.on_roof, pixel_rad * kRoofBelow_m / (bearing.y() * bearing.y()));
       }
     }
-    const Ray ray{centre_, street_from_cam_ * bearing};
+    const LightRay ray{centre_, street_from_cam_ * bearing};
     sample.hit = Trace(world_, traffic_, ray);
     return Shade(world_, traffic_, ray, sample.hit, pixel_rad);
   }

@@ -32,7 +32,7 @@ SurfaceSamples SampleSurface(const Street& street, size_t i, int columns) {
   for (int row = 0; row < raster.height_px; ++row) {
     for (int column = 0; column < raster.width_px; ++column) {
       const Eigen::Vector3d bearing = raster.BearingFromPixel({column + 0.5, row + 0.5});
-      const Ray ray{centre_in_street, enu_from_cam * bearing};
+      const LightRay ray{centre_in_street, enu_from_cam * bearing};
       const SurfaceHit hit = Trace(street.world, none, ray);
       if (hit.surface == SurfaceHit::kSky) continue;
       samples.points_in_enu.push_back(hit.point + street.street_in_enu);

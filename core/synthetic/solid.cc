@@ -48,7 +48,7 @@ SolidHit IntersectEllipsoid(const Eigen::Vector3d& o,
 
 }  // namespace
 
-SolidHit Intersect(const Ray& ray, const Solid& solid) {
+SolidHit Intersect(const LightRay& ray, const Solid& solid) {
   const Eigen::Vector3d o = solid.LocalDirection(ray.origin - solid.centre);
   const Eigen::Vector3d d = solid.LocalDirection(ray.direction);
   return solid.kind == SolidKind::kCrown ? IntersectEllipsoid(o, d, solid.half)

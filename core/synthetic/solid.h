@@ -27,7 +27,7 @@ struct Solid {
   }
 };
 
-struct Ray {
+struct LightRay {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit
 };
@@ -39,7 +39,7 @@ struct SolidHit {
 };
 
 /// First entry of the ray into the solid, at infinity when it misses or starts inside.
-[[nodiscard]] SolidHit Intersect(const Ray& ray, const Solid& solid);
+[[nodiscard]] SolidHit Intersect(const LightRay& ray, const Solid& solid);
 
 /// Outward unit normal in the world at a point of the surface.
 [[nodiscard]] Eigen::Vector3d SurfaceNormal(const Solid& solid,

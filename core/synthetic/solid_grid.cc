@@ -22,7 +22,7 @@ Eigen::Vector2d PlanHalf(const Solid& solid) {
 }
 
 /// Range of the ray parameter inside an axis-parallel rectangle.
-std::pair<double, double> ClipToRectangle(const Ray& ray,
+std::pair<double, double> ClipToRectangle(const LightRay& ray,
                                           const Eigen::Vector2d& low,
                                           const Eigen::Vector2d& high) {
   double enter = 0.0;
@@ -83,7 +83,7 @@ Eigen::Vector2i SolidGrid::CellOf(const Eigen::Vector2d& from_low) const {
 }
 
 template <typename Visitor>
-void SolidGrid::Walk(const Ray& ray, double max_distance_m, Visitor&& visit) const {
+void SolidGrid::Walk(const LightRay& ray, double max_distance_m, Visitor&& visit) const {
   if (solids_.empty()) return;
   const Eigen::Vector2d high = low_ + kCell_m * Eigen::Vector2d(columns_, rows_);
   auto [t, t_end] = ClipToRectangle(ray, low_, high);
@@ -116,7 +116,7 @@ void SolidGrid::Walk(const Ray& ray, double max_distance_m, Visitor&& visit) con
   }
 }
 
-GridHit SolidGrid::Nearest(const Ray& ray, double max_distance_m) const {
+GridHit SolidGrid::Nearest(const LightRay& ray, double max_distance_m) const {
   GridHit nearest;
   nearest.hit.distance_m = max_distance_m;
   bool found = false;
@@ -133,7 +133,7 @@ GridHit SolidGrid::Nearest(const Ray& ray, double max_distance_m) const {
   return found ? nearest : GridHit{};
 }
 
-bool SolidGrid::IsHit(const Ray& ray) const {
+bool SolidGrid::IsHit(const LightRay& ray) const {
   bool found = false;
   Walk(ray, std::numeric_limits<double>::infinity(), [&](uint32_t index, double) {
     found = index != kNone && Intersect(ray, solids_[index]).face >= 0;

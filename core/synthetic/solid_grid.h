@@ -24,9 +24,9 @@ class SolidGrid {
   explicit SolidGrid(const std::vector<Solid>& solids);
 
   /// Nearest hit before `max_distance_m`; of equal distances the smaller index.
-  [[nodiscard]] GridHit Nearest(const Ray& ray, double max_distance_m) const;
+  [[nodiscard]] GridHit Nearest(const LightRay& ray, double max_distance_m) const;
   /// Whether anything is hit at all.
-  [[nodiscard]] bool IsHit(const Ray& ray) const;
+  [[nodiscard]] bool IsHit(const LightRay& ray) const;
 
  private:
   /// Column and row of a place relative to `low_`, clamped to the grid.
@@ -34,7 +34,7 @@ class SolidGrid {
   /// Calls visit(solid, distance at which the cell ends) for the solids of each cell along the ray,
   /// then visit(none, the same) at the cell's end, until a call returns true.
   template <typename Visitor>
-  void Walk(const Ray& ray, double max_distance_m, Visitor&& visit) const;
+  void Walk(const LightRay& ray, double max_distance_m, Visitor&& visit) const;
 
   std::vector<Solid> solids_{};
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();

@@ -27,13 +27,13 @@ bool IsInSun(const StreetWorld& world,
   constexpr double kOffSurface_m = 1e-4;
   const Eigen::Vector3d to_sun = ToSun();
   if (normal.dot(to_sun) <= 0.0) return false;
-  const Ray ray{point + kOffSurface_m * normal, to_sun};
+  const LightRay ray{point + kOffSurface_m * normal, to_sun};
   return !world.grid.IsHit(ray) && !traffic.grid.IsHit(ray);
 }
 
 SurfaceHit SolidSurface(const std::vector<Solid>& solids,
                         const GridHit& found,
-                        const Ray& ray,
+                        const LightRay& ray,
                         bool moving) {
   SurfaceHit hit{.solid = found.solid, .face = found.hit.face, .moving = moving};
   hit.surface = 2 + kSurfacesPerSolid * found.solid + static_cast<uint32_t>(found.hit.face) +
@@ -54,7 +54,7 @@ StreetWorld MakeStreetWorld(double length_m, uint64_t seed) {
   return world;
 }
 
-SurfaceHit Trace(const StreetWorld& world, const Traffic& traffic, const Ray& ray) {
+SurfaceHit Trace(const StreetWorld& world, const Traffic& traffic, const LightRay& ray) {
   double limit_m = kFarthest_m;
   SurfaceHit hit;
   if (ray.direction.z() < 0.0) {
@@ -79,7 +79,7 @@ SurfaceHit Trace(const StreetWorld& world, const Traffic& traffic, const Ray& ra
 
 Colour Shade(const StreetWorld& world,
              const Traffic& traffic,
-             const Ray& ray,
+             const LightRay& ray,
              const SurfaceHit& hit,
              double pixel_rad) {
   if (hit.surface == SurfaceHit::kSky) return SkyColour(ray.direction, pixel_rad, world.seed + 5);

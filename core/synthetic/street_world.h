@@ -52,12 +52,14 @@ struct SurfaceHit {
   }
 };
 
-[[nodiscard]] SurfaceHit Trace(const StreetWorld& world, const Traffic& traffic, const Ray& ray);
+[[nodiscard]] SurfaceHit Trace(const StreetWorld& world,
+                               const Traffic& traffic,
+                               const LightRay& ray);
 
 /// Colour of a hit for a pixel of `pixel_rad`: texture times sunlight and shadow.
 [[nodiscard]] Colour Shade(const StreetWorld& world,
                            const Traffic& traffic,
-                           const Ray& ray,
+                           const LightRay& ray,
                            const SurfaceHit& hit,
                            double pixel_rad);
 

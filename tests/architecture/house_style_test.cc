@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -12,6 +13,9 @@
 
 namespace orbweave::architecture {
 namespace {
+
+const std::vector<std::string> kProductRoots = {
+    "core", "proto", "security", "coordinator", "worker", "cli"};
 
 const std::vector<std::string> kSourceRoots = {
     "core", "proto", "security", "coordinator", "worker", "cli", "tests", "bench"};
@@ -49,6 +53,21 @@ std::vector<int> LinesWithMachinePaths(const std::string& text) {
   return lines;
 }
 
+// The structs and classes that a file defines where other files could see them.
+std::vector<std::string> NamesOfTypes(const std::string& text) {
+  static const std::regex kType(R"((struct|class|enum class) (\w+)( final)?( [:{].*)?)");
+  std::vector<std::string> names;
+  std::istringstream stream(text);
+  bool is_private = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line == "namespace {") is_private = true;
+    if (line == "}  // namespace") is_private = false;
+    if (std::smatch match; !is_private && std::regex_match(line, match, kType))
+      names.push_back(match[2]);
+  }
+  return names;
+}
+
 bool SaysLicence(const std::string& text) {
   const std::string head = text.substr(0, 400);
   return head.find("SPDX-FileCopyrightText: The Orbweave authors") != std::string::npos &&
@@ -59,6 +78,26 @@ TEST(LinesWithMachinePaths, SeesAbsolutePathsOnly) {
   const std::string folder = std::string("/ho") + "me/somebody";
   EXPECT_EQ(LinesWithMachinePaths("fine\nopen(\"" + folder + "/a.jpg\")\n"), (std::vector<int>{2}));
   EXPECT_TRUE(LinesWithMachinePaths("core" + folder + "\n${ROOT}" + folder + "\n").empty());
+}
+
+TEST(NamesOfTypes, SeesDefinitionsThatOtherFilesCouldSee) {
+  EXPECT_EQ(
+      NamesOfTypes("struct A {\n  struct Inner {};\n};\nstruct Declared;\nclass B : public A {\n"
+                   "namespace {\nstruct Private {\n}  // namespace\nenum class C { kNone };\n"),
+      (std::vector<std::string>{"A", "B", "C"}));
+}
+
+// Two types of one name make a program of undefined behaviour: the linker keeps the destructor of
+// one of them, for both.
+TEST(HouseStyle, NoTwoTypesShareAName) {
+  std::map<std::string, std::string> file_of_type;
+  for (const SourceFile& file : ReadTree(kProductRoots)) {
+    if (!IsCpp(file.path)) continue;
+    for (const std::string& name : NamesOfTypes(file.text)) {
+      const auto [first, is_new] = file_of_type.emplace(name, file.path);
+      EXPECT_TRUE(is_new) << name << " in " << first->second << " and " << file.path;
+    }
+  }
 }
 
 TEST(HouseStyle, EveryHeaderIsIncludedOnce) {

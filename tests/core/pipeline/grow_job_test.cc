@@ -8,12 +8,12 @@
 namespace orbweave {
 namespace {
 
-std::vector<StageRun> SmallJob() {
+std::vector<StageLoad> SmallJob() {
   return {{"map", {{1.0, 10.0}, {3.0, 30.0}}}, {"join", {{0.5, 8.0}}}, {"pick", {}}};
 }
 
 TEST(GrowJob, ByOneIsTheJobItself) {
-  const std::vector<StageRun> grown = GrowJob(SmallJob(), 1.0, {});
+  const std::vector<StageLoad> grown = GrowJob(SmallJob(), 1.0, {});
   ASSERT_EQ(grown.size(), 3U);
   ASSERT_EQ(grown[0].parts.size(), 2U);
   EXPECT_DOUBLE_EQ(grown[0].parts[1].compute_s, 3.0);
@@ -22,7 +22,7 @@ TEST(GrowJob, ByOneIsTheJobItself) {
 }
 
 TEST(GrowJob, RepeatsPartsAndKeepsSerialStagesWhole) {
-  const std::vector<StageRun> grown = GrowJob(SmallJob(), 4.0, {});
+  const std::vector<StageLoad> grown = GrowJob(SmallJob(), 4.0, {});
   ASSERT_EQ(grown[0].parts.size(), 8U);
   EXPECT_DOUBLE_EQ(grown[0].parts[0].compute_s, 1.0) << "a part of a linear stage stays as it is";
   EXPECT_DOUBLE_EQ(grown[0].parts[7].compute_s, 3.0);
@@ -33,7 +33,7 @@ TEST(GrowJob, RepeatsPartsAndKeepsSerialStagesWhole) {
 }
 
 TEST(GrowJob, TotalsFollowTheExponents) {
-  const std::vector<StageRun> grown =
+  const std::vector<StageLoad> grown =
       GrowJob(SmallJob(), 4.0, {{"map", {.compute = 2.0, .bytes = 1.5}}});
   ASSERT_EQ(grown[0].parts.size(), 8U);
   double compute_s = 0.0;

@@ -10,17 +10,17 @@
 namespace orbweave {
 namespace {
 
-StageRun RunOf(const std::string& stage, const std::vector<double>& seconds) {
-  StageRun run{.stage = stage};
+StageLoad RunOf(const std::string& stage, const std::vector<double>& seconds) {
+  StageLoad run{.stage = stage};
   for (const double s : seconds) run.parts.push_back({.compute_s = s});
   return run;
 }
 
-std::vector<StageRun> RandomJob() {
+std::vector<StageLoad> RandomJob() {
   Random random(3);
-  std::vector<StageRun> job;
+  std::vector<StageLoad> job;
   for (int k = 0; k < 6; ++k) {
-    StageRun& run = job.emplace_back();
+    StageLoad& run = job.emplace_back();
     for (int p = 0; p < 1 + 40 * (k % 2); ++p)
       run.parts.push_back({random.Uniform(0.1, 9.0), random.Uniform(0.0, 1e8)});
   }
@@ -31,9 +31,9 @@ FleetModel SomeModel() {
   return {.task_overhead_s = 0.2, .stage_overhead_s = 0.5, .coordinator_s_per_task = 0.03};
 }
 
-double SumOf(const std::vector<StageRun>& runs, const FleetModel& model) {
+double SumOf(const std::vector<StageLoad>& runs, const FleetModel& model) {
   double sum_s = 0.0;
-  for (const StageRun& run : runs) {
+  for (const StageLoad& run : runs) {
     for (const PartLoad& part : run.parts)
       sum_s += model.task_overhead_s + part.compute_s + 8e-9 * part.bytes / model.worker_gbit_per_s;
   }
@@ -41,7 +41,7 @@ double SumOf(const std::vector<StageRun>& runs, const FleetModel& model) {
 }
 
 TEST(SimulateSchedule, FollowsAKnownSchedule) {
-  const std::vector<StageRun> job = {
+  const std::vector<StageLoad> job = {
       RunOf("a", {3, 1, 1, 4}), RunOf("b", {2}), RunOf("a", {1, 1, 1})};
   const Schedule two = SimulateSchedule(job, 2, {});
   ASSERT_EQ(two.run_s.size(), 3U);
@@ -52,7 +52,7 @@ TEST(SimulateSchedule, FollowsAKnownSchedule) {
 }
 
 TEST(SimulateSchedule, OneWorkerTakesTheSumOfAllTasks) {
-  const std::vector<StageRun> job = RandomJob();
+  const std::vector<StageLoad> job = RandomJob();
   const FleetModel model = SomeModel();
   const double breaks_s = static_cast<double>(job.size()) * model.stage_overhead_s;
   EXPECT_NEAR(SimulateSchedule(job, 1, model).makespan_s, SumOf(job, model) + breaks_s, 1e-9);
@@ -62,13 +62,13 @@ TEST(SimulateSchedule, AWorkerForEachTaskTakesTheCriticalPath) {
   FleetModel model = SomeModel();
   model.coordinator_s_per_task = 0.0;
   model.coordinator_gbit_per_s = 1e9;
-  const std::vector<StageRun> job = RandomJob();
+  const std::vector<StageLoad> job = RandomJob();
   EXPECT_DOUBLE_EQ(SimulateSchedule(job, 1000, model).makespan_s,
                    CriticalPath(job, model).makespan_s);
 }
 
 TEST(SimulateSchedule, MoreWorkersAreNeverSlowerNorBetterThanTheirNumber) {
-  const std::vector<StageRun> job = RandomJob();
+  const std::vector<StageLoad> job = RandomJob();
   const FleetModel model = SomeModel();
   double before_s = SimulateSchedule(job, 1, model).makespan_s;
   for (uint32_t workers = 2; workers < 60; ++workers) {
@@ -81,7 +81,7 @@ TEST(SimulateSchedule, MoreWorkersAreNeverSlowerNorBetterThanTheirNumber) {
 }
 
 TEST(SimulateSchedule, BytesTakeTimeOnBothLinks) {
-  StageRun run;
+  StageLoad run;
   for (int p = 0; p < 100; ++p) run.parts.push_back({.compute_s = 1.0, .bytes = 1e9});
   const FleetModel model{.worker_gbit_per_s = 4.0, .coordinator_gbit_per_s = 10.0};
   EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 2, model).makespan_s, 150.0) << "1 s and 2 s a task";
@@ -98,9 +98,9 @@ TEST(SimulateSchedule, AJobWithoutTasksTakesNoTime) {
   EXPECT_EQ(SimulateSchedule({RunOf("a", {})}, 5, {}).makespan_s, 0.0);
 }
 
-TEST(StageRunsOf, EachRoundOfALoopIsARun) {
+TEST(StageLoadsOf, EachRoundOfALoopIsARun) {
   const TaskCost cost{.wall_s = 9.0, .cpu_s = 2.0, .bytes_in = 30, .bytes_out = 4};
-  const std::vector<StageRun> runs = StageRunsOf(
+  const std::vector<StageLoad> runs = StageLoadsOf(
       {{0, "steer", 0, cost}, {1, "adjust", 0, cost}, {1, "adjust", 1, {}}, {2, "steer", 0, cost}});
   ASSERT_EQ(runs.size(), 3U);
   EXPECT_EQ(runs[1].stage, "adjust");

@@ -28,14 +28,14 @@ std::vector<Solid> RandomSolids(Random& random) {
   return solids;
 }
 
-Ray RandomRay(Random& random) {
-  Ray ray{{random.Uniform(-60, 60), random.Uniform(-40, 40), random.Uniform(-3, 6)},
-          {random.Normal(), random.Normal(), 0.3 * random.Normal()}};
+LightRay RandomRay(Random& random) {
+  LightRay ray{{random.Uniform(-60, 60), random.Uniform(-40, 40), random.Uniform(-3, 6)},
+               {random.Normal(), random.Normal(), 0.3 * random.Normal()}};
   ray.direction.normalize();
   return ray;
 }
 
-GridHit NearestOfAll(const std::vector<Solid>& solids, const Ray& ray) {
+GridHit NearestOfAll(const std::vector<Solid>& solids, const LightRay& ray) {
   GridHit nearest;
   for (uint32_t i = 0; i < solids.size(); ++i) {
     const SolidHit hit = Intersect(ray, solids[i]);
@@ -50,7 +50,7 @@ TEST(SolidGrid, FindsWhatLookingAtAllSolidsFinds) {
   const SolidGrid grid(solids);
   int hits = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Ray ray = RandomRay(random);
+    const LightRay ray = RandomRay(random);
     const GridHit expected = NearestOfAll(solids, ray);
     const GridHit found = grid.Nearest(ray, kInfinity);
     ASSERT_EQ(found.hit.distance_m, expected.hit.distance_m) << i;
@@ -66,7 +66,7 @@ TEST(SolidGrid, FindsWhatLookingAtAllSolidsFinds) {
 
 TEST(SolidGrid, SeesNothingBeyondTheLimit) {
   const SolidGrid grid({{.centre = {10.0, 0.0, 0.0}}});
-  const Ray ray{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()};
+  const LightRay ray{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()};
   EXPECT_EQ(grid.Nearest(ray, 8.9).hit.face, -1);
   EXPECT_DOUBLE_EQ(grid.Nearest(ray, 9.1).hit.distance_m, 9.0);
 }

@@ -23,7 +23,7 @@ TEST(Solid, NormalsPointAgainstTheRay) {
   Solid crown = box;
   crown.kind = SolidKind::kCrown;
   for (const Solid& solid : {box, crown}) {
-    const Ray ray{Eigen::Vector3d::Zero(), solid.centre.normalized()};
+    const LightRay ray{Eigen::Vector3d::Zero(), solid.centre.normalized()};
     const SolidHit hit = Intersect(ray, solid);
     ASSERT_GE(hit.face, 0);
     const Eigen::Vector3d normal =

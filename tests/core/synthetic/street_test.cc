@@ -125,7 +125,7 @@ TEST(Street, TheCameraKeepsClearOfEverythingThatStands) {
     const Eigen::Vector3d centre = cam.Centre() - street.street_in_enu;
     for (int k = 0; k < 36; ++k) {
       const double azimuth = k * 0.1745;
-      const Ray ray{centre, {std::cos(azimuth), std::sin(azimuth), 0.0}};
+      const LightRay ray{centre, {std::cos(azimuth), std::sin(azimuth), 0.0}};
       EXPECT_GT(street.world.grid.Nearest(ray, 100.0).hit.distance_m, 1.5);
     }
   }
