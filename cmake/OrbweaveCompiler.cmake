@@ -28,4 +28,10 @@ add_compile_options(-ffp-contract=off)
 if(ORBWEAVE_SANITIZE)
   add_compile_options(-fsanitize=${ORBWEAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ORBWEAVE_SANITIZE})
+  # Where the kernel scatters addresses widely (vm.mmap_rnd_bits above 28) the sanitizers of g++ 12 find the
+  # place of their shadow memory taken: tests run without scattering, unless that is forbidden, as in containers.
+  execute_process(COMMAND setarch -R true RESULT_VARIABLE refused OUTPUT_QUIET ERROR_QUIET)
+  if(refused STREQUAL "0")
+    set(CMAKE_CROSSCOMPILING_EMULATOR setarch -R)
+  endif()
 endif()

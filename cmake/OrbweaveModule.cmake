@@ -28,6 +28,12 @@ function(orbweave_module)
   endif()
 endfunction()
 
+# What every test of a build with sanitizers has; see tests/sanitizers.
+set(ORBWEAVE_TEST_PROPERTIES)
+if(ORBWEAVE_SANITIZE)
+  set(ORBWEAVE_TEST_PROPERTIES FIXTURES_REQUIRED sanitizers)
+endif()
+
 # orbweave_test(NAME core/geometry SOURCES a_test.cc ... DEPS geometry ... LIBS ... [LABELS slow])
 # One GoogleTest binary; every TEST becomes a ctest entry "<name>/Suite.Case".
 function(orbweave_test)
@@ -42,11 +48,14 @@ function(orbweave_test)
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 300)
   endif()
+  if(ORBWEAVE_SANITIZE)
+    math(EXPR T_TIMEOUT "5 * ${T_TIMEOUT}")
+  endif()
   add_executable(${target} ${T_SOURCES})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE ${T_DEPS} ${T_LIBS} orbweave_warnings GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE ORBWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   include(GoogleTest)
   gtest_discover_tests(${target} TEST_PREFIX "${T_NAME}/" DISCOVERY_TIMEOUT 120
-    PROPERTIES TIMEOUT ${T_TIMEOUT} LABELS "${T_LABELS}")
+    PROPERTIES TIMEOUT ${T_TIMEOUT} LABELS "${T_LABELS}" ${ORBWEAVE_TEST_PROPERTIES})
 endfunction()
