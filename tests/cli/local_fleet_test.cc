@@ -134,7 +134,10 @@ class Leaver : public ::testing::Test {
         Api(), "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20", "toy.pause=true\n"));
     worker_ = std::make_unique<testing::Command>(std::vector<std::string>{
         "/proc/self/exe", "work", "--join", fleet_->address(), "--name", "leaver"});
-    ASSERT_TRUE(testing::WaitUntil([this] { return Squares().tasks_running == 1; }, 60.0));
+    const auto holds_a_square = [this] {
+      return worker_->ErrSoFar().find("\"stage\":\"square\"") != std::string::npos;
+    };
+    ASSERT_TRUE(testing::WaitUntil(holds_a_square, 60.0)) << worker_->ErrSoFar();
   }
 
   CoordinatorApi& Api() { return fleet_->coordinator(); }
@@ -143,7 +146,7 @@ class Leaver : public ::testing::Test {
   void ExpectThatItFinishedAndLeft() {
     const testing::CommandOutcome outcome = worker_->Wait();
     EXPECT_EQ(outcome.exit_code, kExitOk) << outcome.err;
-    EXPECT_GT(Squares().tasks_done, 0U) << "what ran";
+    EXPECT_GT(Squares().tasks_done, 0U) << "what ran\n" << outcome.err;
     EXPECT_LT(Squares().tasks_done, 20U) << "and no more";
     EXPECT_EQ(Squares().tasks_running, 0U);
     EXPECT_EQ(Squares().retries, 0U);
