@@ -57,5 +57,5 @@ function(orbweave_test)
   target_compile_definitions(${target} PRIVATE ORBWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   include(GoogleTest)
   gtest_discover_tests(${target} TEST_PREFIX "${T_NAME}/" DISCOVERY_TIMEOUT 120
-    PROPERTIES TIMEOUT ${T_TIMEOUT} LABELS "${T_LABELS}" ${ORBWEAVE_TEST_PROPERTIES})
+    PROPERTIES TIMEOUT ${T_TIMEOUT} ${ORBWEAVE_TEST_PROPERTIES} LABELS "${T_LABELS}")
 endfunction()
