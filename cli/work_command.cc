@@ -58,7 +58,8 @@ void AddTaskLimits(CLI::App& command, TaskLimits& limits) {
   command
       .add_option("--task-stall",
                   limits.stall_s,
-                  "Seconds without progress or processor time after which a task hangs")
+                  "Seconds without a sign of progress after which an idle task hangs, and "
+                  "processor seconds after which a busy one spins")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--task-limit", limits.total_s, "Longest time of a task in seconds")

@@ -29,13 +29,16 @@ absl::StatusOr<std::string> GetOptional(const Digest& digest, BlobAccess& blobs)
 }
 
 /// The most similar images by place samples; `manifest` says which images know where they are.
-std::vector<std::vector<ImageId>> SimilarImages(const std::vector<PlaceSample>& places,
-                                                const ImageManifest& manifest,
-                                                const RetrievalOptions& options) {
+absl::StatusOr<std::vector<std::vector<ImageId>>> SimilarImages(
+    const std::vector<PlaceSample>& places,
+    const ImageManifest& manifest,
+    const RetrievalOptions& options,
+    const StageContext& context) {
   std::vector<std::vector<uint8_t>> samples;
   samples.reserve(places.size());
   for (const PlaceSample& place : places) samples.push_back(place.descriptors);
-  std::vector<std::vector<ImageId>> similar = RetrieveSimilarImages(samples, options);
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<std::vector<ImageId>> similar,
+                            RetrieveSimilarImages(samples, options, context));
   for (const ImageRecord& image : manifest.images) {
     // Where GNSS tells the neighbours, appearance has nothing to add but repeated facades.
     if (image.prior.position_in_enu) similar[image.id.value].clear();
@@ -121,7 +124,7 @@ absl::StatusOr<TaskResult> RunExtractFeatures(const TaskSpec& spec,
 
 absl::StatusOr<TaskResult> RunSelectImagePairs(const TaskSpec& spec,
                                                BlobAccess& blobs,
-                                               const StageContext&) {
+                                               const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, OptionsOf(spec));
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
                             FetchInput(spec, 0, blobs, DecodeImageManifest));
@@ -135,8 +138,9 @@ absl::StatusOr<TaskResult> RunSelectImagePairs(const TaskSpec& spec,
     ORBWEAVE_ASSIGN_OR_RETURN(PlaceSample place, FetchBlob(digest, blobs, DecodePlaceSample));
     places.push_back(std::move(place));
   }
-  const std::vector<ImagePair> selected =
-      SelectImagePairs(manifest, SimilarImages(places, manifest, options.retrieval), options.pairs);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::vector<ImageId>> similar,
+                            SimilarImages(places, manifest, options.retrieval, context));
+  const std::vector<ImagePair> selected = SelectImagePairs(manifest, similar, options.pairs);
   std::vector<MatchRecipe::Pair> pairs;
   for (const ImagePair& pair : selected) {
     if (places[pair.a.value].num_features > 0 && places[pair.b.value].num_features > 0)

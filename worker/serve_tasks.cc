@@ -3,6 +3,7 @@
 
 #include "worker/serve_tasks.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
@@ -16,6 +17,9 @@
 
 namespace orbweave {
 namespace {
+
+/// Between two messages of the same kind that tell how a task goes: more would be for nobody.
+constexpr double kApart_s = 0.1;
 
 /// The answer to a request for a blob, with its bytes.
 struct BlobReply {
@@ -78,6 +82,7 @@ class TaskServer final : public BlobAccess {
     context.num_threads = task.num_threads();
     context.seed = task.seed();
     context.report = [this](const Progress& progress) { Report(progress); };
+    context.alive = [this] { ShowLife(); };
     reported_s_.reset();
     return RunTask(stages_, spec, *this, context, clock_);
   }
@@ -87,9 +92,17 @@ class TaskServer final : public BlobAccess {
     return channel_.Send(message.SerializeAsString(), bulk);
   }
 
-  /// Passes progress on, not more often than anybody wants to see it.
+  void ShowLife() {
+    const double now_s = clock_.NowSeconds();
+    double before_s = showed_life_s_;
+    if (now_s < before_s + kApart_s || !showed_life_s_.compare_exchange_strong(before_s, now_s))
+      return;
+    v1::FromTaskProcess message;
+    message.mutable_alive();
+    (void)Send(message);  // a worker that is gone is noticed by the reader
+  }
+
   void Report(const Progress& progress) {
-    constexpr double kApart_s = 0.1;
     {
       const std::lock_guard lock(mutex_);
       const double now_s = clock_.NowSeconds();
@@ -153,6 +166,7 @@ class TaskServer final : public BlobAccess {
   const Clock& clock_;
   std::mutex send_mutex_;
   std::mutex ask_mutex_;
+  std::atomic<double> showed_life_s_ = 0.0;
   std::mutex mutex_;  ///< of all below
   std::condition_variable changed_;
   bool is_closed_ = false;

@@ -112,7 +112,7 @@ absl::StatusOr<v1::TaskEnd> TaskProcess::Attend(const TaskSpec& spec,
     if (WaitForInput(channel_->descriptor(), stop_event, watch.Wait())) {
       ORBWEAVE_ASSIGN_OR_RETURN(std::optional<v1::TaskEnd> end, ReceiveOne(blobs, context));
       if (end) return *std::move(end);
-      watch.SawSign(clock_.NowSeconds());
+      watch.SawSign(clock_.NowSeconds(), process_.CpuSeconds());
     }
     const double now_s = clock_.NowSeconds();
     if (context.stop.stop_requested() && !kill_at_s) {
@@ -134,6 +134,8 @@ absl::StatusOr<std::optional<v1::TaskEnd>> TaskProcess::ReceiveOne(BlobCache& bl
     return absl::InternalError("the process that ran the task sent what is no message");
   using Body = v1::FromTaskProcess::BodyCase;
   switch (message.body_case()) {
+    case Body::kAlive:
+      return std::nullopt;
     case Body::kProgress: {
       const v1::TaskProgress& progress = message.progress();
       context.Report(progress.done(), progress.total(), progress.unit().c_str());

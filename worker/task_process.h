@@ -24,7 +24,7 @@ class TaskProcess final : public TaskExecutor {
   TaskProcess(const TaskLimits& limits, const Clock& clock) : limits_(limits), clock_(clock) {}
 
   /// Aborted: the process died in the middle of the task; the message says of what.
-  /// DeadlineExceeded: it was killed because the task hung or took too long. Unavailable: no
+  /// DeadlineExceeded: it was killed because the task hung, spun or took too long. Unavailable: no
   /// process could be started.
   [[nodiscard]] absl::StatusOr<TaskResult> Run(const TaskSpec& spec,
                                                BlobCache& blobs,

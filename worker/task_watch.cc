@@ -11,12 +11,12 @@ namespace orbweave {
 
 std::optional<std::string> TaskWatch::Look(double now_s, double cpu_s) {
   constexpr double kBusyShare = 0.01;
-  if (cpu_s - sign_cpu_s_ >= kBusyShare * limits_.stall_s) {
-    sign_cpu_s_ = cpu_s;
-    SawSign(now_s);
-  }
-  if (now_s - sign_s_ >= limits_.stall_s)
+  if (cpu_s - busy_.cpu_s >= kBusyShare * limits_.stall_s) busy_ = {now_s, cpu_s};
+  if (now_s - busy_.now_s >= limits_.stall_s)
     return absl::StrCat("it hung: no sign of life for ", limits_.stall_s, " s");
+  if (now_s - sign_.now_s >= limits_.stall_s && cpu_s - sign_.cpu_s >= limits_.stall_s) {
+    return absl::StrCat("it spun: no sign of life for ", limits_.stall_s, " s of processor time");
+  }
   if (now_s - begin_s_ >= limits_.total_s)
     return absl::StrCat("it took longer than ", limits_.total_s, " s");
   return std::nullopt;

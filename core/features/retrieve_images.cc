@@ -47,13 +47,15 @@ Eigen::MatrixXf PrincipalDirections(const std::vector<std::vector<uint8_t>>& sam
 }
 
 /// Unit signatures of the images, one per column.
-Eigen::MatrixXf Signatures(const std::vector<std::vector<uint8_t>>& samples,
-                           const std::vector<size_t>& images,
-                           int num_words) {
+absl::StatusOr<Eigen::MatrixXf> Signatures(const std::vector<std::vector<uint8_t>>& samples,
+                                           const std::vector<size_t>& images,
+                                           int num_words,
+                                           const StageContext& context) {
   const Eigen::MatrixXf words = TrainWords(samples, num_words);
   const Eigen::MatrixXf directions = PrincipalDirections(samples, images, words);
   Eigen::MatrixXf signatures(directions.cols(), static_cast<Eigen::Index>(images.size()));
   for (size_t i = 0; i < images.size(); ++i) {
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     signatures.col(static_cast<Eigen::Index>(i)) =
         (directions.transpose() * ComputeVlad(samples[images[i]], words)).normalized();
   }
@@ -99,14 +101,18 @@ std::vector<uint8_t> SampleDescriptors(const Features& features, const Retrieval
   return sample;
 }
 
-std::vector<std::vector<ImageId>> RetrieveSimilarImages(
-    const std::vector<std::vector<uint8_t>>& samples, const RetrievalOptions& options) {
+absl::StatusOr<std::vector<std::vector<ImageId>>> RetrieveSimilarImages(
+    const std::vector<std::vector<uint8_t>>& samples,
+    const RetrievalOptions& options,
+    const StageContext& context) {
   std::vector<std::vector<ImageId>> similar(samples.size());
   const std::vector<size_t> images = NonEmpty(samples);
   if (images.size() < 2 || options.num_neighbours == 0) return similar;
-  const Eigen::MatrixXf signatures = Signatures(samples, images, options.num_words);
+  ORBWEAVE_ASSIGN_OR_RETURN(const Eigen::MatrixXf signatures,
+                            Signatures(samples, images, options.num_words, context));
   for (Eigen::Index first = 0; first < signatures.cols(); first += kImagesAtOnce) {
     const Eigen::Index count = std::min(kImagesAtOnce, signatures.cols() - first);
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     const Eigen::MatrixXf scores = signatures.transpose() * signatures.middleCols(first, count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto self = static_cast<size_t>(first + i);

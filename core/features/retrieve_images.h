@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/options.h"
+#include "core/base/stage_context.h"
 #include "core/scene/features.h"
 #include "core/scene/ids.h"
 
@@ -40,7 +41,9 @@ struct RetrievalOptions {
 
 /// For every image the most similar others by VLAD (Jegou et al., CVPR 2010), best first.
 /// `samples[i]` belongs to image i; empty ones get an empty list. Deterministic.
-[[nodiscard]] std::vector<std::vector<ImageId>> RetrieveSimilarImages(
-    const std::vector<std::vector<uint8_t>>& samples, const RetrievalOptions& options);
+[[nodiscard]] absl::StatusOr<std::vector<std::vector<ImageId>>> RetrieveSimilarImages(
+    const std::vector<std::vector<uint8_t>>& samples,
+    const RetrievalOptions& options,
+    const StageContext& context);
 
 }  // namespace orbweave

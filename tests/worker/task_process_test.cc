@@ -80,13 +80,20 @@ absl::StatusOr<TaskResult> Hang(const TaskSpec&, BlobAccess&, const StageContext
   while (true) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// Computes for as many seconds as its option says, and tells nobody.
-absl::StatusOr<TaskResult> Compute(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
+/// Computes for as many seconds as its option says, and only looks whether it is to stop.
+absl::StatusOr<TaskResult> Compute(const TaskSpec& spec,
+                                   BlobAccess& blobs,
+                                   const StageContext& context) {
   const SteadyClock clock;
   const double end_s = clock.NowSeconds() + std::stod(spec.options_text);
-  while (clock.NowSeconds() < end_s) {
-  }
+  while (clock.NowSeconds() < end_s) ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
   return PutText(blobs, "computed");
+}
+
+/// An endless loop.
+absl::StatusOr<TaskResult> Spin(const TaskSpec&, BlobAccess&, const StageContext&) {
+  for (std::atomic<uint64_t> rounds = 0; true; ++rounds) {
+  }
 }
 
 absl::StatusOr<TaskResult> EatMemory(const TaskSpec&, BlobAccess& blobs, const StageContext&) {
@@ -105,6 +112,7 @@ testing::StageMap Stages() {
           {"wait", WaitForStop},
           {"hang", Hang},
           {"compute", Compute},
+          {"spin", Spin},
           {"eat", EatMemory}};
 }
 
@@ -274,7 +282,7 @@ TEST_F(ImpatientTest, KillsATaskThatHangs) {
   EXPECT_EQ(TextOf("compute", "0"), "computed");
 }
 
-TEST_F(ImpatientTest, LetsATaskComputeInSilence) {
+TEST_F(ImpatientTest, LetsATaskComputeThatLooksWhetherItIsToStop) {
   EXPECT_EQ(TextOf("compute", "2.5"), "computed");
 }
 
@@ -288,6 +296,17 @@ TEST_F(ImpatientTest, KillsATaskThatDoesNotStopWhenToldTo) {
   std::stop_source stop;
   stop.request_stop();
   EXPECT_TRUE(absl::IsCancelled(Run("hang", "", {.stop = stop.get_token()}).status()));
+}
+
+class UnhurriedTest : public TaskProcessTest {
+ protected:
+  UnhurriedTest() : TaskProcessTest({.stall_s = 2.0}) {}
+};
+
+TEST_F(UnhurriedTest, KillsATaskThatSpins) {
+  const absl::Status status = Run("spin").status();
+  EXPECT_TRUE(absl::IsDeadlineExceeded(status)) << status;
+  EXPECT_THAT(std::string(status.message()), HasSubstr("it spun"));
 }
 
 int BeATaskProcess(int argc, char** argv) {

@@ -39,7 +39,7 @@ std::vector<std::vector<uint8_t>> ImagesOfPlaces(int num_places,
 
 TEST(RetrieveSimilarImages, FindsImagesOfTheSamePlaceFirst) {
   const auto samples = ImagesOfPlaces(30, 4, 1);
-  const auto similar = RetrieveSimilarImages(samples, {.num_neighbours = 3});
+  const auto similar = *RetrieveSimilarImages(samples, {.num_neighbours = 3}, {});
   ASSERT_EQ(similar.size(), samples.size());
   for (uint32_t i = 0; i < similar.size(); ++i) {
     ASSERT_THAT(similar[i], SizeIs(3));
@@ -52,7 +52,7 @@ TEST(RetrieveSimilarImages, FindsImagesOfTheSamePlaceFirst) {
 
 TEST(RetrieveSimilarImages, FindsPlacesAmongMoreImagesThanComponents) {
   const auto samples = ImagesOfPlaces(300, 2, 2);
-  const auto similar = RetrieveSimilarImages(samples, {.num_words = 8, .num_neighbours = 1});
+  const auto similar = *RetrieveSimilarImages(samples, {.num_words = 8, .num_neighbours = 1}, {});
   int right = 0;
   for (uint32_t i = 0; i < similar.size(); ++i)
     right += similar[i].front().value / 2 == i / 2 ? 1 : 0;
@@ -61,13 +61,13 @@ TEST(RetrieveSimilarImages, FindsPlacesAmongMoreImagesThanComponents) {
 
 TEST(RetrieveSimilarImages, IsDeterministic) {
   const auto samples = ImagesOfPlaces(10, 3, 3);
-  EXPECT_EQ(RetrieveSimilarImages(samples, {}), RetrieveSimilarImages(samples, {}));
+  EXPECT_EQ(*RetrieveSimilarImages(samples, {}, {}), *RetrieveSimilarImages(samples, {}, {}));
 }
 
 TEST(RetrieveSimilarImages, GivesImagesWithoutDescriptorsAnEmptyList) {
   auto samples = ImagesOfPlaces(2, 2, 4);
   samples.insert(samples.begin() + 1, std::vector<uint8_t>());
-  const auto similar = RetrieveSimilarImages(samples, {.num_neighbours = 1});
+  const auto similar = *RetrieveSimilarImages(samples, {.num_neighbours = 1}, {});
   EXPECT_THAT(similar[1], IsEmpty());
   EXPECT_THAT(similar[0], ElementsAre(ImageId(2)));
   EXPECT_THAT(similar[4], ElementsAre(ImageId(3)));
@@ -76,16 +76,28 @@ TEST(RetrieveSimilarImages, GivesImagesWithoutDescriptorsAnEmptyList) {
 TEST(RetrieveSimilarImages, HandlesFewerDescriptorsThanWords) {
   std::vector<std::vector<uint8_t>> samples = ImagesOfPlaces(3, 1, 5);
   for (auto& sample : samples) sample.resize(2 * kDescriptorSize);
-  const auto similar = RetrieveSimilarImages(samples, {});
+  const auto similar = *RetrieveSimilarImages(samples, {}, {});
   for (const auto& list : similar) EXPECT_THAT(list, SizeIs(2));
 }
 
 TEST(RetrieveSimilarImages, HandlesNoneOneAndEqualImages) {
-  EXPECT_THAT(RetrieveSimilarImages({}, {}), IsEmpty());
+  EXPECT_THAT(*RetrieveSimilarImages({}, {}, {}), IsEmpty());
   const auto one = ImagesOfPlaces(1, 1, 6);
-  EXPECT_THAT(RetrieveSimilarImages(one, {}), ElementsAre(IsEmpty()));
+  EXPECT_THAT(*RetrieveSimilarImages(one, {}, {}), ElementsAre(IsEmpty()));
   const std::vector<std::vector<uint8_t>> equal(4, std::vector<uint8_t>(kDescriptorSize * 300, 45));
-  EXPECT_THAT(RetrieveSimilarImages(equal, {})[2], ElementsAre(ImageId(0), ImageId(1), ImageId(3)));
+  EXPECT_THAT((*RetrieveSimilarImages(equal, {}, {}))[2],
+              ElementsAre(ImageId(0), ImageId(1), ImageId(3)));
+}
+
+TEST(RetrieveSimilarImages, StopsWhenToldToAndShowsLifeForEveryImage) {
+  const auto samples = ImagesOfPlaces(5, 2, 7);
+  int signs = 0;
+  ASSERT_TRUE(RetrieveSimilarImages(samples, {}, {.alive = [&signs] { ++signs; }}).ok());
+  EXPECT_GE(signs, 10);
+  std::stop_source stop;
+  stop.request_stop();
+  const auto stopped = RetrieveSimilarImages(samples, {}, {.stop = stop.get_token()});
+  EXPECT_TRUE(absl::IsCancelled(stopped.status()));
 }
 
 TEST(SampleDescriptors, TakesTheLargestFeatures) {
