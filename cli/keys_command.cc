@@ -29,6 +29,7 @@ struct KeysOptions {
   std::string name{};
   std::vector<std::string> hosts{};
   std::string serial{};
+  std::string token{};
   std::string token_path{};
   int64_t days = 365;
   double minutes = 60.0;
@@ -67,8 +68,10 @@ absl::Status Add(const KeysOptions& options) {
 
 absl::Status Token(const KeysOptions& options) {
   const auto valid_s = static_cast<int64_t>(options.minutes * static_cast<double>(kMinute_s));
-  ORBWEAVE_RETURN_IF_ERROR(WriteJoinToken(options.store, options.token_path, UnixNow() + valid_s));
-  std::printf("join token written to %s: good for one worker and %g minutes\n",
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string number,
+                            WriteJoinToken(options.store, options.token_path, UnixNow() + valid_s));
+  std::printf("join token %s written to %s: good for one worker and %g minutes\n",
+              number.c_str(),
               options.token_path.c_str(),
               options.minutes);
   return absl::OkStatus();
@@ -78,8 +81,11 @@ absl::Status Shut(const KeysOptions& options) {
   Revocations more;
   if (!options.name.empty()) more.names.insert(options.name);
   if (!options.serial.empty()) more.serials.insert(absl::AsciiStrToUpper(options.serial));
-  if (more == Revocations())
-    return absl::InvalidArgumentError("give a name, or --serial and a certificate's number");
+  if (!options.token.empty()) more.tokens.insert(absl::AsciiStrToLower(options.token));
+  if (more == Revocations()) {
+    return absl::InvalidArgumentError(
+        "give a name, or --serial and a certificate's number, or --token and a join token's");
+  }
   ORBWEAVE_RETURN_IF_ERROR(Revoke(options.store, more));
   std::printf(
       "revoked; a coordinator heeds it from the next call on: where its --tls folder is another, "
@@ -135,11 +141,18 @@ void AddKeysCommand(CLI::App& app, SelectedCommand& selected) {
       ->check(CLI::Range(1, 3650))
       ->capture_default_str();
   AddHosts(*add, *options);
-  CLI::App* revoke =
-      AddAction(*keys, selected, options, "revoke", "Shut a participant out, for good", Shut);
+  CLI::App* revoke = AddAction(*keys,
+                               selected,
+                               options,
+                               "revoke",
+                               "Shut a participant out, or a join token, for good",
+                               Shut);
   revoke->add_option("NAME", options->name, "Its name, whatever certificate it shows");
   revoke->add_option(
       "--serial", options->serial, "Of a single certificate, as 'openssl x509 -serial' prints it");
+  revoke->add_option("--token",
+                     options->token,
+                     "Of a join token that was not used yet, as 'orbweave keys token' prints it");
   CLI::App* token = AddAction(
       *keys, selected, options, "token", "Make a token by which one new worker may join", Token);
   token->add_option("--output", options->token_path, "File to write it to (mode 0600)")->required();

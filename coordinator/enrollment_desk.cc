@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/open_revocations.h"
 #include "security/join_token.h"
 #include "security/secret_file.h"
 
@@ -23,10 +24,15 @@ absl::StatusOr<std::unique_ptr<EnrollmentDesk>> EnrollmentDesk::Open(
   ORBWEAVE_ASSIGN_OR_RETURN(own.key_pem, ReadSecretFile(options.tls.AuthorityKeyPath()));
   ORBWEAVE_ASSIGN_OR_RETURN(std::string token_key, ReadSecretFile(options.tls.TokenKeyPath()));
   ORBWEAVE_ASSIGN_OR_RETURN(CertificateAuthority authority, CertificateAuthority::Load(own));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::shared_ptr<RevocationList> revocations,
+                            OpenRevocations(options.tls, options.log));
   ORBWEAVE_ASSIGN_OR_RETURN(UsedTokens used,
                             UsedTokens::Open(options.used_folder, options.now_unix_s()));
-  return std::unique_ptr<EnrollmentDesk>(
-      new EnrollmentDesk(options, std::move(authority), std::move(token_key), std::move(used)));
+  return std::unique_ptr<EnrollmentDesk>(new EnrollmentDesk(options,
+                                                            std::move(authority),
+                                                            std::move(token_key),
+                                                            std::move(revocations),
+                                                            std::move(used)));
 }
 
 absl::StatusOr<std::string> EnrollmentDesk::Enroll(const std::string& token,
@@ -36,6 +42,7 @@ absl::StatusOr<std::string> EnrollmentDesk::Enroll(const std::string& token,
                             VerifyJoinToken(token_key_, token, options_.now_unix_s()));
   if (claims.fleet != authority_.fleet() || claims.role != Role::kWorker)
     return absl::PermissionDeniedError("the join token is not one of a worker of this fleet");
+  ORBWEAVE_RETURN_IF_ERROR(revocations_->CheckToken(claims.nonce));
   const Identity worker{.fleet = claims.fleet,
                         .role = claims.role,
                         .name = absl::StrCat(name, "-", claims.nonce.substr(0, kNonceDigits))};

@@ -9,6 +9,7 @@
 #include "coordinator/used_tokens.h"
 #include "core/pipeline/log_event.h"
 #include "security/certificate_authority.h"
+#include "security/revocations.h"
 #include "security/tls_folder.h"
 #include "security/unix_time.h"
 
@@ -32,8 +33,8 @@ class EnrollmentDesk {
 
   /// A certificate for the key of `request_pem`, once per token. The worker is called `name` and
   /// the first digits of the token's nonce: no token takes the name of another worker.
-  /// PermissionDenied: the token is false, expired, used, or of another fleet. InvalidArgument:
-  /// a bad name or request; the token is then still good.
+  /// PermissionDenied: the token is false, expired, revoked, used, or of another fleet.
+  /// InvalidArgument: a bad name or request; the token is then still good.
   [[nodiscard]] absl::StatusOr<std::string> Enroll(const std::string& token,
                                                    const std::string& request_pem,
                                                    const std::string& name);
@@ -46,15 +47,18 @@ class EnrollmentDesk {
   EnrollmentDesk(EnrollmentOptions options,
                  CertificateAuthority authority,
                  std::string token_key,
+                 std::shared_ptr<RevocationList> revocations,
                  UsedTokens used)
       : options_(std::move(options)),
         authority_(std::move(authority)),
         token_key_(std::move(token_key)),
+        revocations_(std::move(revocations)),
         used_(std::move(used)) {}
 
   EnrollmentOptions options_;
   CertificateAuthority authority_;
   std::string token_key_;
+  std::shared_ptr<RevocationList> revocations_;
   UsedTokens used_;
 };
 

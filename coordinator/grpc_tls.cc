@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/grpc_gate.h"
+#include "coordinator/open_revocations.h"
 
 namespace orbweave {
 namespace {
@@ -26,14 +27,8 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(cons
                                                    std::string(RoleName(own.identity.role)),
                                                    ", not of a coordinator"));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      std::shared_ptr<RevocationList> revocations,
-      RevocationList::Open(folder.RevocationsPath(), [log](const absl::Status& status) {
-        if (!log) return;
-        log({.level = LogLevel::kError,
-             .event = "revocations_not_read",
-             .message = std::string(status.message())});
-      }));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::shared_ptr<RevocationList> revocations,
+                            OpenRevocations(folder, log));
   grpc::experimental::TlsServerCredentialsOptions options(
       std::make_shared<grpc::experimental::FileWatcherCertificateProvider>(
           folder.KeyPath(), folder.CertificatePath(), folder.AuthorityPath(), kLookAtFiles_s));

@@ -72,8 +72,7 @@ absl::StatusOr<JoinClaims> ParseClaims(const std::string& payload) {
   if (lines.size() != 5) return NoToken();
   JoinClaims claims{.fleet = lines[0], .nonce = lines[3], .authority_pem = lines[4]};
   const absl::StatusOr<Role> role = RoleFromName(lines[1]);
-  const bool is_nonce = claims.nonce.size() == 2 * kNonceBytes && CheckName(claims.nonce).ok();
-  if (!role.ok() || !is_nonce || !CheckName(claims.fleet).ok() ||
+  if (!role.ok() || !IsTokenNonce(claims.nonce) || !CheckName(claims.fleet).ok() ||
       !absl::SimpleAtoi(lines[2], &claims.expires_unix_s)) {
     return NoToken();
   }
@@ -82,6 +81,11 @@ absl::StatusOr<JoinClaims> ParseClaims(const std::string& payload) {
 }
 
 }  // namespace
+
+bool IsTokenNonce(std::string_view text) {
+  return text.size() == 2 * kNonceBytes &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
 
 std::string MakeTokenKey() { return RandomHex(kKeyBytes); }
 

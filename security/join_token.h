@@ -19,6 +19,9 @@ struct JoinClaims {
   std::string authority_pem{};  ///< the authority by which its bearer knows the coordinator
 };
 
+/// Whether a token may have this nonce.
+[[nodiscard]] bool IsTokenNonce(std::string_view text);
+
 /// Random bytes for MakeJoinToken, as 64 hexadecimal digits: a secret.
 [[nodiscard]] std::string MakeTokenKey();
 

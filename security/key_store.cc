@@ -109,7 +109,8 @@ absl::Status AddKeys(const std::string& store, const NewKeys& keys, int64_t now_
 absl::Status Revoke(const std::string& store, const Revocations& more) {
   const absl::StatusOr<Revocations> checked = RevocationsFromText(RevocationsToText(more));
   if (!checked.ok() || *checked != more)
-    return absl::InvalidArgumentError("give a participant's name or a certificate's serial number");
+    return absl::InvalidArgumentError(
+        "give a participant's name, a certificate's serial number or a join token's number");
   const TlsFolder authority = AuthorityFolder(store);
   ORBWEAVE_RETURN_IF_ERROR(ReadSecretFile(authority.AuthorityPath()).status());
   const std::vector<TlsFolder> coordinators = CoordinatorFolders(store);
@@ -123,6 +124,7 @@ absl::Status Revoke(const std::string& store, const Revocations& more) {
   ORBWEAVE_ASSIGN_OR_RETURN(Revocations revoked, ReadRevocations(authority.RevocationsPath()));
   revoked.names.insert(more.names.begin(), more.names.end());
   revoked.serials.insert(more.serials.begin(), more.serials.end());
+  revoked.tokens.insert(more.tokens.begin(), more.tokens.end());
   const std::string text = RevocationsToText(revoked);
   ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(authority.RevocationsPath(), text));
   for (const TlsFolder& folder : coordinators)
@@ -130,18 +132,20 @@ absl::Status Revoke(const std::string& store, const Revocations& more) {
   return absl::OkStatus();
 }
 
-absl::Status WriteJoinToken(const std::string& store,
-                            const std::string& path,
-                            int64_t expires_unix_s) {
+absl::StatusOr<std::string> WriteJoinToken(const std::string& store,
+                                           const std::string& path,
+                                           int64_t expires_unix_s) {
   ORBWEAVE_ASSIGN_OR_RETURN(const CertificateAuthority authority, LoadAuthority(store));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string key,
                             ReadSecretFile(AuthorityFolder(store).TokenKeyPath()));
-  return WriteSecretFile(path,
-                         MakeJoinToken(key,
-                                       {.fleet = authority.fleet(),
-                                        .role = Role::kWorker,
-                                        .expires_unix_s = expires_unix_s,
-                                        .authority_pem = authority.certificate_pem()}));
+  const std::string token = MakeJoinToken(key,
+                                          {.fleet = authority.fleet(),
+                                           .role = Role::kWorker,
+                                           .expires_unix_s = expires_unix_s,
+                                           .authority_pem = authority.certificate_pem()});
+  ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(path, token));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JoinClaims claims, ReadJoinToken(token));
+  return claims.nonce;
 }
 
 }  // namespace orbweave

@@ -35,13 +35,14 @@ struct NewKeys {
                                    int64_t now_unix_s);
 
 /// Shuts out `more`, for good: adds them to what is revoked in `authority/` and in the folders of
-/// all coordinators, who heed it from the next call on. InvalidArgument: no such name or serial can
-/// be, or it is a coordinator's, whose callers would not ask. NotFound: no key store.
+/// all coordinators, who heed it from the next call on. InvalidArgument: no such name, serial or
+/// token can be, or it is a coordinator's, whose callers would not ask. NotFound: no key store.
 [[nodiscard]] absl::Status Revoke(const std::string& store, const Revocations& more);
 
-/// A join token for a worker, written to `path`. NotFound: no key store.
-[[nodiscard]] absl::Status WriteJoinToken(const std::string& store,
-                                          const std::string& path,
-                                          int64_t expires_unix_s);
+/// A join token for a worker, written to `path`; its nonce, by which it can be revoked. NotFound:
+/// no key store.
+[[nodiscard]] absl::StatusOr<std::string> WriteJoinToken(const std::string& store,
+                                                         const std::string& path,
+                                                         int64_t expires_unix_s);
 
 }  // namespace orbweave

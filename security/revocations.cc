@@ -12,6 +12,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "security/join_token.h"
 #include "security/secret_file.h"
 
 namespace orbweave {
@@ -49,6 +50,7 @@ std::string RevocationsToText(const Revocations& revoked) {
   std::string text;
   for (const std::string& name : revoked.names) absl::StrAppend(&text, "name ", name, "\n");
   for (const std::string& serial : revoked.serials) absl::StrAppend(&text, "serial ", serial, "\n");
+  for (const std::string& token : revoked.tokens) absl::StrAppend(&text, "token ", token, "\n");
   return text;
 }
 
@@ -62,9 +64,12 @@ absl::StatusOr<Revocations> RevocationsFromText(std::string_view text) {
       revoked.names.insert(words[1]);
     } else if (words.size() == 2 && words[0] == "serial" && IsSerial(words[1])) {
       revoked.serials.insert(words[1]);
+    } else if (words.size() == 2 && words[0] == "token" && IsTokenNonce(words[1])) {
+      revoked.tokens.insert(words[1]);
     } else {
       return absl::InvalidArgumentError(
-          "not a list of revocations: each line is 'name NAME' or 'serial DIGITS'");
+          "not a list of revocations: each line is 'name NAME', 'serial DIGITS' or 'token "
+          "DIGITS'");
     }
   }
   return revoked;
@@ -94,9 +99,20 @@ absl::Status RevocationList::Refresh() {
   return absl::OkStatus();
 }
 
+void RevocationList::RefreshOrTell() {
+  if (const absl::Status read = Refresh(); !read.ok() && on_unreadable_) on_unreadable_(read);
+}
+
+absl::Status RevocationList::CheckToken(const std::string& nonce) {
+  const std::lock_guard lock(mutex_);
+  RefreshOrTell();
+  if (!revoked_.tokens.contains(nonce)) return absl::OkStatus();
+  return absl::PermissionDeniedError("the join token is revoked: ask for a new one");
+}
+
 absl::Status RevocationList::Check(const Identity& holder, std::string_view certificate_pem) {
   const std::lock_guard lock(mutex_);
-  if (const absl::Status read = Refresh(); !read.ok() && on_unreadable_) on_unreadable_(read);
+  RefreshOrTell();
   if (revoked_.names.contains(holder.name))
     return absl::PermissionDeniedError(absl::StrCat(holder.ToUri(), " is revoked"));
   if (revoked_.serials.empty()) return absl::OkStatus();

@@ -14,16 +14,18 @@
 
 namespace orbweave {
 
-/// Whom a fleet has shut out before their certificates end.
+/// Whom a fleet has shut out before their certificates end, and which join tokens before they
+/// expire.
 struct Revocations {
   std::set<std::string> names{};    ///< whatever certificate they show
   std::set<std::string> serials{};  ///< of single certificates; see CertificateFacts
+  std::set<std::string> tokens{};   ///< nonces of join tokens; see JoinClaims
 
   friend bool operator==(const Revocations&, const Revocations&) = default;
 };
 
-/// One "name NAME" or "serial DIGITS" per line, in order; and back. InvalidArgument: any other
-/// line.
+/// One "name NAME", "serial DIGITS" or "token DIGITS" per line, in order; and back.
+/// InvalidArgument: any other line.
 [[nodiscard]] std::string RevocationsToText(const Revocations& revoked);
 [[nodiscard]] absl::StatusOr<Revocations> RevocationsFromText(std::string_view text);
 
@@ -42,12 +44,15 @@ class RevocationList {
 
   /// PermissionDenied when the file, as it is now, names this certificate (PEM) or its holder.
   [[nodiscard]] absl::Status Check(const Identity& holder, std::string_view certificate_pem);
+  /// PermissionDenied when the file, as it is now, names the join token of this nonce.
+  [[nodiscard]] absl::Status CheckToken(const std::string& nonce);
 
  private:
   RevocationList(const std::string& path, OnUnreadable on_unreadable)
       : path_(path), on_unreadable_(std::move(on_unreadable)) {}
   /// Reads the file where it has changed.
   [[nodiscard]] absl::Status Refresh();
+  void RefreshOrTell();
 
   const std::string path_;
   const OnUnreadable on_unreadable_;

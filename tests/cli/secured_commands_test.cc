@@ -64,6 +64,7 @@ class SecuredCommands : public ::testing::Test {
         RunCommand(Orbweave({"keys", "token", keys_, "--output", path, "--minutes", minutes}));
     EXPECT_EQ(made.exit_code, kExitOk) << made.err;
     EXPECT_THAT(made.out, Not(HasSubstr(ReadAll(path))));
+    token_number_ = made.out.substr(std::string("join token ").size(), 32);
     return path;
   }
 
@@ -83,6 +84,7 @@ class SecuredCommands : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::string keys_ = folder_ / "keys";
+  std::string token_number_{};  ///< of the last MakeToken
   std::string port_;
   std::unique_ptr<Command> serve_;
 };
@@ -188,6 +190,17 @@ TEST_F(SecuredCommands, ARevokedWorkerSaysSoAndEnds) {
   Serve("0.0.0.0:" + port_);
   EXPECT_EQ(RunCommand(work).exit_code, kExitUsage) << "also by a coordinator that came back";
   EXPECT_EQ(Status(keys_ + "/client").exit_code, kExitOk);
+}
+
+TEST_F(SecuredCommands, ARevokedTokenLetsNobodyIn) {
+  const std::string token = MakeToken();
+  const CommandOutcome revoked =
+      RunCommand(Orbweave({"keys", "revoke", keys_, "--token", token_number_}));
+  ASSERT_EQ(revoked.exit_code, kExitOk) << revoked.err;
+  const CommandOutcome refused = RunCommand(Work("node", token));
+  EXPECT_EQ(refused.exit_code, kExitUsage);
+  EXPECT_THAT(refused.err, HasSubstr("the join token is revoked"));
+  EXPECT_EQ(RunCommand(Orbweave({"keys", "revoke", keys_, "--token", "12"})).exit_code, kExitUsage);
 }
 
 TEST_F(SecuredCommands, AWorkerOfAnotherAuthoritySaysSoAndEnds) {

@@ -29,7 +29,7 @@ void AddTextSeeds(Seeds& seeds) {
   seeds["printable_text"] = {"Straße \x1b[2J\n<b> \xe2\x80\xae\xff \xc2\x9b\xf0\x9f\x9a\x8b"};
   seeds["listen_address"] = {"127.0.0.1:7000", "unix:/run/orbweave.sock", "[::1]:0", "0.0.0.0:1"};
   seeds["identity"] = {"orbweave://city/worker/node7"};
-  seeds["revocations"] = {"name node7\nserial 0A1B\n"};
+  seeds["revocations"] = {"name node7\nserial 0A1B\n", "token 0123456789abcdef0123456789abcdef\n"};
   seeds["digest"] = {DigestOf("blob").ToHex()};
 }
 

@@ -60,13 +60,14 @@ TEST_F(KeyStore, TakesOneMoreParticipant) {
 }
 
 TEST_F(KeyStore, WritesTokensThatTheCoordinatorTakes) {
-  ASSERT_TRUE(WriteJoinToken(store_, folder_ / "token", kNow + 60).ok());
+  const auto number = WriteJoinToken(store_, folder_ / "token", kNow + 60);
+  ASSERT_TRUE(number.ok()) << number.status();
   const auto claims = VerifyJoinToken(
       *ReadSecretFile(store_ + "/coordinator/token.key"), *ReadSecretFile(folder_ / "token"), kNow);
   ASSERT_TRUE(claims.ok()) << claims.status();
   EXPECT_EQ(claims->fleet, "city");
   EXPECT_EQ(claims->authority_pem, *ReadSecretFile(store_ + "/client/ca.crt"));
-  EXPECT_TRUE(absl::IsNotFound(WriteJoinToken(folder_ / "none", folder_ / "token", kNow)));
+  EXPECT_TRUE(absl::IsNotFound(WriteJoinToken(folder_ / "none", folder_ / "token", kNow).status()));
 }
 
 TEST_F(KeyStore, AFolderWithAnothersKeyIsRefused) {

@@ -16,7 +16,9 @@ namespace {
 constexpr int64_t kNow = 1'800'000'000;
 
 TEST(Revocations, AreTheSameAfterTheirText) {
-  const Revocations revoked{.names = {"node7", "a.b_c-d"}, .serials = {"0A1B", "FF"}};
+  const Revocations revoked{.names = {"node7", "a.b_c-d"},
+                            .serials = {"0A1B", "FF"},
+                            .tokens = {std::string(32, 'a'), std::string(32, '0')}};
   const auto back = RevocationsFromText(RevocationsToText(revoked));
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_EQ(*back, revoked);
@@ -32,6 +34,9 @@ TEST(Revocations, RefuseAListThatSaysAnythingElse) {
                            "serial\n",
                            "serial 0x1\n",
                            "names a\n",
+                           "token 0123456789abcdef\n",
+                           "token 0123456789ABCDEF0123456789ABCDEF\n",
+                           "token 0123456789abcdef0123456789abcdef0\n",
                            "name a\r\n"})
     EXPECT_TRUE(absl::IsInvalidArgument(RevocationsFromText(text).status())) << text;
 }

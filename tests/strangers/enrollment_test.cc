@@ -8,6 +8,7 @@
 
 #include "core/pipeline/build_version.h"
 #include "security/certificate_request.h"
+#include "security/join_token.h"
 #include "security/secret_file.h"
 #include "tests/support/tls_server.h"
 #include "worker/grpc_enrollment_client.h"
@@ -59,6 +60,30 @@ TEST(Enroll, RefusesATokenThatHasExpired) {
       Enroll(server.address(), TokenFor(server, -1), "a", {server.folder() / "a"});
   EXPECT_TRUE(absl::IsPermissionDenied(late));
   EXPECT_THAT(std::string(late.message()), HasSubstr("expired"));
+}
+
+TEST(Enroll, RefusesATokenThatIsRevokedAlsoAfterARestart) {
+  TlsServer server;
+  const std::string token = TokenFor(server, 600);
+  const std::string other = TokenFor(server, 600);
+  const std::string number = ReadJoinToken(token)->nonce;
+  ASSERT_TRUE(Revoke(server.keys(), {.tokens = {number}}).ok());
+  for (const char* name : {"a", "b"}) {
+    const absl::Status refused = Enroll(server.address(), token, name, {server.folder() / name});
+    EXPECT_TRUE(absl::IsPermissionDenied(refused)) << refused;
+    EXPECT_THAT(std::string(refused.message()), HasSubstr("token is revoked"));
+    server.Restart();
+  }
+  EXPECT_TRUE(Enroll(server.address(), other, "c", {server.folder() / "c"}).ok());
+}
+
+TEST(Enroll, ATokenRevokedOnceItWasUsedLeavesItsWorkerIn) {
+  TlsServer server;
+  const std::string token = TokenFor(server, 600);
+  const TlsFolder own{server.folder() / "a"};
+  ASSERT_TRUE(Enroll(server.address(), token, "a", own).ok());
+  ASSERT_TRUE(Revoke(server.keys(), {.tokens = {ReadJoinToken(token)->nonce}}).ok());
+  EXPECT_TRUE(RenewCertificate(server.address(), own).ok());
 }
 
 TEST(Enroll, KeepsATokenFromACoordinatorThatIsNotTheOneItNames) {
