@@ -56,7 +56,7 @@ start_coordinator() {
 start_worker() {
   local name=worker$1 by=("${worker_by[@]}")
   [ "$namespaces" = no ] || name=$name/slot
-  (become "$1" "worker$1" work --join "$address" --name "$name" >>"$(worker_log "$1")" 2>&1) &
+  (become "$1" "worker$1" work --join "${relayed_address:-$address}" --name "$name" >>"$(worker_log "$1")" 2>&1) &
   pid_of[$1]=$!
   disown "${pid_of[$1]}"
 }

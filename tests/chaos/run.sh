@@ -6,13 +6,14 @@
 # KILLS    how often each kind of process is killed (20); other disturbances are repeated for a fifth of it
 # SEED     of the random moments (1)
 # NAME...  the disturbances to try (all; names lists them)
-# ORBWEAVE the program (build/release/cli/orbweave)
+# ORBWEAVE the program (build/release/cli/orbweave); what holds back bytes is looked for in the same build
 #
 # Prints a table in Markdown; 1 if any row failed, whose logs are then kept. Needs a few minutes for KILLS=2.
 # shellcheck disable=SC2034,SC2154,SC2317 # variables are for the parts, functions are called by name
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 orbweave=${ORBWEAVE:-$here/../../build/release/cli/orbweave}
+relay=$(dirname "$orbweave")/../tests/chaos/relay
 kills=${1:-20}
 RANDOM=${2:-1}
 chosen=("${@:3}")
@@ -42,6 +43,7 @@ done
 
 clean_up() {
   stop_fleet
+  end_by KILL relay
   remove_network
   umount "$work/disk" 2>/dev/null
   if ((failures == 0)); then rm -rf "$work"; else echo "what is left: $work" >&2; fi
