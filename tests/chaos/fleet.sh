@@ -108,6 +108,9 @@ worker_log() { echo "$fleet/worker$1.log"; }
 # EVENT FILE...: how often it happened.
 count_events() { cat "${@:2}" 2>/dev/null | grep -c "\"event\":\"$1\""; }
 
+# TEXT FILE...: the epochs of the attempts whose events have that text.
+attempts_of() { cat "${@:2}" 2>/dev/null | grep "$1" | grep -o '"epoch":[0-9]*' | sort -u; }
+
 coordinator_events() { count_events "$1" "$fleet"/coordinator.*.log; }
 
 # Whether a worker holds a task, as far as it has logged.

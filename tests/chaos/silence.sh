@@ -12,16 +12,41 @@ continue_worker() {
 pause_coordinator() { kill -STOP "${pid_of[coordinator]}"; }
 continue_coordinator() { kill -CONT "${pid_of[coordinator]}"; }
 cut_one_way() { drop_incoming "$1"; }
+cut_other_way() { drop_incoming hub "ip saddr 10.77.0.1$1"; }
+mend_other_way() { drop_nothing hub; }
+
+# How many ticks of the processor the tasks of a worker took so far.
+ticks_of() {
+  local pid sum=0
+  for pid in $(tasks_of "$1"); do
+    ((sum += $(cut -d' ' -f14 "/proc/$pid/stat" 2>/dev/null || echo 0)))
+  done
+  echo "$sum"
+}
+
+# Whether a worker computes: what its task needs has come, its result has not gone.
+is_computing() {
+  local before
+  before=$(ticks_of "$1")
+  sleep 0.05
+  (($(ticks_of "$1") > before + 1)) && has_task "$1"
+}
+
+# How many attempts ended because their worker was told so, before anything of them was refused.
+called_off() {
+  comm -23 <(attempts_of "gave it up" "$fleet"/worker?.log) <(attempts_of result_refused "$fleet"/coordinator.*.log) | wc -l
+}
 
 # BEGIN END: begins in the middle of a task of worker $picked.
 silence_in_a_task() {
-  until wait_until "a task of worker $picked" 60 has_task "$picked" && "$1" "$picked" && has_task "$picked"; do
+  until wait_until "a task of worker $picked" 60 is_computing "$picked" && "$1" "$picked" && has_task "$picked"; do
     "$2" "$picked"
     is_running submit || return 1
   done
 }
 
-# TITLE SECONDS BEGIN END: in the middle of a worker's task it is silent, until the lease is over and longer.
+# TITLE SECONDS BEGIN END [REFUSED]: in the middle of a worker's task it is silent, until the lease is over and longer.
+# So many late results have to be refused at least.
 silence_a_worker() {
   local run refused=0 expired=0 given_up=0
   begin_row
@@ -35,10 +60,11 @@ silence_a_worker() {
     wait_until "the end of the late task" 60 has_no_task "$picked" || spoil "the late task did not end"
     judge
     ((expired += $(coordinator_events lease_expired), refused += $(coordinator_events result_refused)))
-    ((given_up += $(cat "$fleet"/worker?.log | grep -c "gave it up")))
+    ((given_up += $(called_off)))
     stop_fleet
   done
   ((expired > 0)) || spoil "no lease expired"
+  ((refused >= ${5:-0})) || spoil "no late result was refused"
   end_row "$1 for $2 s" "$expired leases expired; late results: $refused refused, $given_up called off before"
 }
 
@@ -56,6 +82,14 @@ disturb_worker_cut_off() {
 disturb_one_way_loss() {
   needs_wires "one-way loss" && needs_nft "one-way loss" || return 0
   silence_a_worker "all to a worker lost, all from it arrives," "$longer_than_lease_s" cut_one_way drop_nothing
+}
+
+# The task ends meanwhile; its result waits in the worker until it can be handed in, when another has the task. One of
+# three is called off before, hence some jobs more.
+disturb_late_result() {
+  local repeats=$((repeats > 4 ? repeats : 4))
+  needs_wires "late result" && needs_nft "late result" || return 0
+  silence_a_worker "all from a worker lost, all to it arrives," "$longer_than_lease_s" cut_other_way mend_other_way 1
 }
 
 # TITLE
