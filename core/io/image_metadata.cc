@@ -45,8 +45,7 @@ std::optional<double> XmpNumber(const Exiv2::XmpData& xmp, const char* key) {
 /// Degrees, minutes and seconds with a reference letter ("S" and "W" are negative).
 std::optional<double> Degrees(const Exiv2::ExifData& exif,
                               const char* key,
-                              const char* reference_key,
-                              double limit) {
+                              const char* reference_key) {
   const std::optional<double> degrees = Rational(exif, key, 0);
   if (!degrees) return std::nullopt;
   const double minutes = Rational(exif, key, 1).value_or(0.0);
@@ -54,16 +53,18 @@ std::optional<double> Degrees(const Exiv2::ExifData& exif,
   const double value = *degrees + minutes / 60.0 + seconds / 3600.0;
   const std::string reference = Text(exif, reference_key);
   const bool negative = reference.starts_with('S') || reference.starts_with('W');
-  if (std::abs(value) > limit) return std::nullopt;
   return negative ? -value : value;
 }
 
 void ReadPosition(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
-  const auto latitude =
-      Degrees(exif, "Exif.GPSInfo.GPSLatitude", "Exif.GPSInfo.GPSLatitudeRef", 90.0);
-  const auto longitude =
-      Degrees(exif, "Exif.GPSInfo.GPSLongitude", "Exif.GPSInfo.GPSLongitudeRef", 180.0);
+  const auto latitude = Degrees(exif, "Exif.GPSInfo.GPSLatitude", "Exif.GPSInfo.GPSLatitudeRef");
+  const auto longitude = Degrees(exif, "Exif.GPSInfo.GPSLongitude", "Exif.GPSInfo.GPSLongitudeRef");
   if (!latitude || !longitude || (*latitude == 0.0 && *longitude == 0.0)) return;
+  if (std::abs(*latitude) > 90.0 || std::abs(*longitude) > 180.0) {
+    metadata.position_problem =
+        absl::StrCat("latitude ", *latitude, ", longitude ", *longitude, " is nowhere on Earth");
+    return;
+  }
   metadata.position = GeodeticPosition{*latitude, *longitude, 0.0};
   if (const auto altitude = Rational(exif, "Exif.GPSInfo.GPSAltitude")) {
     const bool below = Text(exif, "Exif.GPSInfo.GPSAltitudeRef").starts_with('1');

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "absl/status/statusor.h"
@@ -18,6 +19,9 @@ struct ImageMetadata {
   /// unless `altitude_known`.
   std::optional<GeodeticPosition> position{};
   bool altitude_known = false;
+  /// Why a position that is written there was left out; empty where nothing was. For whoever read
+  /// the header: not passed on.
+  std::string position_problem{};
   /// EXIF GPSHPositioningError, metres.
   std::optional<double> position_error_m{};
   /// Direction of the image centre in degrees: XMP-GPano PoseHeadingDegrees, else EXIF

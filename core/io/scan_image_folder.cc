@@ -103,6 +103,15 @@ void RefuseOtherEncodings(SourceImage& image) {
   image.name = std::move(name);
 }
 
+/// "a.png, b.png, c.png, ..."
+std::string FirstOf(const std::vector<std::string>& names) {
+  constexpr size_t kShown = 3;
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    absl::StrAppend(&text, i == 0 ? "" : ", ", names[i]);
+  return names.size() > kShown ? text + ", ..." : text;
+}
+
 /// "3 masks have no image: a.png, b.png, ..." or nothing.
 void WarnOfUnusedMasks(const MaskIndex& masks,
                        const std::set<std::string>& used,
@@ -112,11 +121,25 @@ void WarnOfUnusedMasks(const MaskIndex& masks,
     if (!used.contains(lower)) unused.push_back(name);
   }
   if (unused.empty()) return;
-  std::string text =
-      absl::StrCat(unused.size(), unused.size() == 1 ? " mask has" : " masks have", " no image: ");
-  for (size_t i = 0; i < std::min<size_t>(unused.size(), 3); ++i)
-    absl::StrAppend(&text, i == 0 ? "" : ", ", unused[i]);
-  sources.warnings.push_back(Utf8Text(text + (unused.size() > 3 ? ", ..." : "")));
+  sources.warnings.push_back(Utf8Text(absl::StrCat(unused.size(),
+                                                   unused.size() == 1 ? " mask has" : " masks have",
+                                                   " no image: ",
+                                                   FirstOf(unused))));
+}
+
+/// "the EXIF position of 2 images is not used: a.jpg (latitude -95, ...), ..." or nothing.
+void WarnOfPositions(ImageSources& sources) {
+  std::vector<std::string> left_out;
+  for (const SourceImage& image : sources.images) {
+    const std::string& problem = image.metadata.position_problem;
+    if (!problem.empty()) left_out.push_back(absl::StrCat(image.name, " (", problem, ")"));
+  }
+  if (left_out.empty()) return;
+  sources.warnings.push_back(absl::StrCat("the EXIF position of ",
+                                          left_out.size(),
+                                          left_out.size() == 1 ? " image" : " images",
+                                          " is not used: ",
+                                          FirstOf(left_out)));
 }
 
 /// One entry per name; `mask_path` is relative to the mask folder as yet.
@@ -176,6 +199,7 @@ absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
     context.Report(++done, names.size(), "images");
   });
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  WarnOfPositions(sources);
   return sources;
 }
 

@@ -3,30 +3,14 @@
 
 #include "core/io/image_metadata.h"
 
-#include <exiv2/exiv2.hpp>
+#include <tuple>
 
 #include "core/io/image_container.h"
 #include "tests/core/io/io_test_support.h"
+#include "tests/core/io/tagged_image.h"
 
 namespace orbweave {
 namespace {
-
-/// `encoded` with EXIF and XMP keys set to the values given as text.
-std::string Tagged(const std::string& encoded,
-                   const std::vector<std::pair<std::string, std::string>>& exif,
-                   const std::vector<std::pair<std::string, std::string>>& xmp = {}) {
-  const auto image = Exiv2::ImageFactory::open(reinterpret_cast<const Exiv2::byte*>(encoded.data()),
-                                               static_cast<long>(encoded.size()));
-  image->readMetadata();
-  for (const auto& [key, value] : exif) image->exifData()[key] = value;
-  for (const auto& [key, value] : xmp) image->xmpData()[key] = value;
-  image->writeMetadata();
-  Exiv2::BasicIo& io = image->io();
-  io.open();
-  std::string bytes(io.size(), '\0');
-  io.read(reinterpret_cast<Exiv2::byte*>(bytes.data()), static_cast<long>(bytes.size()));
-  return bytes;
-}
 
 TEST(ReadImageMetadata, GivesTheSizeOfEveryKind) {
   for (const char* extension : {".jpg", ".png", ".tif", ".bmp", ".webp", ".ppm"}) {
@@ -66,15 +50,29 @@ TEST(ReadImageMetadata, ReadsPositionPoseAndTime) {
   EXPECT_EQ(metadata.capture_time_s, 1479035791.25);
 }
 
-TEST(ReadImageMetadata, LeavesOutAbsurdValues) {
-  for (const auto& [latitude, longitude] : {std::pair("95/1 0/1 0/1", "10/1 0/1 0/1"),
-                                            std::pair("0/0 0/0 0/0", "0/0 0/0 0/0"),
-                                            std::pair("0/1 0/1 0/1", "0/1 0/1 0/1"),
-                                            std::pair("10/1 0/1 0/1", "181/1 0/1 0/1")}) {
+TEST(ReadImageMetadata, LeavesOutAPositionThatIsNoneInSilence) {
+  for (const char* zero : {"0/0 0/0 0/0", "0/1 0/1 0/1"}) {
+    const std::string bytes =
+        Tagged(EncodedImage(64, 32, ".jpg"),
+               {{"Exif.GPSInfo.GPSLatitude", zero}, {"Exif.GPSInfo.GPSLongitude", zero}});
+    EXPECT_FALSE(ReadImageMetadata(bytes).value().position) << zero;
+    EXPECT_EQ(ReadImageMetadata(bytes).value().position_problem, "") << zero;
+  }
+}
+
+TEST(ReadImageMetadata, LeavesOutAPositionThatIsNowhereAndSaysSo) {
+  for (const auto& [latitude, longitude, problem] :
+       {std::tuple("95/1 0/1 0/1", "10/1 0/1 0/1", "latitude 95, longitude 10"),
+        std::tuple("-95/1 0/1 0/1", "10/1 0/1 0/1", "latitude -95, longitude 10"),
+        std::tuple("-90/1 -6/1 0/1", "10/1 0/1 0/1", "latitude -90.1, longitude 10"),
+        std::tuple("10/1 0/1 0/1", "181/1 0/1 0/1", "latitude 10, longitude 181"),
+        std::tuple("10/1 0/1 0/1", "-181/1 0/1 0/1", "latitude 10, longitude -181")}) {
     const std::string bytes =
         Tagged(EncodedImage(64, 32, ".jpg"),
                {{"Exif.GPSInfo.GPSLatitude", latitude}, {"Exif.GPSInfo.GPSLongitude", longitude}});
-    EXPECT_FALSE(ReadImageMetadata(bytes).value().position) << latitude;
+    const ImageMetadata metadata = ReadImageMetadata(bytes).value();
+    EXPECT_FALSE(metadata.position) << latitude;
+    EXPECT_EQ(metadata.position_problem, std::string(problem) + " is nowhere on Earth");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/core/io/io_test_support.h"
+#include "tests/core/io/tagged_image.h"
 
 namespace orbweave {
 namespace {
@@ -62,6 +63,23 @@ TEST(ScanImageFolder, SaysWhatIsWrongWithEachFile) {
   EXPECT_THAT(sources.images[3].problem, HasSubstr("no image"));
   EXPECT_THAT(sources.images[4].problem, HasSubstr("no such file"));
   EXPECT_EQ(sources.images[5].problem, "");
+}
+
+TEST(ScanImageFolder, SaysWhichPositionsAreNotUsedAndWhy) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 5; ++i) {
+    const std::string latitude = i == 1 ? "45/1 0/1 0/1" : "-95/1 0/1 0/1";
+    folder.Write(std::to_string(i) + ".jpg",
+                 Tagged(EncodedImage(64, 32, ".jpg"),
+                        {{"Exif.GPSInfo.GPSLatitude", latitude},
+                         {"Exif.GPSInfo.GPSLongitude", "10/1 0/1 0/1"}}));
+  }
+  const ImageSources sources = ScanImageFolder({.image_folder = folder.path()}, {}).value();
+  EXPECT_TRUE(sources.images[1].metadata.position);
+  const std::string problem = " (latitude -95, longitude 10 is nowhere on Earth), ";
+  EXPECT_THAT(sources.warnings,
+              ElementsAre("the EXIF position of 4 images is not used: 0.jpg" + problem + "2.jpg" +
+                          problem + "3.jpg" + problem + "..."));
 }
 
 TEST(ScanImageFolder, LeavesOutNamesAndBytesThatNoMessageTakes) {
