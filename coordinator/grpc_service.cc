@@ -79,6 +79,8 @@ grpc::Status GrpcService::CompleteTask(Context* context,
                                        v1::Empty*) {
   ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Lease lease, FromProto(request->lease()));
+  if (!request->has_result())
+    return OnWire(absl::InvalidArgumentError("a task that is done without its result"));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const TaskResult result, FromProto(request->result()));
   return OnWire(api_.CompleteTask(request->session(), lease, result));
 }
