@@ -162,6 +162,18 @@ TEST(ReportHtml, StaysSmallForLongStreets) {
   EXPECT_LT(ReportHtml(MadeUpReport(20000, 200)).size(), 1500000U);
 }
 
+TEST(ReportHtml, ShortensFiguresThatNoTileOrAxisHolds) {
+  JobReport report = MadeUpReport(12, 3);
+  report.points = 9'999'999;
+  report.observations = 73'428'029;
+  for (uint64_t& count : report.residual_histogram.counts) count = 7'400'000;
+  const std::string html = ReportHtml(report);
+  EXPECT_THAT(html, HasSubstr("9,999,999"));
+  EXPECT_THAT(html, HasSubstr("73.4 <small>million</small>"));
+  EXPECT_THAT(html, HasSubstr(">4 M</text>"));
+  EXPECT_THAT(html, HasSubstr(">8 M</text>"));
+}
+
 TEST(ReportHtml, TakesDegenerateReports) {
   JobReport report;
   EXPECT_TRUE(IsBalanced(ReportHtml(report)));
