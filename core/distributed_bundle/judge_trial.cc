@@ -31,7 +31,8 @@ JudgedTrial JudgeTrial(std::span<const std::vector<SeparatorId>> separators,
       if (id.kind == SeparatorId::Kind::kPoint) Add(costs[b].kept_points[kept++], points[id.index]);
     }
   }
-  for (const auto& [point, trial] : points) {
+  for (const auto& [point, sum] : points) {
+    const KeptPointTrial& trial = sum;  // clang 14 captures no structured binding
     const PointChoice choice =
         ChoosePointStep(trial.cost_before, [&](size_t share) { return trial.after[share]; });
     judged.cost += choice.cost;

@@ -12,8 +12,8 @@ namespace {
 
 /// The blocks of one world.
 std::span<BlockPlace> BlocksOf(uint32_t world, std::vector<BlockPlace>& blocks) {
-  const auto range = std::ranges::equal_range(blocks, world, {}, &BlockPlace::world);
-  return {range.begin(), range.end()};
+  return {std::ranges::lower_bound(blocks, world, {}, &BlockPlace::world),
+          std::ranges::upper_bound(blocks, world, {}, &BlockPlace::world)};
 }
 
 /// Remembers where results are. A try leads to another state, everything else to the one that
