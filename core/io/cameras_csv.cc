@@ -5,8 +5,8 @@
 
 #include <charconv>
 
-#include "core/io/local_frame.h"
 #include "core/io/text_fields.h"
+#include "core/scene/local_frame.h"
 
 namespace orbweave {
 namespace {

@@ -38,8 +38,8 @@ double MeanErrorPx(const Track& track,
   for (const Observation& seen : track.observations) {
     const Eigen::Vector3d ray_in_cam =
         images.at(seen.ref.image).cam_from_world * track.point_in_world;
-    sum += manifest.At(seen.ref.image).camera.PixelsFromAngle(
-        AngleBetween(seen.bearing, ray_in_cam));
+    sum +=
+        manifest.At(seen.ref.image).camera.PixelsFromAngle(AngleBetween(seen.bearing, ray_in_cam));
   }
   return track.observations.empty() ? 0.0 : sum / static_cast<double>(track.observations.size());
 }

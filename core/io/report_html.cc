@@ -12,12 +12,13 @@
 #include "core/io/report_charts.h"
 #include "core/io/report_map.h"
 #include "core/io/report_seams.h"
+#include "core/io/report_tables.h"
 #include "core/io/report_uncertainty.h"
 
 namespace orbweave {
 namespace {
 
-constexpr size_t kMaxRows = 200;  ///< of a table of names; report.json has all
+constexpr size_t kMaxNames = 200;  ///< of contradicted positions; report.json has all
 constexpr uint32_t kMaxMaps = 4;
 
 std::string Header(const JobReport& report) {
@@ -157,36 +158,6 @@ std::string Times(const JobReport& report) {
                      "class=\"cpu\"></i>CPU</span></div>");
 }
 
-std::string Clusters(const JobReport& report) {
-  if (report.clusters.empty()) return "";
-  std::string rows;
-  for (size_t i = 0; i < std::min(report.clusters.size(), kMaxRows); ++i) {
-    const ReportCluster& cluster = report.clusters[i];
-    absl::StrAppend(&rows,
-                    "<tr><td>",
-                    i,
-                    "</td><td>",
-                    CountText(cluster.images),
-                    "</td><td>",
-                    CountText(cluster.interior),
-                    "</td><td>",
-                    CountText(cluster.registered),
-                    "</td><td>",
-                    cluster.components,
-                    "</td><td>",
-                    CountText(cluster.points),
-                    "</td><td>",
-                    DecimalText(cluster.residual_px_rms, 3),
-                    "</td></tr>");
-  }
-  return Section(
-      "Clusters",
-      "Parts of the job that were reconstructed on their own before they were joined.",
-      "<table><thead><tr><th>cluster</th><th>images</th><th>interior</th><th>registered</"
-      "th><th>components</th><th>points</th><th>rms px</th></tr></thead><tbody>" +
-          rows + "</tbody></table>");
-}
-
 std::string Seams(const JobReport& report) {
   const std::string table = SeamsHtml(report);
   if (table.empty()) return "";
@@ -219,7 +190,7 @@ std::string Gnss(const JobReport& report) {
           : absl::StrCat(
                 CountText(gnss.num_priors), " positions, not used: ", EscapeHtml(gnss.reason));
   std::string names;
-  for (size_t i = 0; i < std::min(gnss.outliers.size(), kMaxRows); ++i)
+  for (size_t i = 0; i < std::min(gnss.outliers.size(), kMaxNames); ++i)
     absl::StrAppend(&names, i == 0 ? "" : ", ", EscapeHtml(gnss.outliers[i]));
   return Section("GNSS",
                  said,
@@ -249,59 +220,6 @@ std::string Adjustment(const JobReport& report) {
                  table);
 }
 
-std::string LeftOut(const JobReport& report) {
-  if (report.not_registered.empty()) return "";
-  std::string rows;
-  for (size_t i = 0; i < std::min(report.not_registered.size(), kMaxRows); ++i) {
-    absl::StrAppend(&rows,
-                    "<tr><td class=\"text\">",
-                    EscapeHtml(report.not_registered[i].name),
-                    "</td><td class=\"text\">",
-                    EscapeHtml(report.not_registered[i].reason),
-                    "</td></tr>");
-  }
-  const size_t more =
-      report.not_registered.size() - std::min(report.not_registered.size(), kMaxRows);
-  if (more > 0)
-    absl::StrAppend(&rows,
-                    "<tr><td class=\"text\" colspan=\"2\">and ",
-                    CountText(more),
-                    " more, all in report.json</td></tr>");
-  return Section(
-      "Left out",
-      absl::StrCat(CountText(report.not_registered.size()), " images are not registered."),
-      "<table><thead><tr><th>image</th><th class=\"text\">reason</th></tr></thead><tbody>" + rows +
-          "</tbody></table>");
-}
-
-std::string Warnings(const JobReport& report) {
-  if (report.warnings.empty()) return "";
-  std::string items;
-  for (size_t i = 0; i < std::min(report.warnings.size(), kMaxRows); ++i)
-    absl::StrAppend(&items, "<li>", EscapeHtml(report.warnings[i]), "</li>");
-  return Section("Warnings", "Worth knowing; the job went on.", "<ul>" + items + "</ul>");
-}
-
-std::string Workers(const JobReport& report) {
-  if (report.workers.empty()) return "";
-  std::string rows;
-  for (const ReportWorker& worker : report.workers) {
-    absl::StrAppend(&rows,
-                    "<tr><td class=\"text\">",
-                    EscapeHtml(worker.name),
-                    "</td><td>",
-                    worker.slots,
-                    "</td><td>",
-                    CountText(worker.tasks_done),
-                    "</td></tr>");
-  }
-  return Section(
-      "Workers",
-      "Processes that took part.",
-      "<table><thead><tr><th>worker</th><th>slots</th><th>tasks done</th></tr></thead><tbody>" +
-          rows + "</tbody></table>");
-}
-
 std::string Options(const JobReport& report) {
   if (report.options_text.empty()) return "";
   return absl::StrCat("<section><details><summary>Options</summary><pre>",
@@ -320,14 +238,14 @@ std::string ReportHtml(const JobReport& report) {
           Maps(report),
           Charts(report),
           Times(report),
-          Clusters(report),
+          ClustersHtml(report),
           Seams(report),
           Adjustment(report),
           Gnss(report),
           Uncertainty(report),
-          LeftOut(report),
-          Warnings(report),
-          Workers(report),
+          LeftOutHtml(report),
+          WarningsHtml(report),
+          WorkersHtml(report),
           Options(report),
           "<footer>Residuals are angles times width over 2π. All numbers of this page are in "
           "report.json.</footer>"));

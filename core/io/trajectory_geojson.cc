@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/io/json_text.h"
-#include "core/io/local_frame.h"
+#include "core/scene/local_frame.h"
 
 namespace orbweave {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/io/gnss_table.h"
-#include "core/io/local_frame.h"
 #include "core/io/match_names.h"
 #include "core/io/natural_order.h"
+#include "core/scene/local_frame.h"
 
 namespace orbweave {
 namespace {

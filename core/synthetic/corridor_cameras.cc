@@ -10,7 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
-#include "core/synthetic/geodetic_from_enu.h"
+#include "core/scene/local_frame.h"
 
 namespace orbweave {
 namespace {
@@ -81,7 +81,7 @@ PosePrior MakePrior(const Eigen::Vector3d& biased_centre,
     position +=
         random.Uniform(20.0, 100.0) * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
   }
-  prior.geodetic = GeodeticFromEnu(kOrigin, position);
+  prior.geodetic = GeodeticFromEnu(position, kOrigin);
   prior.position_in_enu = position;
   return prior;
 }

@@ -16,7 +16,7 @@
 
 #include "core/base/parallel_for.h"
 #include "core/base/random.h"
-#include "core/synthetic/geodetic_from_enu.h"
+#include "core/scene/local_frame.h"
 #include "core/synthetic/sample_surface.h"
 
 namespace orbweave {
@@ -100,7 +100,7 @@ std::string GnssCsv(const Street& street, const StreetOptions& options) {
     const double heading =
         HeadingDeg(street.cams_from_enu[i]) + kHeadingSigma_deg * random.Normal() + 360.0;
     if (!street.measured_in_enu[i]) continue;
-    const GeodeticPosition p = GeodeticFromEnu(street.origin, *street.measured_in_enu[i]);
+    const GeodeticPosition p = GeodeticFromEnu(*street.measured_in_enu[i], street.origin);
     csv += Line("%s,%.9f,%.9f,%.4f,%.2f,%.1f\n",
                 street.names[i].c_str(),
                 p.latitude_deg,

@@ -8,12 +8,12 @@
 #include "core/io/byte_stream.h"
 #include "core/io/cameras_csv.h"
 #include "core/io/georeference_json.h"
-#include "core/io/local_frame.h"
 #include "core/io/measure_reconstruction.h"
 #include "core/io/text_fields.h"
 #include "core/io/trace_json.h"
 #include "core/io/trajectory_geojson.h"
 #include "core/io/write_ply.h"
+#include "core/scene/local_frame.h"
 #include "tests/core/io/io_test_support.h"
 
 namespace orbweave {

@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/io/local_frame.h"
 #include "core/io/scan_image_folder.h"
+#include "core/scene/local_frame.h"
 #include "tests/core/io/io_test_support.h"
 
 namespace orbweave {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/io/local_frame.h"
+#include "core/scene/local_frame.h"
 
 #include <GeographicLib/LocalCartesian.hpp>
 

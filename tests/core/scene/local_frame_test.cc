@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/io/local_frame.h"
+#include "core/scene/local_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +30,22 @@ TEST(GeodeticFromEnu, IsTheInverseEverywhere) {
       EXPECT_LT((EnuFromGeodetic(GeodeticFromEnu(point, origin), origin) - point).norm(), 1e-6);
     }
   }
+}
+
+TEST(GeodeticFromEnu, KnowsTheLengthOfADegree) {
+  // At the equator a degree of longitude is pi / 180 times the equatorial radius, and one of
+  // latitude is shorter by the square of the eccentricity.
+  const GeodeticPosition east = GeodeticFromEnu({1, 0, 0}, {0, 0, 0});
+  const GeodeticPosition north = GeodeticFromEnu({0, 1, 0}, {0, 0, 0});
+  EXPECT_NEAR(1.0 / east.longitude_deg, 111319.4908, 0.01);
+  EXPECT_NEAR(1.0 / north.latitude_deg, 110574.2758, 0.01);
+}
+
+TEST(GeodeticFromEnu, LeavesTheTangentPlaneAsTheEarthCurves) {
+  constexpr double kFar_m = 10000.0;
+  const GeodeticPosition origin{22.3, 114.17, 10.0};
+  const GeodeticPosition position = GeodeticFromEnu({kFar_m, 0, 0}, origin);
+  EXPECT_NEAR(position.altitude_m - origin.altitude_m, kFar_m * kFar_m / (2.0 * 6.381e6), 0.01);
 }
 
 }  // namespace

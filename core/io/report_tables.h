@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "core/io/job_report.h"
+
+namespace orbweave {
+
+/// Sections of the page that are lists and tables of names. At most 200 rows of each, report.json
+/// has all; empty when there is nothing to list.
+[[nodiscard]] std::string ClustersHtml(const JobReport& report);
+[[nodiscard]] std::string LeftOutHtml(const JobReport& report);
+[[nodiscard]] std::string WarningsHtml(const JobReport& report);
+[[nodiscard]] std::string WorkersHtml(const JobReport& report);
+
+}  // namespace orbweave
