@@ -9,11 +9,13 @@
 
 #include "core/merging/adjust_blocks.h"
 #include "core/merging/attach_loose_images.h"
+#include "core/merging/inspect_block.h"
 #include "core/merging/rim.h"
 #include "core/stages/advance_adjustment.h"
 #include "core/stages/plan_recipes.h"
 #include "proto/codec/adjustment_codec.h"
 #include "proto/codec/block_codec.h"
+#include "proto/codec/inspection_codec.h"
 #include "proto/codec/manifest_codec.h"
 #include "proto/codec/reconstruction_codec.h"
 #include "proto/codec/two_view_codec.h"
@@ -25,11 +27,15 @@ namespace {
 absl::StatusOr<BlockPlace> AdjustedPlace(uint32_t world,
                                          const WorldBlock& block,
                                          BlockSummary summary,
+                                         int num_threads,
                                          BlobAccess& blobs,
                                          TaskResult& result) {
   BlockPlace place{.world = world, .summary = std::move(summary)};
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeWorldBlock(block), blobs, result));
   place.block = result.outputs.back();
+  ORBWEAVE_RETURN_IF_ERROR(
+      PutOutput(EncodeBlockInspection(InspectBlock(block, num_threads)), blobs, result));
+  place.inspection = result.outputs.back();
   return place;
 }
 
@@ -58,10 +64,13 @@ struct FirstRound {
         AdjustedBlocks adjusted,
         AdjustBlocks(std::move(own), options.global, options.bundle, context));
     for (size_t b = 0; b < adjusted.blocks.size(); ++b) {
-      ORBWEAVE_ASSIGN_OR_RETURN(
-          places.emplace_back(),
-          AdjustedPlace(
-              world, adjusted.blocks[b], std::move(adjusted.summaries[b]), blobs, result));
+      ORBWEAVE_ASSIGN_OR_RETURN(places.emplace_back(),
+                                AdjustedPlace(world,
+                                              adjusted.blocks[b],
+                                              std::move(adjusted.summaries[b]),
+                                              context.num_threads,
+                                              blobs,
+                                              result));
     }
     return std::move(adjusted.report);
   }
@@ -230,6 +239,11 @@ absl::StatusOr<TaskResult> RunAdjustBlock(const TaskSpec& spec,
     ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeWorldBlock(worker.block()), blobs, bulk));
     done.block = bulk.outputs.back();
   }
+  if (task.order.work == Work::kFilter && !task.order.begins_again) {
+    const BlockInspection inspection = InspectBlock(worker.block(), context.num_threads);
+    ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockInspection(inspection), blobs, bulk));
+    done.inspection = bulk.outputs.back();
+  }
   const bool begins = task.order.work == Work::kBegin || task.order.begins_again;
   if (begins || task.order.work == Work::kTry) {
     ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockState(worker.state()), blobs, bulk));
@@ -257,22 +271,18 @@ absl::StatusOr<TaskResult> RunConcludeAdjustment(const TaskSpec& spec,
                             FetchInput(spec, 3, blobs, DecodeDividedViewGraph));
   ConcludedModel model;
   for (uint32_t world = 0; world < worlds.size(); ++world) {
-    std::vector<BlockSummary> summaries;
+    AdjustedWorld adjusted{.report = std::move(progress.worlds[world].report)};
     std::vector<Digest>& blocks = model.blocks.emplace_back();
     for (BlockPlace& place : progress.blocks) {
       if (place.world != world) continue;
-      blocks.push_back(place.block);
-      summaries.push_back(std::move(place.summary));
-    }
-    WorldInspection inspection = BeginInspection(summaries, divided.partition.seams);
-    for (const Digest& digest : blocks) {
       ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
-      ORBWEAVE_ASSIGN_OR_RETURN(const WorldBlock block, FetchBlob(digest, blobs, DecodeWorldBlock));
-      inspection.Add(block, context.num_threads);
+      blocks.push_back(place.block);
+      adjusted.summaries.push_back(std::move(place.summary));
+      ORBWEAVE_ASSIGN_OR_RETURN(adjusted.inspections.emplace_back(),
+                                FetchBlob(place.inspection, blobs, DecodeBlockInspection));
     }
-    model.worlds.push_back(ConcludeAdjustment(summaries,
-                                              std::move(inspection),
-                                              std::move(progress.worlds[world].report),
+    model.worlds.push_back(ConcludeAdjustment(std::move(adjusted),
+                                              divided.partition.seams,
                                               worlds[world].georeference,
                                               manifest,
                                               options.global));

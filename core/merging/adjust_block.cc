@@ -36,7 +36,7 @@ BlockSummary Summarise(const WorldBlock& block) {
   std::map<ImageId, EquirectangularCamera> cameras;
   for (const BlockImage& image : block.images) {
     cameras[image.id] = image.camera;
-    if (image.is_owned) summary.owned_images[image.id] = block.scene.images.at(image.id);
+    if (block.Owns(image)) summary.owned_images[image.id] = block.scene.images.at(image.id);
   }
   for (const Track& track : block.scene.tracks) AddTrack(track, cameras, block.scene, summary);
   for (const SplitTrack& track : block.split) AddTrack(track.part, cameras, block.scene, summary);

@@ -7,60 +7,33 @@
 #include <cmath>
 #include <utility>
 
-#include "core/bundle/bundle_eliminator.h"
 #include "core/bundle/pose_covariance.h"
-#include "core/merging/terms_of_block.h"
 
 namespace orbweave {
 namespace {
 
-// Just above rounding: keeps the depth of a point seen once free, and holds no world.
-constexpr double kPointDamping = 1e-14;
-
-/// A block's bearings alone: priors are weighted anew when the whole world is known.
-AdjustmentBlock BearingsOf(const WorldBlock& block) {
-  AdjustmentBlock terms = TermsOf(block);
-  terms.problem.position_priors.clear();
-  terms.problem.direction_priors.clear();
-  terms.problem.bias_sigma_m.clear();
-  terms.gauge.anchor.reset();
-  terms.gauge.farthest.reset();
-  std::vector<uint8_t> observes(terms.pose_ids.size(), 0);
-  for (const BundleObservation& seen : terms.problem.observations) observes[seen.pose] = 1;
-  for (size_t pose = 0; pose < observes.size(); ++pose) {
-    if (observes[pose] == 0) terms.gauge.pose_is_held[pose] = 1;  // no variable
-  }
-  return terms;
-}
-
-/// Variables that stay: poses that see something, and split points.
-struct Kept {
-  KeptVariables local{};
-  std::vector<SeparatorId> ids{};
+struct WorldTotals {
+  double sum_of_squares = 0.0;
+  double redundancy = 0.0;
+  std::optional<ImageId> held{};
+  std::optional<ImageId> farthest{};
 };
 
-Kept KeptOf(const WorldBlock& block, const AdjustmentBlock& terms) {
-  Kept kept;
-  for (uint32_t pose = 0; pose < terms.pose_ids.size(); ++pose) {
-    if (terms.gauge.pose_is_held[pose] != 0) continue;
-    kept.local.poses.push_back(pose);
-    kept.ids.push_back({SeparatorId::Kind::kPose, terms.pose_ids[pose]});
+WorldTotals TotalsOf(const std::vector<BlockInspection>& blocks) {
+  WorldTotals totals;
+  for (const BlockInspection& block : blocks) {
+    totals.sum_of_squares += block.sum_of_squares;
+    totals.redundancy += block.redundancy;
+    if (block.held) totals.held = block.held;
+    if (block.farthest) totals.farthest = block.farthest;
   }
-  for (uint32_t i = 0; i < block.split.size(); ++i) {
-    kept.local.points.push_back(i);
-    kept.ids.push_back({SeparatorId::Kind::kPoint, block.split[i].id});
-  }
-  return kept;
+  return totals;
 }
 
-/// Two equations per observation, less the unknowns of points that are eliminated.
-double RedundancyOf(const WorldBlock& block) {
-  double redundancy = 0.0;
-  for (const Track& track : block.scene.tracks)
-    redundancy += 2.0 * static_cast<double>(track.observations.size()) - 3.0;
-  for (const SplitTrack& track : block.split)
-    redundancy += 2.0 * static_cast<double>(track.part.observations.size());
-  return redundancy;
+SeparatorSystem SumOfBearings(std::vector<BlockInspection> blocks) {
+  std::vector<SeparatorSystem> systems;
+  for (BlockInspection& block : blocks) systems.push_back(std::move(block.bearings));
+  return AddSystems(systems);
 }
 
 SeparatorSystem WithoutPoints(SeparatorSystem sum) {
@@ -69,7 +42,7 @@ SeparatorSystem WithoutPoints(SeparatorSystem sum) {
     if (id.kind == SeparatorId::Kind::kPose) poses.push_back(id);
   }
   if (poses.size() == sum.variables.size()) return sum;
-  return EliminateSeparators(sum, poses, kPointDamping);
+  return EliminateSeparators(sum, poses, kUnheldPointDamping);
 }
 
 /// A world's poses as variables of one problem.
@@ -161,31 +134,13 @@ double GaugeFreedoms(const GlobalProblem& problem, bool holds_distance) {
 
 }  // namespace
 
-void WorldAssessment::Add(const WorldBlock& block, int num_threads) {
-  const AdjustmentBlock terms = BearingsOf(block);
-  const Kept kept = KeptOf(block, terms);
-  BundleEliminator eliminator(
-      terms.problem, terms.gauge, kept.local, {.loss = BundleLoss::kLeastSquares}, num_threads);
-  const EvaluatedState state = eliminator.Start();
-  sum_of_squares_ += 2.0 * eliminator.Cost(state);
-  redundancy_ += RedundancyOf(block);
-  SeparatorSystem system{.is_definite = eliminator.Linearize(state, {.lambda = kPointDamping})};
-  if (system.is_definite) {
-    system.variables = kept.ids;
-    system.normal = eliminator.Remaining();
-  }
-  bearings_.push_back(std::move(system));
-  const auto held = std::ranges::find_if(block.images, &BlockImage::is_held);
-  if (held != block.images.end()) held_ = held->id;
-  if (block.farthest) farthest_ = block.farthest;
-}
-
-AssessedWorld WorldAssessment::Finish(const GlobalProblem& problem,
-                                      const std::vector<Eigen::Vector3d>& biases_m,
-                                      const ImageManifest& manifest) && {
+AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,
+                          const GlobalProblem& problem,
+                          const std::vector<Eigen::Vector3d>& biases_m,
+                          const ImageManifest& manifest) {
   AssessedWorld assessed;
-  SeparatorSystem sum = AddSystems(bearings_);
-  bearings_ = {};
+  const WorldTotals totals = TotalsOf(blocks);
+  SeparatorSystem sum = SumOfBearings(std::move(blocks));
   const auto num_split = static_cast<double>(
       std::ranges::count(sum.variables, SeparatorId::Kind::kPoint, &SeparatorId::kind));
   SeparatorSystem bearings = WithoutPoints(std::move(sum));
@@ -194,24 +149,25 @@ AssessedWorld WorldAssessment::Finish(const GlobalProblem& problem,
     return assessed;
   }
   PoseSystem poses(problem, biases_m, bearings);
-  poses.Hold(held_, farthest_);
-  const double redundancy = redundancy_ + GaugeFreedoms(problem, farthest_.has_value()) -
-                            3.0 * num_split - 6.0 * static_cast<double>(bearings.variables.size());
+  poses.Hold(totals.held, totals.farthest);
+  const double redundancy = totals.redundancy +
+                            GaugeFreedoms(problem, totals.farthest.has_value()) - 3.0 * num_split -
+                            6.0 * static_cast<double>(bearings.variables.size());
   const PoseCovariances covariances =
       poses.Covariances(std::move(bearings),
-                        {.bearings = BearingVarianceFactor(sum_of_squares_, redundancy),
+                        {.bearings = BearingVarianceFactor(totals.sum_of_squares, redundancy),
                          .positions = PositionVarianceFactors(problem.bundle, poses.state())});
   UncertaintyReport& report = assessed.report;
   report.reason = covariances.reason;
   report.known = covariances.reason.empty();
-  if (held_) report.held_image = manifest.At(*held_).name;
-  if (farthest_) report.held_distance_to = manifest.At(*farthest_).name;
+  if (totals.held) report.held_image = manifest.At(*totals.held).name;
+  if (totals.farthest) report.held_distance_to = manifest.At(*totals.farthest).name;
   report.bearing_sigma_factor = std::sqrt(covariances.factors.bearings);
   report.horizontal_gnss_sigma_factor = std::sqrt(covariances.factors.positions.x());
   report.vertical_gnss_sigma_factor = std::sqrt(covariances.factors.positions.z());
   for (size_t pose = 0; pose < problem.image_of_pose.size(); ++pose) {
     const ImageId id = problem.image_of_pose[pose];
-    const bool is_known = poses.IsVariable(pose) || id == held_;
+    const bool is_known = poses.IsVariable(pose) || id == totals.held;
     if (is_known && covariances.poses[pose])
       assessed.uncertainties[id] = FromCovariance(*covariances.poses[pose]);
   }

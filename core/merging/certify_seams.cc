@@ -7,31 +7,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/bundle/bearing_term.h"
-
 namespace orbweave {
 namespace {
 
 constexpr uint32_t kMinPoints = 12;  // to place an image by one side alone
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-/// [[d]x; -I]: a pose's Jacobian is this times the point's.
-Eigen::Matrix<double, 6, 3> PoseFromPoint(const Eigen::Vector3d& d) {
-  Eigen::Matrix<double, 6, 3> A;
-  A << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0,
-      0.0, 0.0, -1.0;
-  return A;
-}
-
 }  // namespace
 
-SeamCertifier::SeamCertifier(const std::vector<Seam>& seams, std::map<ImageId, uint32_t> owners)
-    : owners_(std::move(owners)) {
-  std::map<uint32_t, uint32_t> images_of_cluster;
-  for (const auto& [id, cluster] : owners_) ++images_of_cluster[cluster];
+SeamCertifier::SeamCertifier(const std::vector<Seam>& seams, const std::set<uint32_t>& clusters) {
   for (const Seam& seam : seams) {
-    if (!images_of_cluster.contains(seam.cluster_a) || !images_of_cluster.contains(seam.cluster_b))
-      continue;
+    if (!clusters.contains(seam.cluster_a) || !clusters.contains(seam.cluster_b)) continue;
     seams_.push_back(seam);
     for (const ImageId id : seam.shared) {
       placements_[{id, seam.cluster_a}];
@@ -40,30 +26,13 @@ SeamCertifier::SeamCertifier(const std::vector<Seam>& seams, std::map<ImageId, u
   }
 }
 
-void SeamCertifier::Add(const WorldBlock& block) {
-  for (const Track& track : block.scene.tracks) AddTrack(track, block.scene);
-}
-
-void SeamCertifier::AddTrack(const Track& track, const Reconstruction& scene) {
-  std::map<uint32_t, uint32_t> seen_from;  // cluster: its panoramas
-  for (const Observation& seen : track.observations) ++seen_from[owners_.at(seen.ref.image)];
-  for (const Observation& seen : track.observations) {
-    for (const auto& [cluster, count] : seen_from) {
-      const bool is_own = owners_.at(seen.ref.image) == cluster;
-      if (count - (is_own ? 1 : 0) < 2) continue;  // the point is not theirs without this image
-      const auto found = placements_.find({seen.ref.image, cluster});
-      if (found == placements_.end()) continue;
-      const Rigid3& cam_from_world = scene.images.at(seen.ref.image).cam_from_world;
-      const BearingTerm term = LineariseBearing(cam_from_world.Centre(),
-                                                track.point_in_world,
-                                                cam_from_world.rotation.conjugate() * seen.bearing);
-      const double weight = 1.0 / (seen.sigma_rad * seen.sigma_rad);
-      const Eigen::Matrix<double, 6, 3> A = PoseFromPoint(term.d);
-      Placement& placement = found->second;
-      placement.hessian += A * PointHessian(term, weight) * A.transpose();
-      placement.gradient += A * PointGradient(term, weight);
-      ++placement.num_points;
-    }
+void SeamCertifier::Add(std::span<const SidePlacement> placements) {
+  for (const SidePlacement& placement : placements) {
+    const auto found = placements_.find({placement.image, placement.cluster});
+    if (found == placements_.end()) continue;
+    found->second.hessian += placement.hessian;
+    found->second.gradient += placement.gradient;
+    found->second.num_points += placement.num_points;
   }
 }
 
@@ -80,8 +49,8 @@ void SeamCertifier::AddSeam(const Seam& seam,
   Eigen::Vector2d jumps = Eigen::Vector2d::Zero();  // squared; rotation, position
   Eigen::Vector2d noise = Eigen::Vector2d::Zero();
   for (const ImageId id : seam.shared) {
-    const Placement& a = placements_.at({id, seam.cluster_a});
-    const Placement& b = placements_.at({id, seam.cluster_b});
+    const SidePlacement& a = placements_.at({id, seam.cluster_a});
+    const SidePlacement& b = placements_.at({id, seam.cluster_b});
     if (std::min(a.num_points, b.num_points) < kMinPoints) continue;
     const Eigen::LDLT<Block6> by_a(a.hessian);
     const Eigen::LDLT<Block6> by_b(b.hessian);

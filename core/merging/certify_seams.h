@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "core/bundle/block_matrix.h"
-#include "core/merging/world_block.h"
+#include "core/merging/place_by_sides.h"
 #include "core/scene/view_graph.h"
 
 namespace orbweave {
@@ -28,33 +28,25 @@ struct SeamCertificate {
   double rotation_noise_deg = 0.0;
 };
 
-/// Certifies the seams of one adjusted world, block by block; memory grows with the overlaps.
+/// Certifies the seams of one adjusted world from its blocks' placements; memory grows with the
+/// overlaps.
 class SeamCertifier {
  public:
-  /// `owners`: the cluster that answers for each image of the world. Seams whose clusters own no
-  /// image of it are left out.
-  SeamCertifier(const std::vector<Seam>& seams, std::map<ImageId, uint32_t> owners);
+  /// Seams of which one side is not among the world's `clusters` are left out.
+  SeamCertifier(const std::vector<Seam>& seams, const std::set<uint32_t>& clusters);
 
-  void Add(const WorldBlock& block);
+  /// In order of the blocks.
+  void Add(std::span<const SidePlacement> placements);
 
   /// In order of the seams. `bearing_factor`: a-posteriori over claimed variance of bearings.
   [[nodiscard]] std::vector<SeamCertificate> Finish(double bearing_factor) const;
 
  private:
-  /// One Gauss-Newton step of a pose against fixed points; (w, C) in world axes.
-  struct Placement {
-    Block6 hessian = Block6::Zero();
-    Vector6 gradient = Vector6::Zero();
-    uint32_t num_points = 0;
-  };
-
-  void AddTrack(const Track& track, const Reconstruction& scene);
   void AddSeam(const Seam& seam, double bearing_factor, std::vector<SeamCertificate>& out) const;
 
   std::vector<Seam> seams_;
-  std::map<ImageId, uint32_t> owners_;
   /// Of shared images, by the cluster whose panoramas see the points.
-  std::map<std::pair<ImageId, uint32_t>, Placement> placements_;
+  std::map<std::pair<ImageId, uint32_t>, SidePlacement> placements_;
 };
 
 }  // namespace orbweave

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
+#include <span>
 #include <utility>
 
+#include "core/merging/assess_world.h"
 #include "core/merging/choose_local_frame.h"
 #include "core/merging/global_problem.h"
 #include "core/merging/judge_gnss.h"
@@ -67,31 +70,35 @@ std::vector<Eigen::Vector3d> BiasesOf(std::span<const BlockSummary> summaries, s
   return biases_m;
 }
 
-}  // namespace
-
-WorldInspection BeginInspection(std::span<const BlockSummary> summaries,
-                                const std::vector<Seam>& seams) {
-  std::map<ImageId, uint32_t> owners;
-  for (const BlockSummary& summary : summaries) {
-    for (const auto& [id, image] : summary.owned_images) owners[id] = summary.cluster;
+SeamCertifier CertifierOf(const AdjustedWorld& adjusted, const std::vector<Seam>& seams) {
+  std::set<uint32_t> clusters;
+  for (const BlockSummary& summary : adjusted.summaries) {
+    if (!summary.owned_images.empty()) clusters.insert(summary.cluster);
   }
-  return {.seams = SeamCertifier(seams, std::move(owners))};
+  SeamCertifier certifier(seams, clusters);
+  for (const BlockInspection& inspection : adjusted.inspections)
+    certifier.Add(inspection.placements);
+  return certifier;
 }
 
-ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
-                                  WorldInspection inspection,
-                                  GlobalAdjustReport report,
+}  // namespace
+
+ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
+                                  const std::vector<Seam>& seams,
                                   const Georeference& georeference,
                                   const ImageManifest& manifest,
                                   const GlobalAdjustOptions& options) {
-  ConcludedWorld world{.report = std::move(report)};
+  ConcludedWorld world{.report = std::move(adjusted.report)};
+  const std::vector<BlockSummary>& summaries = adjusted.summaries;
   Reconstruction poses = PosesOf(summaries);
   GlobalProblem problem = MakeGlobalProblem(poses);
   if (georeference.enu_from_world)
     AddGnss(poses, manifest, georeference, options.gnss_bias_sigma_m, problem);
   const std::vector<Eigen::Vector3d> biases_m =
       BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
-  AssessedWorld assessed = std::move(inspection.assessment).Finish(problem, biases_m, manifest);
+  const SeamCertifier certifier = CertifierOf(adjusted, seams);
+  AssessedWorld assessed =
+      AssessWorld(std::move(adjusted.inspections), problem, biases_m, manifest);
   for (const auto& [id, uncertainty] : assessed.uncertainties)
     poses.images.at(id).uncertainty = uncertainty;
   world.report.uncertainty = std::move(assessed.report);
@@ -106,7 +113,7 @@ ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
   MeasureResiduals(summaries, world.report);
   if (!georeference.enu_from_world) world.model_from_world = ChooseLocalFrame(poses, manifest);
   const double sigma_factor = world.report.uncertainty.bearing_sigma_factor;
-  world.seams = inspection.seams.Finish(sigma_factor * sigma_factor);
+  world.seams = certifier.Finish(sigma_factor * sigma_factor);
   for (SeamCertificate& seam : world.seams) {
     seam.position_jump_m *= world.model_from_world.scale;
     seam.position_noise_m *= world.model_from_world.scale;

@@ -4,15 +4,14 @@
 
 #include <functional>
 #include <map>
-#include <span>
 #include <vector>
 
 #include "core/geometry/sim3.h"
 #include "core/merging/adjust_block.h"
-#include "core/merging/assess_world.h"
 #include "core/merging/certify_seams.h"
 #include "core/merging/georeference_reconstruction.h"
 #include "core/merging/global_options.h"
+#include "core/merging/inspect_block.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {
@@ -25,27 +24,18 @@ struct ConcludedWorld {
   GlobalAdjustReport report{};
 };
 
-/// What is taken up block by block, in their order.
-struct WorldInspection {
-  WorldAssessment assessment{};
-  SeamCertifier seams;
-
-  void Add(const WorldBlock& block, int num_threads) {
-    assessment.Add(block, num_threads);
-    seams.Add(block);
-  }
+/// What the blocks of a world left behind, in their order, when the adjustment was over.
+struct AdjustedWorld {
+  std::vector<BlockSummary> summaries{};
+  std::vector<BlockInspection> inspections{};
+  GlobalAdjustReport report{};  ///< without what ConcludeAdjustment finds
 };
 
-/// For the blocks that `summaries` are of; `seams` of the partition they come from.
-[[nodiscard]] WorldInspection BeginInspection(std::span<const BlockSummary> summaries,
-                                              const std::vector<Seam>& seams);
-
-/// What only the whole world tells, from the summaries of its blocks and an inspection of all of
-/// them: which images nobody observes any more, how GNSS fits (JudgeGnss), residuals, the
-/// uncertainty of poses, how seams fit, and the frame of the model.
-[[nodiscard]] ConcludedWorld ConcludeAdjustment(std::span<const BlockSummary> summaries,
-                                                WorldInspection inspection,
-                                                GlobalAdjustReport report,
+/// What only the whole world tells: which images nobody observes any more, how GNSS fits
+/// (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the partition) fit, and the
+/// frame of the model.
+[[nodiscard]] ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
+                                                const std::vector<Seam>& seams,
                                                 const Georeference& georeference,
                                                 const ImageManifest& manifest,
                                                 const GlobalAdjustOptions& options);

@@ -188,7 +188,7 @@ void DealImages(const Reconstruction& scene,
       const bool is_held = gauge.held == id;
       blocks[b].images.push_back({.id = id,
                                   .camera = manifest.At(id).camera,
-                                  .is_owned = owners.BlockOf(id) == b,
+                                  .owner = owners.clusters()[owners.BlockOf(id)],
                                   .is_separator = !is_held && times_used.at(id) > 1,
                                   .is_held = is_held});
     }

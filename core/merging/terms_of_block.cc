@@ -55,7 +55,7 @@ void AddPriors(const WorldBlock& block, AdjustmentBlock& terms) {
   }
   if (block.gravity_sigma_rad == 0.0) return;
   for (const BlockImage& image : block.images) {
-    if (!image.is_owned || IsLoose(block, image.id)) continue;
+    if (!block.Owns(image) || IsLoose(block, image.id)) continue;
     terms.problem.direction_priors.push_back(
         {.pose = PositionOf(terms.pose_ids, image.id.value), .sigma_rad = block.gravity_sigma_rad});
   }

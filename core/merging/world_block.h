@@ -17,7 +17,7 @@ namespace orbweave {
 struct BlockImage {
   ImageId id{};
   EquirectangularCamera camera{};
-  bool is_owned = false;      ///< this block answers for the image
+  uint32_t owner = 0;         ///< the cluster whose block answers for the image
   bool is_separator = false;  ///< terms of two blocks or more depend on its pose
   bool is_held = false;       ///< the gauge's anchor
 };
@@ -58,6 +58,8 @@ struct WorldBlock {
   double gravity_sigma_rad = 0.0;    ///< of each owned image; 0: gravity takes no part
   /// The image whose distance from the held one the gauge keeps; where neither priors do.
   std::optional<ImageId> farthest{};
+
+  [[nodiscard]] bool Owns(const BlockImage& image) const { return image.owner == cluster; }
 };
 
 }  // namespace orbweave

@@ -21,11 +21,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"fit_seams", "1"},
     {"align_submodels", "4"},
     {"review_seams", "1"},
-    {"join_submodels", "2"},
-    {"assemble_block", "2"},
-    {"steer_adjustment", "1"},
-    {"adjust_block", "1"},
-    {"conclude_adjustment", "2"},
+    {"join_submodels", "3"},
+    {"assemble_block", "3"},
+    {"steer_adjustment", "2"},
+    {"adjust_block", "2"},
+    {"conclude_adjustment", "3"},
 }};
 
 }  // namespace

@@ -33,6 +33,8 @@ struct BlockResult {
   BlockAnswer answer{};
   Digest block{};  ///< zero: as it was
   Digest state{};  ///< zero: none
+  /// Of the last order alone: what the adjusted block has to say about its world.
+  Digest inspection{};
 };
 
 /// A block's place in the adjustment and where it stands.
@@ -41,7 +43,8 @@ struct BlockPlace {
   Digest block{};
   Digest state{};          ///< the one that counts
   Digest trial{};          ///< where the last step led
-  BlockSummary summary{};  ///< of a world that is done
+  BlockSummary summary{};  ///< of a world that is done ...
+  Digest inspection{};     ///< ... too: a BlockInspection
 };
 
 /// What is known between two rounds.

@@ -91,7 +91,10 @@ absl::StatusOr<AdvancedAdjustment> AdvanceAdjustment(AdjustmentProgress progress
     path = std::move(round.path);
     if (!round.orders.empty()) continue;
     advanced.progress.is_asked[world] = 0;
-    for (size_t b = 0; b < places.size(); ++b) places[b].summary = std::move(answers[b].summary);
+    for (size_t b = 0; b < places.size(); ++b) {
+      places[b].summary = std::move(answers[b].summary);
+      places[b].inspection = own[b].inspection;
+    }
   }
   if (first != results.size())
     return absl::InvalidArgumentError("steer_adjustment: results of blocks that were not asked");

@@ -179,6 +179,7 @@ std::string EncodeBlockResult(const BlockResult& result) {
   codec::ToProto(answer.summary, proto.mutable_summary());
   proto.set_block(codec::PackDigest(result.block));
   proto.set_state(codec::PackDigest(result.state));
+  proto.set_inspection(codec::PackDigest(result.inspection));
   return proto.SerializeAsString();
 }
 
@@ -195,6 +196,7 @@ absl::StatusOr<BlockResult> DecodeBlockResult(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(result.answer.summary, codec::FromProto(proto.summary()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.block, codec::UnpackDigest(proto.block()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.state, codec::UnpackDigest(proto.state()));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.inspection, codec::UnpackDigest(proto.inspection()));
   return result;
 }
 
@@ -212,6 +214,7 @@ std::string EncodeAdjustmentProgress(const AdjustmentProgress& progress) {
     out->set_state(codec::PackDigest(place.state));
     out->set_trial(codec::PackDigest(place.trial));
     codec::ToProto(place.summary, out->mutable_summary());
+    out->set_inspection(codec::PackDigest(place.inspection));
   }
   return proto.SerializeAsString();
 }
@@ -234,6 +237,7 @@ absl::StatusOr<AdjustmentProgress> DecodeAdjustmentProgress(std::string_view byt
     ORBWEAVE_ASSIGN_OR_RETURN(place.state, codec::UnpackDigest(block.state()));
     ORBWEAVE_ASSIGN_OR_RETURN(place.trial, codec::UnpackDigest(block.trial()));
     ORBWEAVE_ASSIGN_OR_RETURN(place.summary, codec::FromProto(block.summary()));
+    ORBWEAVE_ASSIGN_OR_RETURN(place.inspection, codec::UnpackDigest(block.inspection()));
   }
   return progress;
 }

@@ -17,19 +17,21 @@ using codec::ToArray;
 using codec::ToVector;
 using codec::Vector3Bytes;
 
-enum BlockImageFlag : uint8_t { kOwned = 1, kSeparator = 2, kHeld = 4 };
+enum BlockImageFlag : uint8_t { kSeparator = 1, kHeld = 2 };
 
 void ImagesToProto(const WorldBlock& block, v1::WorldBlock* proto) {
   std::vector<std::array<int32_t, 2>> cameras;
   std::vector<uint8_t> flags;
+  std::vector<uint32_t> owners;
   for (const BlockImage& image : block.images) {
     cameras.push_back({image.camera.width_px, image.camera.height_px});
-    flags.push_back(static_cast<uint8_t>((image.is_owned ? kOwned : 0) |
-                                         (image.is_separator ? kSeparator : 0) |
-                                         (image.is_held ? kHeld : 0)));
+    flags.push_back(
+        static_cast<uint8_t>((image.is_separator ? kSeparator : 0) | (image.is_held ? kHeld : 0)));
+    owners.push_back(image.owner);
   }
   proto->set_cameras(codec::Pack(cameras));
   proto->set_flags(codec::Pack(flags));
+  proto->set_owners(codec::Pack(owners));
 }
 
 absl::Status ImagesFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
@@ -39,11 +41,13 @@ absl::Status ImagesFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
       (codec::UnpackExactly<std::array<int32_t, 2>>(proto.cameras(), count, "cameras")));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto flags,
                             codec::UnpackExactly<uint8_t>(proto.flags(), count, "image flags"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto owners,
+                            codec::UnpackExactly<uint32_t>(proto.owners(), count, "image owners"));
   size_t i = 0;
   for (const auto& [id, image] : block.scene.images) {
     block.images.push_back({.id = id,
                             .camera = {cameras[i][0], cameras[i][1]},
-                            .is_owned = (flags[i] & kOwned) != 0,
+                            .owner = owners[i],
                             .is_separator = (flags[i] & kSeparator) != 0,
                             .is_held = (flags[i] & kHeld) != 0});
     ++i;

@@ -3,6 +3,7 @@
 
 #include "proto/codec/adjustment_codec.h"
 #include "proto/codec/block_codec.h"
+#include "proto/codec/inspection_codec.h"
 #include "tests/fuzz/artifact_values.h"
 #include "tests/fuzz/seeds.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 WorldBlock SmallBlock() {
   WorldBlock block{.cluster = 3, .scene = TwoViewsOfAPoint(), .gravity_sigma_rad = 0.1};
-  block.images = {{.id = ImageId(0), .camera = {64, 32}, .is_owned = true, .is_held = true},
+  block.images = {{.id = ImageId(0), .camera = {64, 32}, .owner = 3, .is_held = true},
                   {.id = ImageId(2), .camera = {64, 32}, .is_separator = true}};
   block.split = {{.id = 5, .part = block.scene.tracks[0]}};
   block.priors = {{.image = ImageId(0), .bias_group = 1}, {.image = ImageId(2)}};
@@ -70,15 +71,22 @@ void AddAdjustmentSeeds(Seeds& seeds) {
   task.order.shortened = {{5, 0.25}};
   task.order.step = {.variables = {{SeparatorId::Kind::kPose, 2}}, .steps = {Vector6::Ones()}};
   seeds["block_task"] = {EncodeBlockTask(task)};
-  BlockResult result{.block = digest, .state = digest};
+  BlockResult result{.block = digest, .state = digest, .inspection = digest};
   result.answer.separators = SmallSystem().variables;
   result.answer.system = SmallSystem();
   result.answer.trial.kept_points = {{.cost_before = 1.0}};
   result.answer.summary = SmallSummary();
   seeds["block_result"] = {EncodeBlockResult(result)};
+  seeds["block_inspection"] = {EncodeBlockInspection(
+      {.bearings = SmallSystem(),
+       .sum_of_squares = 8.0,
+       .redundancy = 9.0,
+       .held = ImageId(0),
+       .placements = {{.image = ImageId(2), .cluster = 3, .num_points = 7}}})};
   AdjustmentProgress progress{.worlds = {{.phase = 1, .report = SmallReport()}}, .is_asked = {1}};
   progress.worlds[0].path.separators_of_block = {SmallSystem().variables};
-  progress.blocks = {{.block = digest, .state = digest, .summary = SmallSummary()}};
+  progress.blocks = {
+      {.block = digest, .state = digest, .summary = SmallSummary(), .inspection = digest}};
   seeds["adjustment_progress"] = {EncodeAdjustmentProgress(progress)};
   ConcludedModel model{.worlds = {{.images = TwoViewsOfAPoint().images, .report = SmallReport()}},
                        .blocks = {{digest}}};

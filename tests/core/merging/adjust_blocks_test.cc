@@ -109,7 +109,7 @@ TEST(DivideWorld, GivesEveryTermToOneBlockAndEveryImageOneOwner) {
       observations += block.scene.NumObservations();
       for (const SplitTrack& track : block.split) observations += track.part.observations.size();
       priors += block.priors.size();
-      for (const BlockImage& image : block.images) owners[image.id] += image.is_owned ? 1 : 0;
+      for (const BlockImage& image : block.images) owners[image.id] += block.Owns(image) ? 1 : 0;
       for (const BlockBias& bias : block.biases)
         counted_biases[bias.group] += std::isfinite(bias.sigma_m) ? 1 : 0;
     }

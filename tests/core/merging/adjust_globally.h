@@ -39,14 +39,12 @@ inline absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruc
                                          options,
                                          bundle,
                                          context));
-  WorldInspection inspection = BeginInspection(adjusted.summaries, {});
-  for (const WorldBlock& block : adjusted.blocks) inspection.Add(block, context.num_threads);
-  const ConcludedWorld world = ConcludeAdjustment(adjusted.summaries,
-                                                  std::move(inspection),
-                                                  std::move(adjusted.report),
-                                                  georeference,
-                                                  manifest,
-                                                  options);
+  AdjustedWorld left{.summaries = std::move(adjusted.summaries),
+                     .report = std::move(adjusted.report)};
+  for (const WorldBlock& block : adjusted.blocks)
+    left.inspections.push_back(InspectBlock(block, context.num_threads));
+  const ConcludedWorld world =
+      ConcludeAdjustment(std::move(left), {}, georeference, manifest, options);
   return GloballyAdjusted{GatherWorld(world, std::move(adjusted.blocks)), world.report};
 }
 

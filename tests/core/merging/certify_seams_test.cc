@@ -39,12 +39,8 @@ std::vector<WorldBlock> AdjustedBlocksOf(double noise_px) {
 }
 
 SeamCertificate Certify(const std::vector<WorldBlock>& blocks) {
-  std::map<ImageId, uint32_t> owners;
-  for (const WorldBlock& block : blocks) {
-    for (const BlockImage& image : block.images) owners[image.id] = image.id.value / kPerCluster;
-  }
-  SeamCertifier certifier(OneSeam(), std::move(owners));
-  for (const WorldBlock& block : blocks) certifier.Add(block);
+  SeamCertifier certifier(OneSeam(), {0, 1});
+  for (const WorldBlock& block : blocks) certifier.Add(PlaceBySides(block));
   const std::vector<SeamCertificate> certificates = certifier.Finish(kBearingFactor);
   EXPECT_EQ(certificates.size(), 1U);
   return certificates.empty() ? SeamCertificate{} : certificates.front();

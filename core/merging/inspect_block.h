@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/distributed_bundle/separator_system.h"
+#include "core/merging/place_by_sides.h"
+#include "core/merging/world_block.h"
+
+namespace orbweave {
+
+/// Damping of points where nothing else holds their depth: just above rounding, so that one seen
+/// once stays free and holds no world.
+inline constexpr double kUnheldPointDamping = 1e-14;
+
+/// What an adjusted block has to say about its world as a whole, its points eliminated: it grows
+/// with the block's panoramas.
+struct BlockInspection {
+  /// Normal equations of all its bearings, least squares; variables: poses that see something,
+  /// split points.
+  SeparatorSystem bearings{};
+  double sum_of_squares = 0.0;  ///< of bearings' errors over their sigmas
+  double redundancy = 0.0;      ///< equations less the unknowns of eliminated points
+  std::optional<ImageId> held{};
+  std::optional<ImageId> farthest{};
+  std::vector<SidePlacement> placements{};
+};
+
+/// For AssessWorld and SeamCertifier. Same bytes for any `num_threads`.
+[[nodiscard]] BlockInspection InspectBlock(const WorldBlock& block, int num_threads);
+
+}  // namespace orbweave

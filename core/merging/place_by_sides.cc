@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/merging/place_by_sides.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/bundle/bearing_term.h"
+
+namespace orbweave {
+namespace {
+
+using Owners = std::map<ImageId, uint32_t>;
+
+Owners OwnersOf(const WorldBlock& block) {
+  Owners owners;
+  for (const BlockImage& image : block.images) owners.emplace(image.id, image.owner);
+  return owners;
+}
+
+/// How many panoramas of each cluster see a track.
+std::map<uint32_t, uint32_t> SidesOf(const Track& track, const Owners& owners) {
+  std::map<uint32_t, uint32_t> sides;
+  for (const Observation& seen : track.observations) ++sides[owners.at(seen.ref.image)];
+  return sides;
+}
+
+/// Images whose points are not all their own cluster's, as far as this block can tell: what the
+/// others see of a separator or of the held image may be in another block.
+std::set<ImageId> ImagesBetweenSides(const WorldBlock& block, const Owners& owners) {
+  std::set<ImageId> between;
+  for (const BlockImage& image : block.images) {
+    if (image.is_separator || image.is_held) between.insert(image.id);
+  }
+  for (const Track& track : block.scene.tracks) {
+    if (SidesOf(track, owners).size() < 2) continue;
+    for (const Observation& seen : track.observations) between.insert(seen.ref.image);
+  }
+  return between;
+}
+
+/// [[d]x; -I]: a pose's Jacobian is this times the point's.
+Eigen::Matrix<double, 6, 3> PoseFromPoint(const Eigen::Vector3d& d) {
+  Eigen::Matrix<double, 6, 3> A;
+  A << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0,
+      0.0, 0.0, -1.0;
+  return A;
+}
+
+void AddSighting(const Observation& seen,
+                 const Eigen::Vector3d& point_in_world,
+                 const Rigid3& cam_from_world,
+                 SidePlacement& placement) {
+  const BearingTerm term = LineariseBearing(
+      cam_from_world.Centre(), point_in_world, cam_from_world.rotation.conjugate() * seen.bearing);
+  const double weight = 1.0 / (seen.sigma_rad * seen.sigma_rad);
+  const Eigen::Matrix<double, 6, 3> A = PoseFromPoint(term.d);
+  placement.hessian += A * PointHessian(term, weight) * A.transpose();
+  placement.gradient += A * PointGradient(term, weight);
+  ++placement.num_points;
+}
+
+}  // namespace
+
+std::vector<SidePlacement> PlaceBySides(const WorldBlock& block) {
+  const Owners owners = OwnersOf(block);
+  const std::set<ImageId> between = ImagesBetweenSides(block, owners);
+  std::map<std::pair<ImageId, uint32_t>, SidePlacement> placements;
+  for (const Track& track : block.scene.tracks) {
+    const std::map<uint32_t, uint32_t> sides = SidesOf(track, owners);
+    for (const Observation& seen : track.observations) {
+      const ImageId id = seen.ref.image;
+      if (!between.contains(id)) continue;
+      for (const auto& [cluster, count] : sides) {
+        const uint32_t itself = owners.at(id) == cluster ? 1 : 0;
+        if (count - itself < 2) continue;  // the point is not theirs without this image
+        SidePlacement& placement = placements[{id, cluster}];
+        placement.image = id;
+        placement.cluster = cluster;
+        AddSighting(
+            seen, track.point_in_world, block.scene.images.at(id).cam_from_world, placement);
+      }
+    }
+  }
+  std::vector<SidePlacement> sorted;
+  for (auto& [key, placement] : placements) sorted.push_back(std::move(placement));
+  return sorted;
+}
+
+}  // namespace orbweave
