@@ -56,6 +56,6 @@ function(orbweave_test)
   target_link_libraries(${target} PRIVATE ${T_DEPS} ${T_LIBS} orbweave_warnings GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE ORBWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   include(GoogleTest)
-  gtest_discover_tests(${target} TEST_PREFIX "${T_NAME}/" DISCOVERY_TIMEOUT 120
+  gtest_discover_tests(${target} TEST_PREFIX "${T_NAME}/" NO_PRETTY_VALUES DISCOVERY_TIMEOUT 120
     PROPERTIES TIMEOUT ${T_TIMEOUT} ${ORBWEAVE_TEST_PROPERTIES} LABELS "${T_LABELS}")
 endfunction()
