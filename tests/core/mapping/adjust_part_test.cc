@@ -37,7 +37,7 @@ TEST(AdjustPart, LeavesTheStateAloneWhenCancelled) {
 }
 
 TEST(NodeSigma, IsTheKeypointsThoughNeverZero) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(2, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(2, 3.0)});
   world.problem.images[0].sigma_rad[0] = 0.01F;
   world.problem.images[0].sigma_rad[1] = 0.0F;
   const CorrespondenceGraph graph = BuildCorrespondenceGraph(world.problem).value();

@@ -7,13 +7,13 @@
 
 #include <algorithm>
 
-#include "tests/core/mapping/street_world.h"
+#include "tests/core/mapping/ray_street.h"
 
 namespace orbweave {
 namespace {
 
 TEST(BuildCorrespondenceGraph, IsSymmetricAndSorted) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(6, 3.0), .outlier_share = 0.2});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(6, 3.0), .outlier_share = 0.2});
   const CorrespondenceGraph graph = BuildCorrespondenceGraph(world.problem).value();
   size_t edges = 0;
   for (Node node = 0; node < graph.NumNodes(); ++node) {
@@ -31,7 +31,7 @@ TEST(BuildCorrespondenceGraph, IsSymmetricAndSorted) {
 }
 
 TEST(BuildCorrespondenceGraph, NodesLeadBackToTheirFeatures) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(4, 3.0)});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(4, 3.0)});
   const CorrespondenceGraph graph = BuildCorrespondenceGraph(world.problem).value();
   for (ImageSlot image = 0; image < graph.NumImages(); ++image) {
     for (FeatureIndex f = 0; f < world.problem.images[image].bearings.size(); ++f) {
@@ -44,7 +44,7 @@ TEST(BuildCorrespondenceGraph, NodesLeadBackToTheirFeatures) {
 }
 
 TEST(BuildCorrespondenceGraph, FeaturesOfOneBearingAreOneNode) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(2, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(2, 3.0)});
   ClusterImage& image = world.problem.images[0];
   const auto count = static_cast<FeatureIndex>(image.bearings.size());
   image.bearings.push_back(image.bearings[2]);
@@ -60,14 +60,14 @@ TEST(BuildCorrespondenceGraph, FeaturesOfOneBearingAreOneNode) {
 }
 
 TEST(BuildCorrespondenceGraph, LeavesOutPairsWithoutGeometry) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(3, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(3, 3.0)});
   ASSERT_EQ(world.problem.pairs.size(), 3U);
   world.problem.pairs[1].kind = TwoViewKind::kNone;
   EXPECT_EQ(BuildCorrespondenceGraph(world.problem).value().pairs.size(), 2U);
 }
 
 TEST(BuildCorrespondenceGraph, RefusesAPairOfAnImageThatIsNotThere) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(3, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(3, 3.0)});
   world.problem.pairs.back().pair.b = ImageId(77);
   const auto graph = BuildCorrespondenceGraph(world.problem);
   EXPECT_EQ(graph.status().code(), absl::StatusCode::kInvalidArgument);
@@ -75,14 +75,14 @@ TEST(BuildCorrespondenceGraph, RefusesAPairOfAnImageThatIsNotThere) {
 }
 
 TEST(BuildCorrespondenceGraph, RefusesAMatchOfAFeatureThatIsNotThere) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(3, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(3, 3.0)});
   world.problem.pairs[0].inliers[0].b = 1000000;
   EXPECT_EQ(BuildCorrespondenceGraph(world.problem).status().code(),
             absl::StatusCode::kInvalidArgument);
 }
 
 TEST(BuildCorrespondenceGraph, RefusesImagesOutOfOrder) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(3, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(3, 3.0)});
   world.problem.pairs.clear();
   std::swap(world.problem.images[0], world.problem.images[1]);
   EXPECT_EQ(BuildCorrespondenceGraph(world.problem).status().code(),

@@ -36,7 +36,7 @@ TEST(PlaceByPairs, PlacesTheImagesOfAStraightStreet) {
 }
 
 TEST(PlaceByPairs, ClosesALoop) {
-  StreetOptions options{.centres = RoundWalk(24, 12.0)};
+  RayStreetOptions options{.centres = RoundWalk(24, 12.0)};
   options.window = 23;
   const StreetFixture street(options);
   const PairPlacement placement = Placed(street);

@@ -8,12 +8,12 @@
 #include <set>
 
 #include "tests/core/mapping/model_error.h"
-#include "tests/core/mapping/street_world.h"
+#include "tests/core/mapping/ray_street.h"
 
 namespace orbweave {
 namespace {
 
-ClusterReconstruction Reconstruct(const StreetWorld& world, const MappingOptions& options = {}) {
+ClusterReconstruction Reconstruct(const RayStreet& world, const MappingOptions& options = {}) {
   auto result = ReconstructCluster(world.problem, options, {.seed = 5});
   EXPECT_TRUE(result.ok()) << result.status();
   return result.ok() ? *std::move(result) : ClusterReconstruction{};
@@ -37,7 +37,7 @@ void ExpectWellFormed(const Reconstruction& reconstruction) {
 }
 
 TEST(ReconstructCluster, RecoversACleanStreet) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(10, 3.0), .noise_px = 0.0});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0), .noise_px = 0.0});
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_EQ(result.components.size(), 1U);
   EXPECT_EQ(result.components[0].images.size(), 10U);
@@ -50,7 +50,7 @@ TEST(ReconstructCluster, RecoversACleanStreet) {
 }
 
 TEST(ReconstructCluster, ReachesTheNoiseLevel) {
-  const StreetWorld world =
+  const RayStreet world =
       MakeStreet({.centres = StraightWalk(30, 3.0), .noise_px = 0.5, .outlier_share = 0.02});
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_EQ(result.components.size(), 1U);
@@ -64,10 +64,10 @@ TEST(ReconstructCluster, ReachesTheNoiseLevel) {
 }
 
 TEST(ReconstructCluster, PanoramasMayBeTurnedAnyWay) {
-  StreetOptions options{.centres = StraightWalk(15, 3.0), .noise_px = 0.4};
-  const StreetWorld upright = MakeStreet(options);
+  RayStreetOptions options{.centres = StraightWalk(15, 3.0), .noise_px = 0.4};
+  const RayStreet upright = MakeStreet(options);
   options.random_rotations = true;
-  const StreetWorld turned = MakeStreet(options);
+  const RayStreet turned = MakeStreet(options);
   const ClusterReconstruction of_upright = Reconstruct(upright);
   const ClusterReconstruction of_turned = Reconstruct(turned);
   ASSERT_EQ(of_turned.components.size(), 1U);
@@ -80,9 +80,9 @@ TEST(ReconstructCluster, PanoramasMayBeTurnedAnyWay) {
 }
 
 TEST(ReconstructCluster, ClosesALoop) {
-  StreetOptions options{.centres = RoundWalk(24, 12.0)};
+  RayStreetOptions options{.centres = RoundWalk(24, 12.0)};
   options.window = 23;
-  const StreetWorld world = MakeStreet(options);
+  const RayStreet world = MakeStreet(options);
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_EQ(result.components.size(), 1U);
   EXPECT_EQ(result.components[0].images.size(), 24U);
@@ -90,7 +90,7 @@ TEST(ReconstructCluster, ClosesALoop) {
 }
 
 TEST(ReconstructCluster, WithstandsManyWrongMatches) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(15, 3.0), .outlier_share = 0.3});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(15, 3.0), .outlier_share = 0.3});
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_EQ(result.components.size(), 1U);
   EXPECT_EQ(result.components[0].images.size(), 15U);
@@ -107,7 +107,7 @@ TEST(ReconstructCluster, PassesAStopAtALight) {
                       1e-3 * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()));
   }
   for (int i = 1; i <= 6; ++i) centres.push_back(stop + Eigen::Vector3d(3.0 * i, 0.0, 0.0));
-  const StreetWorld world = MakeStreet({.centres = centres, .points_per_metre = 16, .window = 22});
+  const RayStreet world = MakeStreet({.centres = centres, .points_per_metre = 16, .window = 22});
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_EQ(result.components.size(), 1U);
   EXPECT_EQ(result.components[0].images.size(), 32U);
@@ -115,7 +115,7 @@ TEST(ReconstructCluster, PassesAStopAtALight) {
 }
 
 TEST(ReconstructCluster, HasNoComponentOfACameraThatNeverMoves) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(6, 0.0), .points_per_metre = 80});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(6, 0.0), .points_per_metre = 80});
   ASSERT_FALSE(world.problem.pairs.empty());
   const ClusterReconstruction result = Reconstruct(world);
   EXPECT_TRUE(result.components.empty());
@@ -127,7 +127,7 @@ TEST(ReconstructCluster, KeepsTwoComponentsApart) {
   for (const Eigen::Vector3d& centre : StraightWalk(6, 3.0)) {
     centres.push_back(centre + Eigen::Vector3d(500.0, 0.0, 0.0));
   }
-  const StreetWorld world = MakeStreet({.centres = centres});
+  const RayStreet world = MakeStreet({.centres = centres});
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_EQ(result.components.size(), 2U);
   EXPECT_EQ(result.components[0].images.size(), 8U);
@@ -136,7 +136,7 @@ TEST(ReconstructCluster, KeepsTwoComponentsApart) {
 }
 
 TEST(ReconstructCluster, NamesImagesThatItCannotPlace) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(10, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0)});
   // Image 9 shows something else: its features lead nowhere.
   Random random(2);
   for (Eigen::Vector3d& bearing : world.problem.images[9].bearings) {
@@ -157,7 +157,7 @@ TEST(ReconstructCluster, NamesImagesThatItCannotPlace) {
 }
 
 TEST(ReconstructCluster, RecoversFromABadSeed) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(12, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(12, 3.0)});
   // The pair that ranks first claims a wrong geometry.
   size_t first = 0;
   for (size_t i = 0; i < world.problem.pairs.size(); ++i) {
@@ -175,9 +175,10 @@ TEST(ReconstructCluster, RecoversFromABadSeed) {
 
 TEST(ReconstructCluster, StartsInAScenePartlyTooFarForDepth) {
   // A short walk: the median angle of every pair is below that of a point that is kept.
-  StreetOptions options{.centres = StraightWalk(12, 0.1), .points_per_metre = 60, .noise_px = 0.1};
+  RayStreetOptions options{
+      .centres = StraightWalk(12, 0.1), .points_per_metre = 60, .noise_px = 0.1};
   options.window = 11;
-  const StreetWorld world = MakeStreet(options);
+  const RayStreet world = MakeStreet(options);
   MappingOptions mapping;
   mapping.min_angle_deg = 9.0;
   for (const TwoViewGeometry& pair : world.problem.pairs) {
@@ -189,7 +190,7 @@ TEST(ReconstructCluster, StartsInAScenePartlyTooFarForDepth) {
 }
 
 /// Both starts of the same world end in the same model, but for what noise leaves open.
-void ExpectStartsAgree(const StreetWorld& world) {
+void ExpectStartsAgree(const RayStreet& world) {
   const ClusterReconstruction from_seed = Reconstruct(world, {.start = MappingStart::kIncremental});
   const ClusterReconstruction at_once = Reconstruct(world, {.start = MappingStart::kAuto});
   EXPECT_FALSE(from_seed.started_globally);
@@ -211,7 +212,7 @@ TEST(ReconstructCluster, StartsAgreeOnAStraightStreet) {
 }
 
 TEST(ReconstructCluster, StartsAgreeOnALoopOfTurnedPanoramas) {
-  StreetOptions options{.centres = RoundWalk(24, 12.0), .random_rotations = true};
+  RayStreetOptions options{.centres = RoundWalk(24, 12.0), .random_rotations = true};
   options.window = 23;
   ExpectStartsAgree(MakeStreet(options));
 }
@@ -227,8 +228,8 @@ TEST(ReconstructCluster, StartsAgreeInABend) {
 }
 
 /// Every pair claims a wrong rotation but the first, from which images can be registered.
-StreetWorld MakeStreetWithBadPairs() {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(12, 3.0)});
+RayStreet MakeStreetWithBadPairs() {
+  RayStreet world = MakeStreet({.centres = StraightWalk(12, 3.0)});
   Random random(6);
   for (size_t i = 1; i < world.problem.pairs.size(); ++i) {
     world.problem.pairs[i].b_from_a.rotation = street_internal::RandomRotation(random);
@@ -238,7 +239,7 @@ StreetWorld MakeStreetWithBadPairs() {
 }
 
 TEST(ReconstructCluster, AutoBeginsWithASeedWherePairsContradictEachOther) {
-  const StreetWorld world = MakeStreetWithBadPairs();
+  const RayStreet world = MakeStreetWithBadPairs();
   const ClusterReconstruction result =
       Reconstruct(world, {.start = MappingStart::kAuto, .max_seeds = 100});
   EXPECT_FALSE(result.started_globally);
@@ -258,7 +259,7 @@ TEST(ReconstructCluster, AGlobalStartThatFailsIsNamedAndReplaced) {
 }
 
 TEST(ReconstructCluster, AGlobalStartRegistersWhatPairsCannotPlace) {
-  StreetWorld world = MakeStreet({.centres = StraightWalk(15, 3.0)});
+  RayStreet world = MakeStreet({.centres = StraightWalk(15, 3.0)});
   // All pairs of image 8 claim to be pure rotations: no displacement leads to it.
   for (TwoViewGeometry& pair : world.problem.pairs) {
     if (pair.pair.a != ImageId(8) && pair.pair.b != ImageId(8)) continue;
@@ -294,7 +295,7 @@ TEST(ReconstructCluster, ThePaperBeginsWithASeed) {
 
 TEST(ReconstructCluster, TinyInputsAreNoError) {
   for (const int count : {0, 1, 2, 3}) {
-    const StreetWorld world =
+    const RayStreet world =
         MakeStreet({.centres = StraightWalk(count, 3.0), .points_per_metre = 40});
     const ClusterReconstruction result = Reconstruct(world);
     EXPECT_EQ(result.components.size(), count == 3 ? 1U : 0U) << count;
@@ -303,7 +304,7 @@ TEST(ReconstructCluster, TinyInputsAreNoError) {
 }
 
 TEST(ReconstructCluster, PaperPresetReconstructsToo) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(12, 3.0), .points_per_metre = 20});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(12, 3.0), .points_per_metre = 20});
   MappingOptions options;
   options.preset = MappingPreset::kPaper;
   const ClusterReconstruction result = Reconstruct(world, options);
@@ -312,7 +313,7 @@ TEST(ReconstructCluster, PaperPresetReconstructsToo) {
 }
 
 TEST(ReconstructCluster, GivesTheSameBytesForAnyThreadCount) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(10, 3.0), .outlier_share = 0.05});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0), .outlier_share = 0.05});
   const auto one = ReconstructCluster(world.problem, {}, {.num_threads = 1, .seed = 3}).value();
   const auto two = ReconstructCluster(world.problem, {}, {.num_threads = 2, .seed = 3}).value();
   ASSERT_EQ(one.components.size(), two.components.size());
@@ -329,7 +330,7 @@ TEST(ReconstructCluster, GivesTheSameBytesForAnyThreadCount) {
 }
 
 TEST(ReconstructCluster, IsCancelledBetweenImages) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(20, 3.0)});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(20, 3.0)});
   std::stop_source source;
   uint64_t last_done = 0;
   const StageContext context{.stop = source.get_token(), .report = [&](const Progress& progress) {
@@ -343,7 +344,7 @@ TEST(ReconstructCluster, IsCancelledBetweenImages) {
 }
 
 TEST(ReconstructCluster, ColoursATrackByTheMeanOfItsFeatures) {
-  const StreetWorld world = MakeStreet({.centres = StraightWalk(5, 3.0)});
+  const RayStreet world = MakeStreet({.centres = StraightWalk(5, 3.0)});
   const ClusterReconstruction result = Reconstruct(world);
   ASSERT_FALSE(result.components.empty());
   for (const Track& track : result.components[0].tracks) {

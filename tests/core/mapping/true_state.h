@@ -4,13 +4,13 @@
 
 #include "core/mapping/mapping_state.h"
 #include "core/mapping/triangulate_tracks.h"
-#include "tests/core/mapping/street_world.h"
+#include "tests/core/mapping/ray_street.h"
 
 namespace orbweave {
 
 /// A street and its graph, in a place that states may refer to.
 struct StreetFixture {
-  explicit StreetFixture(const StreetOptions& options)
+  explicit StreetFixture(const RayStreetOptions& options)
       : world(MakeStreet(options)), graph(BuildCorrespondenceGraph(world.problem).value()) {}
 
   StreetFixture(const StreetFixture&) = delete;
@@ -35,7 +35,7 @@ struct StreetFixture {
     return world.point_of_feature[graph.image_of_node[node]][graph.feature_of_node[node]];
   }
 
-  StreetWorld world;
+  RayStreet world;
   CorrespondenceGraph graph;
 };
 

@@ -18,7 +18,7 @@ namespace orbweave {
 /// A small street of rays with truth, for tests of the mapper: a walk along given camera centres
 /// between two facades; every panorama sees the points within reach with noise; images up to
 /// `window` apart are matched, a share of the matches wrongly.
-struct StreetOptions {
+struct RayStreetOptions {
   std::vector<Eigen::Vector3d> centres{};
   int points_per_metre = 12;
   double reach_m = 18.0;
@@ -29,7 +29,7 @@ struct StreetOptions {
   uint64_t seed = 1;
 };
 
-struct StreetWorld {
+struct RayStreet {
   ClusterProblem problem{};
   std::vector<Rigid3> cams_from_world{};  ///< truth, per image
   /// Per image and feature: index of the scene point it shows.
@@ -58,7 +58,7 @@ inline std::vector<Eigen::Vector3d> RoundWalk(int count, double radius_m) {
 namespace street_internal {
 
 /// Points scattered about the walk: at 3 to 9 metres beside, -6 to 2 metres in height (y down).
-inline std::vector<Eigen::Vector3d> ScatterPoints(const StreetOptions& options, Random& random) {
+inline std::vector<Eigen::Vector3d> ScatterPoints(const RayStreetOptions& options, Random& random) {
   std::vector<Eigen::Vector3d> points;
   const auto& centres = options.centres;
   for (size_t i = 0; i < centres.size(); ++i) {
@@ -86,11 +86,11 @@ inline Eigen::Vector3d Disturbed(const Eigen::Vector3d& bearing, double sigma_ra
   return (bearing + TangentBasis(bearing) * offset).normalized();
 }
 
-inline void AddImage(const StreetOptions& options,
+inline void AddImage(const RayStreetOptions& options,
                      const std::vector<Eigen::Vector3d>& points,
                      uint32_t index,
                      Random& random,
-                     StreetWorld& world) {
+                     RayStreet& world) {
   // Drawn in any case, so that worlds that differ in this flag alone have the same noise.
   const Eigen::Quaterniond drawn = RandomRotation(random);
   const Rigid3 cam_from_world = Rigid3::FromCentre(
@@ -127,12 +127,12 @@ inline double MedianAngle(const Eigen::Vector3d& C_a,
   return angles[angles.size() / 2];
 }
 
-inline void AddPair(const StreetOptions& options,
+inline void AddPair(const RayStreetOptions& options,
                     const std::vector<Eigen::Vector3d>& points,
                     uint32_t a,
                     uint32_t b,
                     Random& random,
-                    StreetWorld& world) {
+                    RayStreet& world) {
   std::map<int, FeatureIndex> feature_in_b;
   for (FeatureIndex f = 0; f < world.point_of_feature[b].size(); ++f) {
     feature_in_b[world.point_of_feature[b][f]] = f;
@@ -168,10 +168,10 @@ inline void AddPair(const StreetOptions& options,
 
 }  // namespace street_internal
 
-inline StreetWorld MakeStreet(const StreetOptions& options) {
+inline RayStreet MakeStreet(const RayStreetOptions& options) {
   Random random(options.seed);
   const std::vector<Eigen::Vector3d> points = street_internal::ScatterPoints(options, random);
-  StreetWorld world;
+  RayStreet world;
   const auto count = static_cast<uint32_t>(options.centres.size());
   for (uint32_t i = 0; i < count; ++i) street_internal::AddImage(options, points, i, random, world);
   for (uint32_t a = 0; a < count; ++a) {
