@@ -11,16 +11,6 @@
 
 namespace orbweave {
 
-/// Leaves the worlds; a recipe per block.
-absl::StatusOr<TaskResult> RunJoinSubmodels(const TaskSpec& spec,
-                                            BlobAccess& blobs,
-                                            const StageContext& context);
-
-/// Leaves the block.
-absl::StatusOr<TaskResult> RunAssembleBlock(const TaskSpec& spec,
-                                            BlobAccess& blobs,
-                                            const StageContext& context);
-
 /// One round: leaves where all worlds stand; a recipe per block that has work. Worlds smaller than
 /// blocks.distribute_from are adjusted here and now, by the same steps.
 absl::StatusOr<TaskResult> RunSteerAdjustment(const TaskSpec& spec,

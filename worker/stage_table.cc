@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "worker/adjustment_stages.h"
+#include "worker/block_stages.h"
 #include "worker/image_stages.h"
 #include "worker/model_stages.h"
 #include "worker/seam_stages.h"
