@@ -18,7 +18,7 @@ namespace {
 constexpr double kHalfWidth = 520.0;
 constexpr double kFullWidth = 1080.0;
 constexpr double kHeight = 220.0;
-constexpr double kLeft = 52.0;
+constexpr double kLeft = 62.0;
 constexpr double kRight = 10.0;
 constexpr double kTop = 12.0;
 constexpr double kBottom = 34.0;

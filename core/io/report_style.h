@@ -20,7 +20,7 @@ header p{margin:0;color:var(--soft)}
 h2{font-size:16px;font-weight:650;margin:0 0 2px}
 .sub{color:var(--soft);font-size:13px;margin:0 0 12px}
 section{background:var(--card);border:1px solid var(--line);border-radius:12px;padding:18px 20px;margin:0 0 16px;overflow-x:auto}
-.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(134px,1fr));gap:12px;margin-bottom:16px}
+.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(210px,1fr));gap:12px;margin-bottom:16px}
 .card{background:var(--card);border:1px solid var(--line);border-radius:12px;padding:14px}
 .card b{display:block;font-size:23px;line-height:1.2;font-weight:620;letter-spacing:-.02em;font-variant-numeric:tabular-nums}
 .card b small{font-size:14px;font-weight:500;color:var(--soft)}
