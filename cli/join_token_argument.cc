@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "absl/strings/ascii.h"
+#include "cli/event_log.h"
 #include "security/secret_file.h"
 #include "security/tls_folder.h"
 #include "security/unix_time.h"
@@ -57,7 +58,13 @@ absl::Status EnrolWhereNeeded(const CoordinatorArgument& coordinator,
   }
   RefusedHandshake handshake(coordinator.address, folder.path, Caller::kStranger);
   return RetryWhileUnavailable(
-      stop, [&] { return handshake.Explain(Enroll(coordinator.address, token, name, folder)); });
+      stop,
+      [&] { return handshake.Explain(Enroll(coordinator.address, token, name, folder)); },
+      [](const absl::Status& why) {
+        LogToStderr({.level = LogLevel::kWarning,
+                     .event = "coordinator_away",
+                     .message = std::string(why.message())});
+      });
 }
 
 }  // namespace orbweave

@@ -42,9 +42,9 @@ void Dispatcher::ForgetJob(const Digest& id) {
 uint64_t Dispatcher::Join(const WorkerInfo& worker, double now_s) {
   const uint64_t session = ++last_session_;
   roster_.Join(worker, session, now_s);
-  EndAttempts(book_.Adopt(worker.name, worker.held, session, now_s + options_.lease_s),
-              absl::StrCat("worker ", worker.name, " started anew"),
-              now_s);
+  EndAllLost(book_.Adopt(worker.name, worker.held, session, now_s + options_.lease_s),
+             absl::StrCat("worker ", worker.name, " started anew"),
+             now_s);
   Log({.event = "worker_joined",
        .worker = worker.name,
        .message = absl::StrCat("slots=", worker.slots, " leases=", worker.held.size())});
@@ -64,9 +64,9 @@ void Dispatcher::WorkerDied(std::string_view name, double now_s) {
   const std::optional<uint64_t> session = roster_.SessionOf(name);
   if (!session) return;
   Log({.level = LogLevel::kWarning, .event = "worker_died", .worker = std::string(name)});
-  EndAttempts(book_.TakeSession(*session),
-              absl::StrCat("the process of worker ", std::string(name), " ended"),
-              now_s);
+  EndAllLost(book_.TakeSession(*session),
+             absl::StrCat("the process of worker ", std::string(name), " ended"),
+             now_s);
   roster_.End(*session);
 }
 

@@ -111,7 +111,9 @@ class Dispatcher {
   /// oldest job, or else a straggler.
   [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at, size_t held, double now_s);
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
-  void EndAttempts(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
+  /// Its worker is lost. A task that only waited there has not been tried.
+  void EndLost(const LeaseEntry& entry, const absl::Status& error, double now_s);
+  void EndAllLost(const std::vector<LeaseEntry>& entries, const std::string& reason, double now_s);
   /// What the book knows of an attempt, to be logged as `event`.
   [[nodiscard]] LogEvent Describe(const LeaseEntry& entry, const std::string& event);
   /// An attempt ends that nobody waits for any more.

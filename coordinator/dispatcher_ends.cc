@@ -53,10 +53,14 @@ void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& er
   if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
 }
 
-void Dispatcher::EndAttempts(const std::vector<LeaseEntry>& entries,
-                             const std::string& reason,
-                             double now_s) {
-  for (const LeaseEntry& entry : entries) EndAttempt(entry, absl::UnavailableError(reason), now_s);
+void Dispatcher::EndLost(const LeaseEntry& entry, const absl::Status& error, double now_s) {
+  EndAttempt(entry, entry.waits ? absl::CancelledError(error.message()) : error, now_s);
+}
+
+void Dispatcher::EndAllLost(const std::vector<LeaseEntry>& entries,
+                            const std::string& reason,
+                            double now_s) {
+  for (const LeaseEntry& entry : entries) EndLost(entry, absl::UnavailableError(reason), now_s);
 }
 
 void Dispatcher::VoidLeases(const Digest& job, const std::string& reason) {
@@ -76,12 +80,12 @@ void Dispatcher::ExpireLeases(double now_s) {
     event.level = LogLevel::kWarning;
     Log(event);
     const bool came_back = entry.session != 0;
-    EndAttempt(entry,
-               came_back
-                   ? absl::UnavailableError(absl::StrCat("worker ", entry.worker, " went silent"))
-                   : absl::CancelledError(absl::StrCat(
-                         "worker ", entry.worker, " did not come back after a restart")),
-               now_s);
+    EndLost(entry,
+            came_back
+                ? absl::UnavailableError(absl::StrCat("worker ", entry.worker, " went silent"))
+                : absl::CancelledError(
+                      absl::StrCat("worker ", entry.worker, " did not come back after a restart")),
+            now_s);
   }
 }
 

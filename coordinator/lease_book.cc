@@ -10,10 +10,29 @@
 #include "absl/strings/str_cat.h"
 
 namespace orbweave {
+namespace {
+
+bool IsAtTheSlotOf(const LeaseEntry& x, const LeaseEntry& y) {
+  return x.worker == y.worker && x.slot == y.slot;
+}
+
+}  // namespace
 
 absl::Status StaleLease(uint64_t epoch, const Digest& task) {
   return absl::FailedPreconditionError(absl::StrCat(
       "stale lease of task ", task.ToShortHex(), " (epoch ", epoch, "): it was given away"));
+}
+
+void LeaseBook::Grant(LeaseEntry entry) {
+  entry.waits = std::ranges::any_of(
+      entries_, [&](const auto& item) { return IsAtTheSlotOf(entry, item.second); });
+  entries_.emplace(entry.epoch, std::move(entry));
+}
+
+void LeaseBook::LetNextBegin(const LeaseEntry& gone) {
+  const auto next = std::ranges::find_if(
+      entries_, [&](const auto& item) { return IsAtTheSlotOf(gone, item.second); });
+  if (next != entries_.end()) next->second.waits = false;
 }
 
 const LeaseEntry* LeaseBook::Renew(uint64_t epoch,
@@ -34,6 +53,7 @@ absl::StatusOr<LeaseEntry> LeaseBook::Take(uint64_t epoch, const Digest& task, u
   }
   const LeaseEntry entry = it->second;
   entries_.erase(it);
+  LetNextBegin(entry);
   return entry;
 }
 
@@ -57,7 +77,10 @@ std::vector<LeaseEntry> LeaseBook::TakeSession(uint64_t session) {
 }
 
 std::vector<LeaseEntry> LeaseBook::TakeJob(const Digest& job) {
-  return TakeIf([&job](const LeaseEntry& entry) { return entry.job == job; });
+  std::vector<LeaseEntry> taken =
+      TakeIf([&job](const LeaseEntry& entry) { return entry.job == job; });
+  for (const LeaseEntry& entry : taken) LetNextBegin(entry);
+  return taken;
 }
 
 std::vector<LeaseEntry> LeaseBook::Adopt(std::string_view worker,
@@ -98,7 +121,10 @@ std::vector<LeaseEntry*> LeaseBook::AwaitingPlace(const Digest& job) {
 }
 
 std::vector<LeaseEntry> LeaseBook::TakeTask(const Digest& job, TaskRef ref) {
-  return TakeIf([&](const LeaseEntry& entry) { return entry.job == job && entry.ref == ref; });
+  std::vector<LeaseEntry> taken =
+      TakeIf([&](const LeaseEntry& entry) { return entry.job == job && entry.ref == ref; });
+  for (const LeaseEntry& entry : taken) LetNextBegin(entry);
+  return taken;
 }
 
 }  // namespace orbweave

@@ -24,6 +24,7 @@ struct LeaseEntry {
   uint32_t slot = 0;
   uint64_t session = 0;  ///< 0: of an earlier generation, its holder has not come back yet
   double until_s = 0.0;
+  bool waits = false;  ///< behind another lease of its slot, which has the slot's process
 };
 
 /// FailedPrecondition: whoever comes under this lease comes too late.
@@ -34,7 +35,8 @@ struct LeaseEntry {
 /// thread-safe.
 class LeaseBook {
  public:
-  void Grant(const LeaseEntry& entry) { entries_.emplace(entry.epoch, entry); }
+  /// Decides whether it waits.
+  void Grant(LeaseEntry entry);
 
   /// Moves the end of a lease to `until_s`; nullptr when the book does not have it for this
   /// session.
@@ -67,6 +69,8 @@ class LeaseBook {
  private:
   template <typename Predicate>
   std::vector<LeaseEntry> TakeIf(Predicate predicate);
+  /// The slot of `gone` is free for the lease that waited longest.
+  void LetNextBegin(const LeaseEntry& gone);
 
   std::map<uint64_t, LeaseEntry> entries_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stop_token>
+#include <utility>
 
 #include "core/base/status.h"
 
@@ -19,15 +20,23 @@ class Backoff {
 };
 
 /// Calls `call()` (a Status or StatusOr) until it returns another code than Unavailable, or until
-/// `stop`.
-template <typename Call>
-auto RetryWhileUnavailable(const std::stop_token& stop, Call&& call) -> decltype(call()) {
+/// `stop`; before every wait says why to `waits(status)`.
+template <typename Call, typename Waits>
+auto RetryWhileUnavailable(const std::stop_token& stop, Call&& call, Waits&& waits)
+    -> decltype(call()) {
   Backoff backoff;
   while (true) {
     auto answer = call();
     const absl::Status status = internal::StatusOf(answer);
-    if (!absl::IsUnavailable(status) || !backoff.Wait(stop)) return answer;
+    if (!absl::IsUnavailable(status)) return answer;
+    waits(status);
+    if (!backoff.Wait(stop)) return answer;
   }
+}
+
+template <typename Call>
+auto RetryWhileUnavailable(const std::stop_token& stop, Call&& call) -> decltype(call()) {
+  return RetryWhileUnavailable(stop, std::forward<Call>(call), [](const absl::Status&) {});
 }
 
 }  // namespace orbweave

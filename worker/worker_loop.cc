@@ -64,7 +64,8 @@ class Worker {
                   .version = std::string(BuildVersion()),
                   .slots = options.slots,
                   .process = NameOfProcess()},
-                 leases_),
+                 leases_,
+                 [this](const absl::Status& why) { SayAway(why); }),
         blobs_(api, options.cache_bytes, ending_.get_token()) {}
 
   absl::Status Run(const std::stop_token& stop) {
@@ -111,6 +112,12 @@ class Worker {
     options_.log(event);
   }
 
+  void SayAway(const absl::Status& why) const {
+    Log({.level = LogLevel::kWarning,
+         .event = "coordinator_away",
+         .message = std::string(why.message())});
+  }
+
   /// The session, or nothing when the work is over.
   std::optional<JoinReply> Session() {
     const absl::StatusOr<JoinReply> reply = session_.Get(draining_.get_token());
@@ -146,9 +153,7 @@ class Worker {
       } else if (IsRefusal(lease.status())) {
         End(lease.status());
       } else if (!draining_.stop_requested()) {
-        Log({.level = LogLevel::kWarning,
-             .event = "coordinator_away",
-             .message = std::string(lease.status().message())});
+        SayAway(lease.status());
         backoff.Wait(draining_.get_token());
       }
     }

@@ -11,10 +11,13 @@ absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
   const std::lock_guard lock(mutex_);
   if (reply_.session != 0) return reply_;
   if (stop.stop_requested()) return absl::CancelledError("the worker is stopping");
-  absl::StatusOr<JoinReply> joined = RetryWhileUnavailable(stop, [this] {
-    info_.held = leases_.List();
-    return api_.Join(info_);
-  });
+  absl::StatusOr<JoinReply> joined = RetryWhileUnavailable(
+      stop,
+      [this] {
+        info_.held = leases_.List();
+        return api_.Join(info_);
+      },
+      away_);
   if (!joined.ok())
     return stop.stop_requested() ? absl::CancelledError("the worker is stopping") : joined.status();
   reply_ = *joined;

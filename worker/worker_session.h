@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <stop_token>
 
@@ -14,8 +15,12 @@ namespace orbweave {
 /// was restarted, or it heard nothing for too long). Thread-safe.
 class WorkerSession {
  public:
-  WorkerSession(CoordinatorApi& api, WorkerInfo info, HeldLeases& leases)
-      : api_(api), info_(std::move(info)), leases_(leases) {}
+  /// `away` is told whenever the coordinator could not be joined, and why.
+  WorkerSession(CoordinatorApi& api,
+                WorkerInfo info,
+                HeldLeases& leases,
+                std::function<void(const absl::Status& why)> away)
+      : api_(api), info_(std::move(info)), leases_(leases), away_(std::move(away)) {}
 
   /// The present session, joining first when there is none; waits while the coordinator is
   /// Unavailable. Cancelled: stopped before it could join. FailedPrecondition: the coordinator does
@@ -30,6 +35,7 @@ class WorkerSession {
   CoordinatorApi& api_;
   WorkerInfo info_;
   HeldLeases& leases_;
+  std::function<void(const absl::Status& why)> away_;
   std::mutex mutex_;
   JoinReply reply_{};  ///< session 0: none
 };

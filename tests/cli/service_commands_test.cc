@@ -108,6 +108,15 @@ TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
   EXPECT_THAT(testing::ReadAll(folder_ / "state/logs/coordinator.log"), HasSubstr("worker_left"));
 }
 
+TEST(WorkCommand, SaysSoWhileItsCoordinatorIsAway) {
+  const TemporaryFolder folder;
+  Command worker(Orbweave({"work", "--join", "unix:" + (folder / "nobody")}));
+  EXPECT_TRUE(WaitUntil(
+      [&] { return worker.ErrSoFar().find("coordinator_away") != std::string::npos; }, 60.0));
+  worker.Signal(SIGTERM);
+  EXPECT_EQ(worker.Wait().exit_code, kExitOk);
+}
+
 TEST_F(ServiceCommands, StatusAndCancelFollowAJob) {
   EXPECT_THAT(RunCommand(Orbweave({"status", "--coordinator", address_})).out,
               HasSubstr("no jobs"));

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace orbweave {
 namespace {
 
@@ -101,6 +104,48 @@ TEST(LeaseBook, FindsLeasesThatHaveNoPlaceInTheirJobYet) {
   EXPECT_EQ(found[0]->epoch, 2U);
   found[0]->ref = TaskRef{0, 1};
   EXPECT_TRUE(book.AwaitingPlace(DigestOf("job")).empty());
+}
+
+/// A lease of a task of its own at w's first slot.
+LeaseEntry AtTheSlot(uint64_t epoch, double until_s = 5.0) {
+  LeaseEntry entry = Entry(epoch, 10, until_s);
+  entry.task = DigestOf(std::to_string(epoch));
+  entry.job = DigestOf("job " + std::to_string(epoch));
+  return entry;
+}
+
+std::vector<bool> WhoWaits(const std::vector<LeaseEntry>& entries) {
+  std::vector<bool> waits;
+  for (const LeaseEntry& entry : entries) waits.push_back(entry.waits);
+  return waits;
+}
+
+TEST(LeaseBook, ALaterLeaseOfASlotWaits) {
+  LeaseBook book;
+  book.Grant(AtTheSlot(1));
+  book.Grant(AtTheSlot(2));
+  LeaseEntry elsewhere = AtTheSlot(3);
+  elsewhere.slot = 1;
+  book.Grant(elsewhere);
+  EXPECT_EQ(WhoWaits(book.TakeSession(10)), (std::vector<bool>{false, true, false}));
+}
+
+TEST(LeaseBook, ALeaseBeginsWhenTheOneBeforeIsDoneOrVoid) {
+  LeaseBook book;
+  book.Grant(AtTheSlot(1));
+  book.Grant(AtTheSlot(2));
+  ASSERT_TRUE(book.Take(1, AtTheSlot(1).task, 10).ok());
+  book.Grant(AtTheSlot(3));
+  EXPECT_EQ(WhoWaits(book.TakeJob(AtTheSlot(2).job)), (std::vector<bool>{false}));
+  EXPECT_EQ(WhoWaits(book.TakeSession(10)), (std::vector<bool>{false}));
+}
+
+TEST(LeaseBook, WhatWaitedOnASilentWorkerHadNotBegun) {
+  LeaseBook book;
+  book.Grant(AtTheSlot(1, 5.0));
+  book.Grant(AtTheSlot(2, 6.0));
+  EXPECT_EQ(WhoWaits(book.TakeExpired(5.5)), (std::vector<bool>{false}));
+  EXPECT_EQ(WhoWaits(book.TakeExpired(6.5)), (std::vector<bool>{true}));
 }
 
 }  // namespace
