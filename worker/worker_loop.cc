@@ -234,8 +234,10 @@ class Worker {
   /// One heartbeat; returns the seconds until the next.
   double Beat() {
     constexpr double kSoon = 0.5;
-    if (draining_.stop_requested() && leases_.List().empty()) return kSoon;
-    const absl::StatusOr<JoinReply> session = session_.Get(ending_.get_token());
+    const bool holds_nothing = leases_.List().empty();
+    if (draining_.stop_requested() && holds_nothing) return kSoon;
+    const std::stop_source& over = holds_nothing ? draining_ : ending_;
+    const absl::StatusOr<JoinReply> session = session_.Get(over.get_token());
     if (!session.ok()) {
       if (!absl::IsCancelled(session.status())) End(session.status());
       return kSoon;

@@ -108,9 +108,9 @@ TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
   EXPECT_THAT(testing::ReadAll(folder_ / "state/logs/coordinator.log"), HasSubstr("worker_left"));
 }
 
-TEST(WorkCommand, SaysSoWhileItsCoordinatorIsAway) {
+TEST(WorkCommand, SaysSoWhileItsCoordinatorIsAwayAndWaitsNoLongerThanItIsToldTo) {
   const TemporaryFolder folder;
-  Command worker(Orbweave({"work", "--join", "unix:" + (folder / "nobody")}));
+  Command worker(Orbweave({"work", "--join", "unix:" + (folder / "nobody"), "--grace", "1000000"}));
   EXPECT_TRUE(WaitUntil(
       [&] { return worker.ErrSoFar().find("coordinator_away") != std::string::npos; }, 60.0));
   worker.Signal(SIGTERM);
