@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/parallel_for.h"
 #include "core/io/file.h"
+#include "core/io/first_names.h"
 #include "core/io/list_files.h"
 #include "core/io/printable_text.h"
 #include "core/io/text_fields.h"
@@ -20,6 +21,8 @@ namespace orbweave {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr size_t kNamesShown = 3;  ///< in a warning
 
 /// Paths below the mask folder by their name in lower case.
 using MaskIndex = std::map<std::string, std::string>;
@@ -103,15 +106,6 @@ void RefuseOtherEncodings(SourceImage& image) {
   image.name = std::move(name);
 }
 
-/// "a.png, b.png, c.png, ..."
-std::string FirstOf(const std::vector<std::string>& names) {
-  constexpr size_t kShown = 3;
-  std::string text;
-  for (size_t i = 0; i < std::min(names.size(), kShown); ++i)
-    absl::StrAppend(&text, i == 0 ? "" : ", ", names[i]);
-  return names.size() > kShown ? text + ", ..." : text;
-}
-
 /// "3 masks have no image: a.png, b.png, ..." or nothing.
 void WarnOfUnusedMasks(const MaskIndex& masks,
                        const std::set<std::string>& used,
@@ -124,7 +118,7 @@ void WarnOfUnusedMasks(const MaskIndex& masks,
   sources.warnings.push_back(Utf8Text(absl::StrCat(unused.size(),
                                                    unused.size() == 1 ? " mask has" : " masks have",
                                                    " no image: ",
-                                                   FirstOf(unused))));
+                                                   FirstNames(unused, kNamesShown))));
 }
 
 /// "the EXIF position of 2 images is not used: a.jpg (latitude -95, ...), ..." or nothing.
@@ -139,7 +133,7 @@ void WarnOfPositions(ImageSources& sources) {
                                           left_out.size(),
                                           left_out.size() == 1 ? " image" : " images",
                                           " is not used: ",
-                                          FirstOf(left_out)));
+                                          FirstNames(left_out, kNamesShown)));
 }
 
 /// One entry per name; `mask_path` is relative to the mask folder as yet.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/first_names.h"
 #include "core/io/match_names.h"
 #include "core/scene/local_frame.h"
 
@@ -40,10 +41,8 @@ void WarnOfNames(const std::vector<std::string>& names,
                  const char* many,
                  ImageManifest& manifest) {
   if (names.empty()) return;
-  std::string text = absl::StrCat(names.size(), " ", names.size() == 1 ? one : many, ": ");
-  for (size_t i = 0; i < std::min(names.size(), kNamesInWarning); ++i)
-    absl::StrAppend(&text, i == 0 ? "" : ", ", names[i]);
-  manifest.warnings.push_back(names.size() > kNamesInWarning ? text + ", ..." : text);
+  manifest.warnings.push_back(absl::StrCat(
+      names.size(), " ", names.size() == 1 ? one : many, ": ", FirstNames(names, kNamesInWarning)));
 }
 
 std::vector<IngestCandidate> JoinGnssRows(const std::vector<const SourceImage*>& images,
