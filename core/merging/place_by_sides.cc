@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/merging/place_by_sides.h"
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -26,6 +28,12 @@ std::map<uint32_t, uint32_t> SidesOf(const Track& track, const Owners& owners) {
   return sides;
 }
 
+bool IsSeenFromTwoSides(const Track& track, const Owners& owners) {
+  const auto owner = [&](const Observation& seen) { return owners.at(seen.ref.image); };
+  return std::ranges::adjacent_find(track.observations, std::ranges::not_equal_to{}, owner) !=
+         track.observations.end();
+}
+
 /// Images whose points are not all their own cluster's, as far as this block can tell: what the
 /// others see of a separator or of the held image may be in another block.
 std::set<ImageId> ImagesBetweenSides(const WorldBlock& block, const Owners& owners) {
@@ -34,7 +42,7 @@ std::set<ImageId> ImagesBetweenSides(const WorldBlock& block, const Owners& owne
     if (image.is_separator || image.is_held) between.insert(image.id);
   }
   for (const Track& track : block.scene.tracks) {
-    if (SidesOf(track, owners).size() < 2) continue;
+    if (!IsSeenFromTwoSides(track, owners)) continue;
     for (const Observation& seen : track.observations) between.insert(seen.ref.image);
   }
   return between;
@@ -68,6 +76,10 @@ std::vector<SidePlacement> PlaceBySides(const WorldBlock& block) {
   const std::set<ImageId> between = ImagesBetweenSides(block, owners);
   std::map<std::pair<ImageId, uint32_t>, SidePlacement> placements;
   for (const Track& track : block.scene.tracks) {
+    const bool places_nothing = std::ranges::none_of(
+        track.observations,
+        [&](const Observation& seen) { return between.contains(seen.ref.image); });
+    if (places_nothing) continue;
     const std::map<uint32_t, uint32_t> sides = SidesOf(track, owners);
     for (const Observation& seen : track.observations) {
       const ImageId id = seen.ref.image;
