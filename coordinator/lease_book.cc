@@ -68,6 +68,13 @@ std::vector<LeaseEntry> LeaseBook::TakeIf(Predicate predicate) {
   return taken;
 }
 
+template <typename Predicate>
+std::vector<LeaseEntry> LeaseBook::TakeEndedIf(Predicate predicate) {
+  std::vector<LeaseEntry> taken = TakeIf(predicate);
+  for (const LeaseEntry& entry : taken) LetNextBegin(entry);
+  return taken;
+}
+
 std::vector<LeaseEntry> LeaseBook::TakeExpired(double now_s) {
   return TakeIf([now_s](const LeaseEntry& entry) { return entry.until_s < now_s; });
 }
@@ -77,10 +84,7 @@ std::vector<LeaseEntry> LeaseBook::TakeSession(uint64_t session) {
 }
 
 std::vector<LeaseEntry> LeaseBook::TakeJob(const Digest& job) {
-  std::vector<LeaseEntry> taken =
-      TakeIf([&job](const LeaseEntry& entry) { return entry.job == job; });
-  for (const LeaseEntry& entry : taken) LetNextBegin(entry);
-  return taken;
+  return TakeEndedIf([&job](const LeaseEntry& entry) { return entry.job == job; });
 }
 
 std::vector<LeaseEntry> LeaseBook::Adopt(std::string_view worker,
@@ -121,10 +125,7 @@ std::vector<LeaseEntry*> LeaseBook::AwaitingPlace(const Digest& job) {
 }
 
 std::vector<LeaseEntry> LeaseBook::TakeTask(const Digest& job, TaskRef ref) {
-  std::vector<LeaseEntry> taken =
-      TakeIf([&](const LeaseEntry& entry) { return entry.job == job && entry.ref == ref; });
-  for (const LeaseEntry& entry : taken) LetNextBegin(entry);
-  return taken;
+  return TakeEndedIf([&](const LeaseEntry& entry) { return entry.job == job && entry.ref == ref; });
 }
 
 }  // namespace orbweave

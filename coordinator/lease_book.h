@@ -69,6 +69,9 @@ class LeaseBook {
  private:
   template <typename Predicate>
   std::vector<LeaseEntry> TakeIf(Predicate predicate);
+  /// The same for leases whose workers go on: what waited behind them begins.
+  template <typename Predicate>
+  std::vector<LeaseEntry> TakeEndedIf(Predicate predicate);
   /// The slot of `gone` is free for the lease that waited longest.
   void LetNextBegin(const LeaseEntry& gone);
 

@@ -21,6 +21,15 @@
 namespace orbweave {
 namespace {
 
+absl::StatusOr<Digest> PutInspection(const WorldBlock& block,
+                                     int num_threads,
+                                     BlobAccess& blobs,
+                                     TaskResult& result) {
+  const BlockInspection inspection = InspectBlock(block, num_threads);
+  ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockInspection(inspection), blobs, result));
+  return result.outputs.back();
+}
+
 absl::StatusOr<BlockPlace> AdjustedPlace(uint32_t world,
                                          const WorldBlock& block,
                                          BlockSummary summary,
@@ -30,9 +39,7 @@ absl::StatusOr<BlockPlace> AdjustedPlace(uint32_t world,
   BlockPlace place{.world = world, .summary = std::move(summary)};
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeWorldBlock(block), blobs, result));
   place.block = result.outputs.back();
-  ORBWEAVE_RETURN_IF_ERROR(
-      PutOutput(EncodeBlockInspection(InspectBlock(block, num_threads)), blobs, result));
-  place.inspection = result.outputs.back();
+  ORBWEAVE_ASSIGN_OR_RETURN(place.inspection, PutInspection(block, num_threads, blobs, result));
   return place;
 }
 
@@ -176,9 +183,8 @@ absl::StatusOr<TaskResult> RunAdjustBlock(const TaskSpec& spec,
     done.block = bulk.outputs.back();
   }
   if (task.order.work == Work::kFilter && !task.order.begins_again) {
-    const BlockInspection inspection = InspectBlock(worker.block(), context.num_threads);
-    ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeBlockInspection(inspection), blobs, bulk));
-    done.inspection = bulk.outputs.back();
+    ORBWEAVE_ASSIGN_OR_RETURN(done.inspection,
+                              PutInspection(worker.block(), context.num_threads, blobs, bulk));
   }
   const bool begins = task.order.work == Work::kBegin || task.order.begins_again;
   if (begins || task.order.work == Work::kTry) {
