@@ -32,11 +32,12 @@ absl::StatusOr<SharedBytes> BlobCache::Get(const Digest& digest) {
   return bytes;
 }
 
-absl::StatusOr<Digest> BlobCache::Put(const SharedBytes& bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      const Digest digest, RetryWhileUnavailable(stop_, [&] { return source_.Put(bytes.View()); }));
+absl::Status BlobCache::Put(const Digest& digest, const SharedBytes& bytes) {
+  const std::string_view view = bytes.View();
+  ORBWEAVE_RETURN_IF_ERROR(RetryWhileUnavailable(
+      stop_, [&] { return source_.Write(digest, view.size(), PiecesOf(view)); }));
   Keep(digest, bytes);
-  return digest;
+  return absl::OkStatus();
 }
 
 void BlobCache::Keep(const Digest& digest, const SharedBytes& bytes) {

@@ -22,7 +22,8 @@ class BlobCache {
 
   /// Errors of both: those of the source.
   [[nodiscard]] absl::StatusOr<SharedBytes> Get(const Digest& digest);
-  [[nodiscard]] absl::StatusOr<Digest> Put(const SharedBytes& bytes);
+  /// `digest` is that of `bytes`.
+  [[nodiscard]] absl::Status Put(const Digest& digest, const SharedBytes& bytes);
 
  private:
   using Entry = std::pair<Digest, SharedBytes>;

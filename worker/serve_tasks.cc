@@ -56,19 +56,19 @@ class TaskServer final : public BlobAccess {
   }
 
   absl::StatusOr<std::string> Get(const Digest& digest) override {
-    v1::FromTaskProcess message;
-    message.set_get(ToProto(digest));
-    const BlobReply reply = Ask(message, {});
+    const BlobReply reply = Ask(digest);
     ORBWEAVE_RETURN_IF_ERROR(reply.status());
     return std::string(reply.bulk.View());
   }
 
+  /// The worker stores the bytes while the task goes on, and takes the task's end for its end only
+  /// when they are stored.
   absl::StatusOr<Digest> Put(std::string_view bytes) override {
+    const Digest digest = DigestOf(bytes);
     v1::FromTaskProcess message;
-    message.mutable_put();
-    const BlobReply reply = Ask(message, SharedBytes::CopyOf(bytes));
-    ORBWEAVE_RETURN_IF_ERROR(reply.status());
-    return DigestFromProto(reply.answer.digest());
+    message.set_put(ToProto(digest));
+    ORBWEAVE_RETURN_IF_ERROR(Send(message, SharedBytes::CopyOf(bytes)));
+    return digest;
   }
 
  private:
@@ -117,9 +117,11 @@ class TaskServer final : public BlobAccess {
   }
 
   /// One request at a time.
-  BlobReply Ask(const v1::FromTaskProcess& message, const SharedBytes& bulk) {
+  BlobReply Ask(const Digest& digest) {
+    v1::FromTaskProcess message;
+    message.set_get(ToProto(digest));
     const std::lock_guard asking(ask_mutex_);
-    (void)Send(message, bulk);  // a worker that is gone is noticed by the reader
+    (void)Send(message);  // a worker that is gone is noticed by the reader
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return reply_.has_value(); });
     BlobReply reply = *std::move(reply_);

@@ -7,7 +7,7 @@
 
 #include "core/base/stage_context.h"
 #include "core/pipeline/task.h"
-#include "worker/blob_cache.h"
+#include "worker/task_blobs.h"
 
 namespace orbweave {
 
@@ -15,10 +15,10 @@ namespace orbweave {
 class TaskExecutor {
  public:
   virtual ~TaskExecutor() = default;
-  /// Runs a task and measures it; its blobs are those of `blobs`. Errors: those of the stage;
-  /// Cancelled once `context.stop` is requested.
+  /// Runs a task and measures it; its blobs are those of `blobs`, where what the task left may still
+  /// be on its way. Errors: those of the stage; Cancelled once `context.stop` is requested.
   [[nodiscard]] virtual absl::StatusOr<TaskResult> Run(const TaskSpec& spec,
-                                                       BlobCache& blobs,
+                                                       TaskBlobs& blobs,
                                                        const StageContext& context) = 0;
 };
 

@@ -90,7 +90,7 @@ absl::Status TaskProcess::Send(const v1::ToTaskProcess& message, const SharedByt
 }
 
 absl::StatusOr<TaskResult> TaskProcess::Run(const TaskSpec& spec,
-                                            BlobCache& blobs,
+                                            TaskBlobs& blobs,
                                             const StageContext& context) {
   ORBWEAVE_RETURN_IF_ERROR(EnsureStarted());
   const absl::StatusOr<v1::TaskEnd> end = Attend(spec, blobs, context);
@@ -101,7 +101,7 @@ absl::StatusOr<TaskResult> TaskProcess::Run(const TaskSpec& spec,
 }
 
 absl::StatusOr<v1::TaskEnd> TaskProcess::Attend(const TaskSpec& spec,
-                                                BlobCache& blobs,
+                                                TaskBlobs& blobs,
                                                 const StageContext& context) {
   const StopEvent stop(context.stop);
   TaskWatch watch(limits_, clock_.NowSeconds(), process_.CpuSeconds());
@@ -126,9 +126,9 @@ absl::StatusOr<v1::TaskEnd> TaskProcess::Attend(const TaskSpec& spec,
   }
 }
 
-absl::StatusOr<std::optional<v1::TaskEnd>> TaskProcess::ReceiveOne(BlobCache& blobs,
+absl::StatusOr<std::optional<v1::TaskEnd>> TaskProcess::ReceiveOne(TaskBlobs& blobs,
                                                                    const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const Frame frame, channel_->Receive());
+  ORBWEAVE_ASSIGN_OR_RETURN(Frame frame, channel_->Receive());
   v1::FromTaskProcess message;
   if (!message.ParseFromString(frame.message))
     return absl::InternalError("the process that ran the task sent what is no message");
@@ -144,9 +144,11 @@ absl::StatusOr<std::optional<v1::TaskEnd>> TaskProcess::ReceiveOne(BlobCache& bl
     case Body::kGet:
       ORBWEAVE_RETURN_IF_ERROR(AnswerGet(message.get(), blobs));
       return std::nullopt;
-    case Body::kPut:
-      ORBWEAVE_RETURN_IF_ERROR(AnswerPut(frame.bulk, blobs));
+    case Body::kPut: {
+      ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(message.put()));
+      blobs.Put(digest, std::move(frame.bulk));
       return std::nullopt;
+    }
     case Body::kEnd:
       return std::move(*message.mutable_end());
     case Body::BODY_NOT_SET:
@@ -155,17 +157,10 @@ absl::StatusOr<std::optional<v1::TaskEnd>> TaskProcess::ReceiveOne(BlobCache& bl
   return absl::InternalError("the process that ran the task sent an empty message");
 }
 
-absl::Status TaskProcess::AnswerGet(const std::string& digest, BlobCache& blobs) {
+absl::Status TaskProcess::AnswerGet(const std::string& digest, TaskBlobs& blobs) {
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest name, DigestFromProto(digest));
   const absl::StatusOr<SharedBytes> bytes = blobs.Get(name);
   return Send(BlobMessage(bytes.status()), bytes.ok() ? *bytes : SharedBytes());
-}
-
-absl::Status TaskProcess::AnswerPut(const SharedBytes& bytes, BlobCache& blobs) {
-  const absl::StatusOr<Digest> digest = blobs.Put(bytes);
-  v1::ToTaskProcess message = BlobMessage(digest.status());
-  if (digest.ok()) message.mutable_blob()->set_digest(ToProto(*digest));
-  return Send(message);
 }
 
 }  // namespace orbweave

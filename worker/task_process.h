@@ -27,7 +27,7 @@ class TaskProcess final : public TaskExecutor {
   /// DeadlineExceeded: it was killed because the task hung, spun or took too long. Unavailable: no
   /// process could be started.
   [[nodiscard]] absl::StatusOr<TaskResult> Run(const TaskSpec& spec,
-                                               BlobCache& blobs,
+                                               TaskBlobs& blobs,
                                                const StageContext& context) override;
 
  private:
@@ -35,13 +35,12 @@ class TaskProcess final : public TaskExecutor {
   [[nodiscard]] absl::Status Send(const v1::ToTaskProcess& message, const SharedBytes& bulk = {});
   /// What the process says at the end of the task. Errors: the process is of no use any more.
   [[nodiscard]] absl::StatusOr<v1::TaskEnd> Attend(const TaskSpec& spec,
-                                                   BlobCache& blobs,
+                                                   TaskBlobs& blobs,
                                                    const StageContext& context);
   /// Takes one message; the last one of a task is returned.
-  [[nodiscard]] absl::StatusOr<std::optional<v1::TaskEnd>> ReceiveOne(BlobCache& blobs,
+  [[nodiscard]] absl::StatusOr<std::optional<v1::TaskEnd>> ReceiveOne(TaskBlobs& blobs,
                                                                       const StageContext& context);
-  [[nodiscard]] absl::Status AnswerGet(const std::string& digest, BlobCache& blobs);
-  [[nodiscard]] absl::Status AnswerPut(const SharedBytes& bytes, BlobCache& blobs);
+  [[nodiscard]] absl::Status AnswerGet(const std::string& digest, TaskBlobs& blobs);
   /// Ends the process; how it ended.
   std::string EndProcess();
 

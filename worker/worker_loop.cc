@@ -41,8 +41,8 @@ bool IsRefusal(const absl::Status& status) {
   return absl::IsPermissionDenied(status) || absl::IsUnauthenticated(status);
 }
 
-/// A slot has one executor and two hands: while one's task runs, the other hands in the result
-/// before it and takes what the coordinator gives ahead.
+/// A slot has one executor and two hands: while one's task runs, the other stores and hands in the
+/// result before it and takes what the coordinator gives ahead.
 constexpr int kHands = 2;
 
 struct Slot {
@@ -166,9 +166,21 @@ class Worker {
     return api_.LeaseTask(session, slot.number, options_.poll_s);
   }
 
+  /// The slot's next task begins while what this one left is still on its way to the store.
   absl::StatusOr<TaskResult> Run(Slot& slot, const TaskSpec& spec, const StageContext& context) {
+    TaskBlobs blobs(blobs_);
+    absl::StatusOr<TaskResult> result = RunAlone(slot, spec, blobs, context);
+    const absl::Status stored = blobs.Settle();
+    if (result.ok()) ORBWEAVE_RETURN_IF_ERROR(stored);
+    return result;
+  }
+
+  static absl::StatusOr<TaskResult> RunAlone(Slot& slot,
+                                             const TaskSpec& spec,
+                                             TaskBlobs& blobs,
+                                             const StageContext& context) {
     const std::lock_guard running(slot.running);
-    return slot.executor->Run(spec, blobs_, context);
+    return slot.executor->Run(spec, blobs, context);
   }
 
   void Work(const Lease& lease, Slot& slot) {

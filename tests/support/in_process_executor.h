@@ -18,26 +18,28 @@ class InProcessExecutor final : public TaskExecutor {
       : stages_(stages), clock_(clock) {}
 
   absl::StatusOr<TaskResult> Run(const TaskSpec& spec,
-                                 BlobCache& blobs,
+                                 TaskBlobs& blobs,
                                  const StageContext& context) override {
-    CachedBlobs access(blobs);
+    OwnBlobs access(blobs);
     return RunTask(stages_, spec, access, context, clock_);
   }
 
  private:
-  class CachedBlobs final : public BlobAccess {
+  class OwnBlobs final : public BlobAccess {
    public:
-    explicit CachedBlobs(BlobCache& cache) : cache_(cache) {}
+    explicit OwnBlobs(TaskBlobs& blobs) : blobs_(blobs) {}
     absl::StatusOr<std::string> Get(const Digest& digest) override {
-      ORBWEAVE_ASSIGN_OR_RETURN(const SharedBytes bytes, cache_.Get(digest));
+      ORBWEAVE_ASSIGN_OR_RETURN(const SharedBytes bytes, blobs_.Get(digest));
       return std::string(bytes.View());
     }
     absl::StatusOr<Digest> Put(std::string_view bytes) override {
-      return cache_.Put(SharedBytes::CopyOf(bytes));
+      const Digest digest = DigestOf(bytes);
+      blobs_.Put(digest, SharedBytes::CopyOf(bytes));
+      return digest;
     }
 
    private:
-    BlobCache& cache_;
+    TaskBlobs& blobs_;
   };
 
   const StageLookup& stages_;

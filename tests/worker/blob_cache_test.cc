@@ -33,7 +33,11 @@ class CountingBlobs final : public BlobAccess {
   std::map<Digest, std::string> blobs;
 };
 
-SharedBytes Text(const char* text) { return SharedBytes::Of(text); }
+absl::StatusOr<Digest> PutText(BlobCache& cache, const std::string& text) {
+  const Digest digest = DigestOf(text);
+  ORBWEAVE_RETURN_IF_ERROR(cache.Put(digest, SharedBytes::Of(text)));
+  return digest;
+}
 
 TEST(BlobCache, AsksOnceForWhatItKeeps) {
   CountingBlobs source;
@@ -47,18 +51,25 @@ TEST(BlobCache, AsksOnceForWhatItKeeps) {
 TEST(BlobCache, KeepsWhatWasPut) {
   CountingBlobs source;
   BlobCache cache(source, 100, {});
-  EXPECT_EQ(cache.Get(*cache.Put(Text("text")))->View(), "text");
+  EXPECT_EQ(cache.Get(*PutText(cache, "text"))->View(), "text");
   EXPECT_EQ(source.gets, 0);
   EXPECT_EQ(source.blobs.size(), 1U);
+}
+
+TEST(BlobCache, KeepsNothingUnderAnothersName) {
+  CountingBlobs source;
+  BlobCache cache(source, 100, {});
+  EXPECT_TRUE(absl::IsDataLoss(cache.Put(DigestOf("text"), SharedBytes::Of("other text"))));
+  EXPECT_TRUE(absl::IsNotFound(cache.Get(DigestOf("text")).status()));
 }
 
 TEST(BlobCache, ForgetsWhatWasNotUsedForLongest) {
   CountingBlobs source;
   BlobCache cache(source, 10, {});
-  const Digest a = *cache.Put(Text("aaaa"));
-  const Digest b = *cache.Put(Text("bbbb"));
+  const Digest a = *PutText(cache, "aaaa");
+  const Digest b = *PutText(cache, "bbbb");
   EXPECT_TRUE(cache.Get(a).ok());
-  EXPECT_TRUE(cache.Put(Text("cccc")).ok());  // b goes
+  EXPECT_TRUE(PutText(cache, "cccc").ok());  // b goes
   EXPECT_TRUE(cache.Get(a).ok());
   EXPECT_EQ(source.gets, 0);
   EXPECT_EQ(cache.Get(b)->View(), "bbbb");
@@ -68,7 +79,7 @@ TEST(BlobCache, ForgetsWhatWasNotUsedForLongest) {
 TEST(BlobCache, PassesOnWhatIsTooLargeToKeep) {
   CountingBlobs source;
   BlobCache cache(source, 3, {});
-  const Digest digest = *cache.Put(Text("four"));
+  const Digest digest = *PutText(cache, "four");
   EXPECT_EQ(cache.Get(digest)->View(), "four");
   EXPECT_EQ(cache.Get(digest)->View(), "four");
   EXPECT_EQ(source.gets, 2);

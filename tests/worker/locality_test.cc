@@ -26,7 +26,7 @@ class WindowExecutor final : public TaskExecutor {
   WindowExecutor(const std::vector<Digest>& blobs, uint64_t seed) : blobs_(blobs), random_(seed) {}
 
   absl::StatusOr<TaskResult> Run(const TaskSpec& spec,
-                                 BlobCache& blobs,
+                                 TaskBlobs& blobs,
                                  const StageContext& /*context*/) override {
     for (size_t i = 0; i < kWindow; ++i)
       ORBWEAVE_RETURN_IF_ERROR(blobs.Get(blobs_[spec.part + i]).status());

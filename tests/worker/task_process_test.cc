@@ -123,7 +123,14 @@ class TaskProcessTest : public ::testing::Test {
   absl::StatusOr<TaskResult> Run(const std::string& stage,
                                  const std::string& options = "",
                                  const StageContext& context = {}) {
-    return process_.Run({.stage = stage, .options_text = options}, cache_, context);
+    return RunSpec({.stage = stage, .options_text = options}, context);
+  }
+
+  absl::StatusOr<TaskResult> RunSpec(const TaskSpec& spec, const StageContext& context = {}) {
+    TaskBlobs blobs(cache_);
+    absl::StatusOr<TaskResult> result = process_.Run(spec, blobs, context);
+    EXPECT_TRUE(blobs.Settle().ok());
+    return result;
   }
 
   /// The text that a task leaves behind.
@@ -152,7 +159,7 @@ TEST_F(TaskProcessTest, CarriesBlobsOfAllSizesBothWays) {
     std::string bytes(size, '\0');
     for (size_t i = 0; i < size; ++i) bytes[i] = static_cast<char>(i * 7 + i / 251);
     const Digest digest = *blobs_.Put(bytes);
-    const auto result = process_.Run({.stage = "copy", .inputs = {digest}}, cache_, {});
+    const auto result = RunSpec({.stage = "copy", .inputs = {digest}});
     ASSERT_TRUE(result.ok()) << result.status();
     EXPECT_EQ(result->outputs.at(0), digest);
     EXPECT_EQ(result->cost.bytes_in, size);
@@ -186,7 +193,7 @@ TEST_F(TaskProcessTest, MeasuresWhatTheTaskTookInItsProcess) {
 TEST_F(TaskProcessTest, PassesOnErrorsOfStagesAndBlobs) {
   EXPECT_TRUE(absl::IsUnimplemented(Run("juggle").status()));
   const TaskSpec lost{.stage = "copy", .inputs = {DigestOf("nobody has this")}};
-  EXPECT_TRUE(absl::IsNotFound(process_.Run(lost, cache_, {}).status()));
+  EXPECT_TRUE(absl::IsNotFound(RunSpec(lost).status()));
 }
 
 TEST_F(TaskProcessTest, ACrashEndsTheAttemptAndTheNextTaskRuns) {
@@ -258,9 +265,10 @@ TEST_F(TaskProcessTest, IsTakenFirstWhenMemoryRunsOut) {
 TEST(TaskProcess, DiesWithTheThreadThatStartedIt) {
   testing::MemoryBlobs blobs;
   BlobCache cache(blobs, 1000, {});
+  TaskBlobs task_blobs(cache);
   const SteadyClock clock;
   TaskProcess process({}, clock);
-  std::thread([&] { ASSERT_TRUE(process.Run({.stage = "pid"}, cache, {}).ok()); }).join();
+  std::thread([&] { ASSERT_TRUE(process.Run({.stage = "pid"}, task_blobs, {}).ok()); }).join();
   siginfo_t info{};
   EXPECT_TRUE(testing::WaitUntil(
       [&info] {

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -128,6 +130,30 @@ TEST_F(WorkerLoopTest, TakesQuickTasksAheadAndRunsThemOneAfterAnother) {
   EXPECT_EQ(*ToyAnswer(*coordinator, job), "385");
   EXPECT_FALSE(overlap);
   EXPECT_TRUE(held_two);
+}
+
+TEST_F(WorkerLoopTest, HandsInOnlyWhatIsStoredAndBeginsTheNextTaskMeanwhile) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const std::string store = folder_ / "blobs/tmp";
+  std::atomic<uint32_t> begun = 0;
+  testing::StageMap stages = ToyStages();
+  stages["square"] = [&](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    if (++begun == 2) {  // after the first, the stage is known to be quick
+      std::filesystem::rename(store, store + ".away");
+      std::ofstream(store) << "no folder";
+    }
+    return testing::Square(spec, blobs, context);
+  };
+  const Digest job = Submit(*coordinator, "2 3 5");
+  RunningWorker worker(*coordinator, stages, "w");
+  EXPECT_TRUE(WaitUntil([&] { return begun == 3; }, 20.0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(coordinator->GetJob(job)->stages[1].tasks_done, 1U);
+  std::filesystem::remove(store);
+  std::filesystem::rename(store + ".away", store);
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator, job), "38");
+  EXPECT_EQ(coordinator->GetJob(job)->stages[1].retries, 0U);
 }
 
 TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
