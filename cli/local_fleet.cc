@@ -96,6 +96,8 @@ absl::Status LocalFleet::StartMember(Member& member) const {
                                               address(),
                                               "--name",
                                               member.name,
+                                              "--blobs",
+                                              BlobFolderOf(options_.coordinator.state_dir),
                                               "--threads",
                                               absl::StrCat(options_.threads_per_worker),
                                               "--grace",

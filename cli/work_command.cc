@@ -124,6 +124,11 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
                    options->worker.cache_bytes,
                    "Memory for blobs that other tasks may read again, in bytes or as in 2GiB")
       ->transform(CLI::AsSizeValue(false));
+  command->add_option(
+      "--blobs",
+      options->worker.blob_folder,
+      "The folder blobs in the coordinator's state folder, as this machine sees it; "
+      "they are then read and written there and do not go through the coordinator");
   AddTaskLimits(*command, options->task_limits);
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")
@@ -133,6 +138,8 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave work --join 127.0.0.1:7000 --slots 2\n"
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
       "  orbweave work --join coordinator.example:7000 --tls keys/node7\n"
+      "  orbweave work --join coordinator.example:7000 --tls keys/node7 --blobs "
+      "/mnt/street/state/blobs\n"
       "  orbweave work --join coordinator.example:7000 --tls node-keys --token-file join.token\n"
       "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves. "
       "The log goes to stderr, one JSON object per line.");

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coordinator/blob_store.h"
 #include "coordinator/job_desk.h"
 #include "coordinator/journal.h"
+#include "core/storage/blob_store.h"
 
 namespace orbweave {
 

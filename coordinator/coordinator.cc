@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "coordinator/durable_file.h"
 #include "core/pipeline/build_version.h"
+#include "core/storage/durable_file.h"
 
 namespace orbweave {
 namespace {
@@ -28,11 +28,13 @@ absl::Status CheckVersion(const WorkerInfo& worker) {
 
 }  // namespace
 
+std::string BlobFolderOf(const std::string& state_dir) { return state_dir + "/blobs"; }
+
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const CoordinatorOptions& options,
                                                                const Clock& clock) {
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(StateLock lock, StateLock::Acquire(options.state_dir));
-  ORBWEAVE_ASSIGN_OR_RETURN(BlobStore blobs, BlobStore::Open(options.state_dir + "/blobs"));
+  ORBWEAVE_ASSIGN_OR_RETURN(BlobStore blobs, BlobStore::Open(BlobFolderOf(options.state_dir)));
   ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
                             options.open_journal(options.state_dir));
   std::unique_ptr<Coordinator> coordinator(

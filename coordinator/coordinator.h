@@ -9,7 +9,6 @@
 #include <mutex>
 #include <optional>
 
-#include "coordinator/blob_store.h"
 #include "coordinator/dispatcher.h"
 #include "coordinator/job_desk.h"
 #include "coordinator/journal.h"
@@ -20,6 +19,7 @@
 #include "core/base/clock.h"
 #include "core/pipeline/coordinator_api.h"
 #include "core/pipeline/log_event.h"
+#include "core/storage/blob_store.h"
 
 namespace orbweave {
 
@@ -38,6 +38,9 @@ struct CoordinatorOptions {
   EventLog log{};
   std::function<void()> lost{};  ///< called when health() is OK no more
 };
+
+/// Where a coordinator with this state folder keeps its blobs.
+[[nodiscard]] std::string BlobFolderOf(const std::string& state_dir);
 
 /// The coordinator: gives tasks to workers that ask, takes each result once, and remembers jobs,
 /// leases and results. A lease is durable before it is handed out, a result before it is

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "coordinator/blob_store.h"
 #include "core/pipeline/coordinator_api.h"
+#include "core/storage/blob_store.h"
 
 namespace orbweave {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "coordinator/fault_point.h"
+#include "core/base/fault_point.h"
 
 namespace orbweave {
 namespace {

@@ -7,11 +7,11 @@
 #include <stop_token>
 #include <thread>
 
-#include "coordinator/blob_store.h"
 #include "coordinator/dispatcher.h"
 #include "coordinator/job_desk.h"
 #include "coordinator/journal.h"
 #include "core/base/clock.h"
+#include "core/storage/blob_store.h"
 
 namespace orbweave {
 

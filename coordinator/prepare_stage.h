@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "coordinator/blob_store.h"
 #include "coordinator/journal.h"
 #include "core/pipeline/plan_stage.h"
+#include "core/storage/blob_store.h"
 
 namespace orbweave {
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "coordinator/fault_point.h"
 #include "coordinator/journal_rows.h"
 #include "coordinator/journal_tables.h"
+#include "core/base/fault_point.h"
 #include "proto/codec/coordinator_codec.h"
 
 namespace orbweave {

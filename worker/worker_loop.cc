@@ -16,6 +16,7 @@
 #include "worker/blob_cache.h"
 #include "worker/held_leases.h"
 #include "worker/retry.h"
+#include "worker/shared_store.h"
 #include "worker/worker_session.h"
 
 namespace orbweave {
@@ -59,14 +60,16 @@ class Worker {
       : api_(api),
         make_executor_(make_executor),
         options_(options),
+        store_(api, options.blob_folder),
         session_(api,
+                 store_,
                  {.name = options.name,
                   .version = std::string(BuildVersion()),
                   .slots = options.slots,
                   .process = NameOfProcess()},
                  leases_,
                  [this](const absl::Status& why) { SayAway(why); }),
-        blobs_(api, options.cache_bytes, ending_.get_token()) {}
+        blobs_(store_, options.cache_bytes, ending_.get_token()) {}
 
   absl::Status Run(const std::stop_token& stop) {
     const std::stop_callback on_stop(stop, [this] { Drain(); });
@@ -274,6 +277,7 @@ class Worker {
   std::mutex wait_mutex_;
   std::condition_variable_any never_;
   HeldLeases leases_;
+  SharedStore store_;
   WorkerSession session_;
   BlobCache blobs_;
   std::jthread grace_;  ///< last: ends before what it uses

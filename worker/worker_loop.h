@@ -18,6 +18,7 @@ struct WorkerOptions {
   double grace_s = 30.0;  ///< for tasks that run when the worker is told to end
   double poll_s = 10.0;   ///< how long one question for a task waits at the coordinator
   size_t cache_bytes = size_t{512} << 20;
+  std::string blob_folder{};  ///< see SharedStore
   EventLog log{};
 };
 
@@ -26,7 +27,8 @@ struct WorkerOptions {
 /// finishes those that run, and leaves; what is not done within the grace after `stop` is given
 /// back, and so is all when the coordinator shuts down. Outlasts a coordinator that is away for a
 /// while. Returns OK after leaving; FailedPrecondition when the coordinator does not take this
-/// worker (another version); PermissionDenied or Unauthenticated when it refuses its certificate.
+/// worker (another version), or the blob folder is not its; PermissionDenied or Unauthenticated
+/// when it refuses its certificate.
 [[nodiscard]] absl::Status RunWorker(CoordinatorApi& api,
                                      const MakeTaskExecutor& make_executor,
                                      const WorkerOptions& options,

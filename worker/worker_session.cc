@@ -12,16 +12,18 @@ absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
   if (reply_.session != 0) return reply_;
   if (stop.stop_requested()) return absl::CancelledError("the worker is stopping");
   absl::StatusOr<JoinReply> joined = RetryWhileUnavailable(
-      stop,
-      [this] {
-        info_.held = leases_.List();
-        return api_.Join(info_);
-      },
-      away_);
+      stop, [this] { return Join(); }, away_);
   if (!joined.ok())
     return stop.stop_requested() ? absl::CancelledError("the worker is stopping") : joined.status();
   reply_ = *joined;
   return reply_;
+}
+
+absl::StatusOr<JoinReply> WorkerSession::Join() {
+  info_.held = leases_.List();
+  ORBWEAVE_ASSIGN_OR_RETURN(const JoinReply reply, api_.Join(info_));
+  ORBWEAVE_RETURN_IF_ERROR(store_.Check());
+  return reply;
 }
 
 void WorkerSession::Forget(uint64_t session) {

@@ -8,6 +8,7 @@
 
 #include "core/pipeline/coordinator_api.h"
 #include "worker/held_leases.h"
+#include "worker/shared_store.h"
 
 namespace orbweave {
 
@@ -15,16 +16,18 @@ namespace orbweave {
 /// was restarted, or it heard nothing for too long). Thread-safe.
 class WorkerSession {
  public:
-  /// `away` is told whenever the coordinator could not be joined, and why.
+  /// `store` is checked with each session. `away` is told whenever the coordinator could not be
+  /// joined, and why.
   WorkerSession(CoordinatorApi& api,
+                SharedStore& store,
                 WorkerInfo info,
                 HeldLeases& leases,
                 std::function<void(const absl::Status& why)> away)
-      : api_(api), info_(std::move(info)), leases_(leases), away_(std::move(away)) {}
+      : api_(api), store_(store), info_(std::move(info)), leases_(leases), away_(std::move(away)) {}
 
   /// The present session, joining first when there is none; waits while the coordinator is
   /// Unavailable. Cancelled: stopped before it could join. FailedPrecondition: the coordinator does
-  /// not want this worker.
+  /// not want this worker. Errors of SharedStore::Check.
   [[nodiscard]] absl::StatusOr<JoinReply> Get(const std::stop_token& stop);
   /// `session` is over: the next Get joins again, with the leases that are held then.
   void Forget(uint64_t session);
@@ -32,7 +35,10 @@ class WorkerSession {
   void Leave();
 
  private:
+  [[nodiscard]] absl::StatusOr<JoinReply> Join();
+
   CoordinatorApi& api_;
+  SharedStore& store_;
   WorkerInfo info_;
   HeldLeases& leases_;
   std::function<void(const absl::Status& why)> away_;

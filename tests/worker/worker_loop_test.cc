@@ -52,9 +52,14 @@ class RunningWorker {
                 testing::StageMap stages,
                 const std::string& name,
                 uint32_t slots = 1,
-                double grace_s = 0.0)
+                double grace_s = 0.0,
+                const std::string& blob_folder = "")
       : stages_(std::move(stages)),
-        options_{.name = name, .slots = slots, .grace_s = grace_s, .poll_s = 0.1} {
+        options_{.name = name,
+                 .slots = slots,
+                 .grace_s = grace_s,
+                 .poll_s = 0.1,
+                 .blob_folder = blob_folder} {
     thread_ = std::thread([this, &api] {
       const StageLookup lookup = LookupIn(stages_);
       end_ = RunWorker(api, testing::RunInProcess(lookup, clock_), options_, stop_.get_token());
@@ -154,6 +159,28 @@ TEST_F(WorkerLoopTest, HandsInOnlyWhatIsStoredAndBeginsTheNextTaskMeanwhile) {
   EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
   EXPECT_EQ(*ToyAnswer(*coordinator, job), "38");
   EXPECT_EQ(coordinator->GetJob(job)->stages[1].retries, 0U);
+}
+
+TEST_F(WorkerLoopTest, ReadsAndWritesInTheFolderThatItShares) {
+  const std::string address = "unix:" + (folder_ / "s");
+  const auto coordinator = OpenCoordinator(folder_ / "state", clock_);
+  const auto server = *GrpcServer::Start(*coordinator, address);
+  GrpcCoordinatorClient client(address);
+  const Digest job = Submit(*coordinator, "2 3 5");
+  const BlobTraffic before = coordinator->blob_traffic();
+  RunningWorker worker(client, ToyStages(), "w", 1, 0.0, folder_ / "state/blobs");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  const BlobTraffic after = coordinator->blob_traffic();
+  EXPECT_EQ(*ToyAnswer(*coordinator, job), "38");
+  EXPECT_EQ(after.bytes_in, before.bytes_in);
+  EXPECT_LE(after.bytes_out, before.bytes_out + 100) << "the check, and no more";
+}
+
+TEST_F(WorkerLoopTest, EndsWhereTheFolderIsAnothers) {
+  const auto coordinator = OpenCoordinator(folder_ / "state", clock_);
+  const auto other = OpenCoordinator(folder_ / "other", clock_);
+  RunningWorker worker(*coordinator, ToyStages(), "w", 1, 0.0, folder_ / "other/blobs");
+  EXPECT_TRUE(absl::IsFailedPrecondition(worker.Join()));
 }
 
 TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/blob_store.h"
+#include "core/storage/blob_store.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,8 +11,8 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
-#include "coordinator/durable_file.h"
-#include "coordinator/fault_point.h"
+#include "core/base/fault_point.h"
+#include "core/storage/durable_file.h"
 
 namespace orbweave {
 namespace {
@@ -24,6 +24,18 @@ bool IsFile(const std::string& path) {
   return fs::is_regular_file(path, error);
 }
 
+bool IsFolder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool WasUsed(const std::string& path, double within_s) {
+  const auto since = fs::file_time_type::clock::now() - std::chrono::duration<double>(within_s);
+  std::error_code gone;
+  const fs::file_time_type used = fs::last_write_time(path, gone);
+  return !gone && used > since;
+}
+
 std::string DescribeBlob(const Digest& digest) {
   return absl::StrCat("blob ", digest.ToShortHex());
 }
@@ -31,10 +43,16 @@ std::string DescribeBlob(const Digest& digest) {
 }  // namespace
 
 absl::StatusOr<BlobStore> BlobStore::Open(const std::string& folder) {
-  BlobStore store(folder);
+  BlobStore store(folder, true);
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(folder + "/links"));
   ORBWEAVE_RETURN_IF_ERROR(MakeEmptyFolder(store.ScratchDir()));
   return store;
+}
+
+absl::StatusOr<BlobStore> BlobStore::Share(const std::string& folder) {
+  BlobStore store(folder, false);
+  if (IsFolder(folder + "/links") && IsFolder(store.ScratchDir())) return store;
+  return absl::NotFoundError(absl::StrCat(folder, " is not the blob folder of a coordinator"));
 }
 
 std::string BlobStore::BlobPath(const Digest& digest) const {
@@ -49,6 +67,7 @@ std::string BlobStore::LinkPath(const Digest& digest) const {
 std::string BlobStore::FileOf(const Digest& digest) const {
   const std::string own = BlobPath(digest);
   if (IsFile(own)) return own;
+  if (!follows_links_) return {};
   const absl::StatusOr<std::string> linked = ReadWholeFile(LinkPath(digest));
   return linked.ok() && IsFile(*linked) ? *linked : std::string();
 }
@@ -56,7 +75,7 @@ std::string BlobStore::FileOf(const Digest& digest) const {
 void BlobStore::Forget(const Digest& digest) const {
   std::error_code ignored;
   fs::remove(BlobPath(digest), ignored);
-  fs::remove(LinkPath(digest), ignored);
+  if (follows_links_) fs::remove(LinkPath(digest), ignored);
 }
 
 absl::StatusOr<std::string> BlobStore::Get(const Digest& digest) {
@@ -114,7 +133,6 @@ absl::Status BlobStore::Write(const Digest& digest, uint64_t size_bytes, const N
 bool BlobStore::Has(const Digest& digest) const { return !FileOf(digest).empty(); }
 
 bool BlobStore::Use(const Digest& digest) const {
-  const std::lock_guard lock(*using_);
   const bool is_own = ::utimensat(AT_FDCWD, BlobPath(digest).c_str(), nullptr, 0) == 0;
   if (!is_own) ::utimensat(AT_FDCWD, LinkPath(digest).c_str(), nullptr, 0);
   return Has(digest);
@@ -140,20 +158,26 @@ absl::StatusOr<std::vector<StoredBlob>> BlobStore::List() const {
 }
 
 bool BlobStore::IsUnused(const Digest& digest, double unused_s) const {
-  const auto since = fs::file_time_type::clock::now() - std::chrono::duration<double>(unused_s);
-  for (const std::string& path : {BlobPath(digest), LinkPath(digest)}) {
-    std::error_code gone;
-    const fs::file_time_type used = fs::last_write_time(path, gone);
-    if (!gone && used > since) return false;
-  }
-  return true;
+  return !WasUsed(BlobPath(digest), unused_s) && !WasUsed(LinkPath(digest), unused_s);
 }
 
 bool BlobStore::RemoveUnused(const Digest& digest, double unused_s) {
-  const std::lock_guard lock(*using_);
   if (!IsUnused(digest, unused_s)) return false;
-  Forget(digest);
-  return true;
+  const bool removed = RemoveFileUnused(BlobPath(digest), unused_s);
+  return RemoveFileUnused(LinkPath(digest), unused_s) && removed;
+}
+
+/// Between looking when it was used and removing it, anybody may use it, also another process. So
+/// it is put aside first: who uses it from then on finds nothing, and who did before is seen now.
+bool BlobStore::RemoveFileUnused(const std::string& path, double unused_s) {
+  const std::string aside = ScratchPath(ScratchDir());
+  std::error_code gone;
+  fs::rename(path, aside, gone);
+  if (gone) return true;
+  std::error_code ignored;
+  if (!WasUsed(aside, unused_s)) return fs::remove(aside, ignored);
+  fs::rename(aside, path, ignored);
+  return false;
 }
 
 bool BlobStore::Verify(const Digest& digest) {
@@ -174,7 +198,6 @@ absl::Status BlobStore::LinkFile(const Digest& digest, const std::string& path) 
     return absl::DataLossError(
         absl::StrCat(path, " is not ", DescribeBlob(digest), ": it has other bytes"));
   }
-  const std::lock_guard lock(*using_);
   return WriteFileDurably(ScratchDir(), LinkPath(digest), path);
 }
 

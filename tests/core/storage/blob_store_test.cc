@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/blob_store.h"
+#include "core/storage/blob_store.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -173,6 +173,49 @@ TEST(BlobStore, RemovesOnlyWhatNobodyUsedForLong) {
   EXPECT_TRUE(store->RemoveUnused(digest, 60.0));
   EXPECT_FALSE(store->Has(digest));
   EXPECT_FALSE(store->Use(digest));
+}
+
+TEST(BlobStore, SharesAFolderThatAnotherHas) {
+  const TemporaryFolder folder;
+  auto owner = BlobStore::Open(folder.Path());
+  ASSERT_TRUE(owner.ok());
+  auto guest = BlobStore::Share(folder.Path());
+  ASSERT_TRUE(guest.ok()) << guest.status();
+  EXPECT_EQ(*guest->Get(*owner->Put("from the owner")), "from the owner");
+  EXPECT_EQ(*owner->Get(*guest->Put("from the guest")), "from the guest");
+  EXPECT_TRUE(absl::IsNotFound(BlobStore::Share(folder / "tmp").status()));
+  EXPECT_TRUE(absl::IsNotFound(BlobStore::Share(folder / "nowhere").status()));
+}
+
+TEST(BlobStore, WhoSharesAFolderLeavesItsLinksAlone) {
+  const TemporaryFolder folder;
+  auto owner = BlobStore::Open(folder / "blobs");
+  auto guest = BlobStore::Share(folder / "blobs");
+  ASSERT_TRUE(owner.ok() && guest.ok());
+  Overwrite(folder / "image.jpg", "pixels");
+  const Digest digest = DigestOf("pixels");
+  ASSERT_TRUE(owner->LinkFile(digest, folder / "image.jpg").ok());
+  Overwrite(folder / "image.jpg", "other pixels, as seen from another machine");
+  EXPECT_TRUE(absl::IsNotFound(guest->Get(digest).status()));
+  EXPECT_FALSE(guest->Has(digest));
+  Overwrite(folder / "image.jpg", "pixels");
+  EXPECT_EQ(*owner->Get(digest), "pixels");
+}
+
+TEST(BlobStore, WhoIsWritingFindsOutThatTheStoreWasOpenedAnew) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(BlobStore::Open(folder.Path()).ok());
+  auto guest = BlobStore::Share(folder.Path());
+  ASSERT_TRUE(guest.ok());
+  bool opened_anew = false;
+  const auto open_meanwhile = [&]() -> absl::StatusOr<std::string_view> {
+    if (opened_anew) return "";
+    opened_anew = true;
+    EXPECT_TRUE(BlobStore::Open(folder.Path()).ok());
+    return "text";
+  };
+  EXPECT_TRUE(absl::IsUnavailable(guest->Write(DigestOf("text"), 4, open_meanwhile)));
+  EXPECT_TRUE(guest->Write(DigestOf("text"), 4, PiecesOf("text")).ok());
 }
 
 TEST(BlobStore, ListsBlobsAndLinksWithTheirSizes) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/fault_point.h"
+#include "core/base/fault_point.h"
 
 #include <unistd.h>
 

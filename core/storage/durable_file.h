@@ -15,10 +15,10 @@ namespace orbweave {
 /// A file in the making. A crash at any moment leaves the old file under its name, none, or the
 /// whole new one: it is a temporary file until MoveTo, and removed when that does not come. Errors
 /// of all: ResourceExhausted: disk full. PermissionDenied, Unavailable: the system's reason, with
-/// the path.
+/// the path; Unavailable also when somebody emptied `scratch_dir` meanwhile.
 class DurableFile {
  public:
-  /// `scratch_dir` is on the file system of the name it is to have.
+  /// `scratch_dir` is on the file system of the name it is to have; others may use it too.
   [[nodiscard]] static absl::StatusOr<DurableFile> Create(const std::string& scratch_dir);
   ~DurableFile();
   DurableFile(DurableFile&& other) noexcept;
@@ -35,6 +35,9 @@ class DurableFile {
   std::string path_;  ///< empty: it has its name
   FileDescriptor file_;
 };
+
+/// A path in `scratch_dir` that nobody else has, on no machine.
+[[nodiscard]] std::string ScratchPath(const std::string& scratch_dir);
 
 /// A DurableFile of these bytes.
 [[nodiscard]] absl::Status WriteFileDurably(const std::string& scratch_dir,

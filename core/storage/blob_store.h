@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,10 +27,15 @@ struct StoredBlob {
 /// of a file outside that holds them. A blob is written once and whole. Every read is verified; a
 /// blob that is not what its name says is removed, so that it can be made again, or replaced when
 /// it is put again. The time of its file says when it was last put or used. Thread-safe; one
-/// process has the folder.
+/// process has the folder, others, also on other machines, may share it.
 class BlobStore final : public BlobAccess {
  public:
+  /// Has the folder, which is made when there is none. What others are writing there is removed;
+  /// they find out (Unavailable) and write it again.
   [[nodiscard]] static absl::StatusOr<BlobStore> Open(const std::string& folder);
+  /// Shares the folder that another process has. Its links are not followed: the files they name
+  /// are on the machine of that process. NotFound: `folder` is not the folder of a store.
+  [[nodiscard]] static absl::StatusOr<BlobStore> Share(const std::string& folder);
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
@@ -58,7 +61,8 @@ class BlobStore final : public BlobAccess {
   [[nodiscard]] bool RemoveUnused(const Digest& digest, double unused_s);
 
  private:
-  explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
+  BlobStore(std::string folder, bool follows_links)
+      : folder_(std::move(folder)), follows_links_(follows_links) {}
   [[nodiscard]] std::string BlobPath(const Digest& digest) const;
   [[nodiscard]] std::string LinkPath(const Digest& digest) const;
   [[nodiscard]] std::string ScratchDir() const { return folder_ + "/tmp"; }
@@ -66,9 +70,10 @@ class BlobStore final : public BlobAccess {
   [[nodiscard]] std::string FileOf(const Digest& digest) const;
   void Forget(const Digest& digest) const;
 
+  [[nodiscard]] bool RemoveFileUnused(const std::string& path, double unused_s);
+
   std::string folder_;
-  /// Between looking when a blob was used and removing it nobody begins to use it.
-  std::unique_ptr<std::mutex> using_ = std::make_unique<std::mutex>();
+  bool follows_links_ = true;
 };
 
 }  // namespace orbweave

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/durable_file.h"
+#include "core/storage/durable_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,10 +10,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <random>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "coordinator/fault_point.h"
+#include "core/base/fault_point.h"
 
 namespace orbweave {
 namespace {
@@ -36,6 +37,12 @@ absl::Status SystemError(int error, std::string_view doing, const std::string& p
   }
 }
 
+/// A file or folder that is gone is no answer to who writes it.
+absl::Status WriteError(int error, std::string_view doing, const std::string& path) {
+  const absl::Status status = SystemError(error, doing, path);
+  return absl::IsNotFound(status) ? absl::UnavailableError(status.message()) : status;
+}
+
 absl::Status SyncFolder(const std::string& path) {
   const FileDescriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder.IsOpen() || ::fsync(folder.get()) != 0)
@@ -45,11 +52,19 @@ absl::Status SyncFolder(const std::string& path) {
 
 }  // namespace
 
-absl::StatusOr<DurableFile> DurableFile::Create(const std::string& scratch_dir) {
+std::string ScratchPath(const std::string& scratch_dir) {
+  static const uint64_t kProcess = [] {
+    std::random_device device;
+    return uint64_t{device()} << 32 | device();
+  }();
   static std::atomic<uint64_t> counter{0};
-  std::string path = absl::StrCat(scratch_dir, "/", ::getpid(), ".", counter.fetch_add(1));
-  FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (!file.IsOpen()) return SystemError(errno, "cannot create", path);
+  return absl::StrCat(scratch_dir, "/", absl::Hex(kProcess), ".", counter.fetch_add(1));
+}
+
+absl::StatusOr<DurableFile> DurableFile::Create(const std::string& scratch_dir) {
+  std::string path = ScratchPath(scratch_dir);
+  FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  if (!file.IsOpen()) return WriteError(errno, "cannot create", path);
   return DurableFile(std::move(path), std::move(file));
 }
 
@@ -71,9 +86,9 @@ absl::Status DurableFile::Append(std::string_view bytes) {
 }
 
 absl::Status DurableFile::MoveTo(const std::string& path) {
-  if (::fsync(file_.get()) != 0) return SystemError(errno, "cannot write", path);
+  if (::fsync(file_.get()) != 0) return WriteError(errno, "cannot write", path);
   FaultPoint("rename", FaultSide::kBefore);
-  if (::rename(path_.c_str(), path.c_str()) != 0) return SystemError(errno, "cannot write", path);
+  if (::rename(path_.c_str(), path.c_str()) != 0) return WriteError(errno, "cannot write", path);
   path_.clear();
   FaultPoint("rename", FaultSide::kAfter);
   return SyncFolder(std::filesystem::path(path).parent_path().string());
