@@ -46,10 +46,18 @@ std::vector<Images> FindComponents(const ViewGraph& graph) {
   return components;
 }
 
+// An even number where that keeps clusters within a fifth of their size.
+uint32_t NumClustersBySize(size_t num_images, int cluster_size) {
+  constexpr double kTolerance = 0.2;
+  const double wanted = static_cast<double>(num_images) / cluster_size;
+  const double even = 2.0 * std::round(wanted / 2.0);
+  const bool is_near = even > 0.0 && std::abs(wanted / even - 1.0) <= kTolerance;
+  return static_cast<uint32_t>(is_near ? even : std::round(wanted));
+}
+
 uint32_t NumClusters(size_t num_images, const PartitionOptions& options) {
   if (options.cluster_size == 0) return 1;
-  const auto by_size =
-      static_cast<uint32_t>(std::lround(static_cast<double>(num_images) / options.cluster_size));
+  const uint32_t by_size = NumClustersBySize(num_images, options.cluster_size);
   const auto sufficient =
       static_cast<uint32_t>(num_images) / static_cast<uint32_t>(options.min_cluster_size);
   const uint32_t by_count = std::min(static_cast<uint32_t>(options.min_clusters), sufficient);

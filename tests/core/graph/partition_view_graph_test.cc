@@ -103,10 +103,20 @@ TEST(PartitionViewGraph, DividesALoopOf48IntoThreeClustersInARing) {
 TEST(PartitionViewGraph, DividesACorridorByClusterSize) {
   const ViewGraph street = Street(500, 10);
   const Partition partition = Divided(street);
-  EXPECT_EQ(partition.clusters.size(), 5U);
-  EXPECT_EQ(partition.seams.size(), 4U);
+  EXPECT_EQ(partition.clusters.size(), 6U);
+  EXPECT_EQ(partition.seams.size(), 5U);
   ExpectLawful(street, partition, {});
   for (const Seam& seam : partition.seams) EXPECT_EQ(seam.shared.size(), 12U);
+}
+
+TEST(PartitionViewGraph, MakesAnEvenNumberOfClustersWhereTheyStayNearTheirSize) {
+  for (uint32_t n = 340; n < 2000; n += 83) {
+    const size_t clusters = Divided(Street(n, 2)).clusters.size();
+    EXPECT_EQ(clusters % 2, 0U) << n;
+    EXPECT_GE(n, 80 * clusters) << n;
+    EXPECT_LE(n, 120 * clusters) << n;
+  }
+  EXPECT_EQ(Divided(Street(300, 2)).clusters.size(), 3U) << "two or four would be far from it";
 }
 
 TEST(PartitionViewGraph, DividesCrossingStreets) {
