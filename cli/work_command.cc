@@ -139,7 +139,7 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave work --join unix:/tmp/orbweave.sock --name second\n"
       "  orbweave work --join coordinator.example:7000 --tls keys/node7\n"
       "  orbweave work --join coordinator.example:7000 --tls keys/node7 --blobs "
-      "/mnt/street/state/blobs\n"
+      "storage/state/blobs\n"
       "  orbweave work --join coordinator.example:7000 --tls node-keys --token-file join.token\n"
       "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves. "
       "The log goes to stderr, one JSON object per line.");

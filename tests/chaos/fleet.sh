@@ -7,6 +7,7 @@ workers=(1 2 3)
 declare -A pid_of        # "coordinator", "submit" or a worker's number -> process
 declare -a coordinator_by # what the coordinator is started with: env, faketime
 declare -a worker_by
+shares_blobs=no # whether workers read and write in the coordinator's blob folder
 
 # MACHINE KEYS ARGUMENTS...: becomes orbweave there, under that certificate.
 become() {
@@ -54,9 +55,11 @@ start_coordinator() {
 }
 
 start_worker() {
-  local name=worker$1 by=("${worker_by[@]}")
+  local name=worker$1 by=("${worker_by[@]}") blobs=()
   [ "$namespaces" = no ] || name=$name/slot
-  (become "$1" "worker$1" work --join "${relayed_address:-$address}" --name "$name" >>"$(worker_log "$1")" 2>&1) &
+  [ "$shares_blobs" = no ] || blobs=(--blobs "$state/blobs")
+  (become "$1" "worker$1" work --join "${relayed_address:-$address}" --name "$name" "${blobs[@]}" \
+    >>"$(worker_log "$1")" 2>&1) &
   pid_of[$1]=$!
   disown "${pid_of[$1]}"
 }

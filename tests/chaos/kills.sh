@@ -84,8 +84,38 @@ kill_at_point() {
   end_row "coordinator killed at \`$1\`" "$(coordinator_events task_leased) tasks leased"
 }
 
-# As in coordinator/fault_point.h.
+# As in core/base/fault_point.h.
 disturb_commit_points() {
   local point
   for point in {job,start,result,ends,stage,rename}.{before,after} {commit,get}.before; do kill_at_point "$point"; done
+}
+
+# POINT: a job whose workers die when they pass the point for the second to tenth time, each started again, until $kills
+# have died and the others who were to.
+kill_workers_at_point() {
+  local i
+  begin_row
+  worker_by=(env "ORBWEAVE_FAULT=$1:$((RANDOM % 9 + 2))")
+  start_fleet && start_submit "$fleet/model"
+  while is_running submit; do
+    for i in "${workers[@]}"; do
+      is_running "$i" && continue
+      if ((++times < kills)); then worker_by=(env "ORBWEAVE_FAULT=$1:$((RANDOM % 9 + 2))"); else worker_by=(); fi
+      start_worker "$i"
+    done
+    sleep 0.02
+  done
+  worker_by=()
+  judge
+  stop_fleet
+  end_row "workers share the blob folder: worker killed at \`$1\`" "$(coordinator_events task_leased) tasks leased"
+}
+
+disturb_shared_folder() {
+  local point
+  shares_blobs=yes
+  kill_at_random_moments "workers share the blob folder: worker killed" kill_worker 4
+  kill_at_random_moments "workers share the blob folder: coordinator killed" kill_coordinator 4
+  for point in rename.{before,after} get.before; do kill_workers_at_point "$point"; done
+  shares_blobs=no
 }

@@ -27,7 +27,7 @@ for part in fleet network judge kills silence disks clocks repeats; do
   source "$here/$part.sh"
 done
 
-disturbances=(task_killed worker_killed coordinator_killed all_killed commit_points worker_stopped
+disturbances=(task_killed worker_killed coordinator_killed all_killed commit_points shared_folder worker_stopped
   coordinator_stopped worker_cut_off one_way_loss late_result packet_loss latency coordinator_disk_full worker_disk_full blobs_corrupted blobs_cut_short blobs_deleted
   clock_jumped same_job_twice one_option_changed)
 if [ "${1:-}" = names ]; then
