@@ -63,7 +63,7 @@ mount_disk() {
   return 1
 }
 
-disk_errors() { cat "$coordinator_log" "$fleet/submit.log" | grep -Eic "No space left on device|disk is full"; }
+disk_errors() { cat "$coordinator_log" "$fleet/submit.log" | grep -Eic "No space left on device|disk (is )?full"; }
 has_disk_errors() { (($(disk_errors) > 0)); }
 
 # Half of what the job needs; then there is more. A client that had given up is called again.

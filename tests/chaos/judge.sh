@@ -19,8 +19,10 @@ begin_row() {
 
 # TITLE NOTE
 end_row() {
+  local title=$1
   ((times > 0)) || same=no
-  printf '| %s | %d | %d | %s | %s |\n' "$1" "$jobs" "$times" "$same" "$2"
+  [ "$shares_blobs" = no ] || title+="; workers share the blob folder"
+  printf '| %s | %d | %d | %s | %s |\n' "$title" "$jobs" "$times" "$same" "$2"
   [ "$same" = yes ] || ((++failures))
 }
 

@@ -108,14 +108,17 @@ kill_workers_at_point() {
   worker_by=()
   judge
   stop_fleet
-  end_row "workers share the blob folder: worker killed at \`$1\`" "$(coordinator_events task_leased) tasks leased"
+  end_row "worker killed at \`$1\`" "$(coordinator_events task_leased) tasks leased"
 }
 
 disturb_shared_folder() {
   local point
   shares_blobs=yes
-  kill_at_random_moments "workers share the blob folder: worker killed" kill_worker 4
-  kill_at_random_moments "workers share the blob folder: coordinator killed" kill_coordinator 4
+  disturb_worker_killed
+  disturb_coordinator_killed
   for point in rename.{before,after} get.before; do kill_workers_at_point "$point"; done
+  disturb_coordinator_disk_full
+  disturb_blobs_corrupted
+  disturb_blobs_deleted
   shares_blobs=no
 }
