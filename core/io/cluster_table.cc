@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/io/first_names.h"
 #include "core/io/match_names.h"
 #include "core/io/text_fields.h"
 
@@ -57,16 +58,6 @@ absl::StatusOr<ClusterRows> ReadRows(std::string_view text, const std::string& s
   return rows;
 }
 
-/// "a.jpg, b.jpg and 7 more".
-std::string ListNames(const std::vector<std::string>& names) {
-  std::string text;
-  for (size_t i = 0; i < std::min(names.size(), kNamesShown); ++i)
-    absl::StrAppend(&text, i == 0 ? "" : ", ", names[i]);
-  if (names.size() > kNamesShown)
-    absl::StrAppend(&text, " and ", names.size() - kNamesShown, " more");
-  return text;
-}
-
 }  // namespace
 
 absl::StatusOr<ClusterNames> ReadClusterTable(std::string_view text,
@@ -90,11 +81,21 @@ absl::StatusOr<ClusterNames> ReadClusterTable(std::string_view text,
     if (!is_used[r]) unknown.push_back(rows.names[r]);
   }
   if (!unknown.empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(source, " names images that are not there: ", ListNames(unknown)));
+    return absl::InvalidArgumentError(absl::StrCat(unknown.size(),
+                                                   unknown.size() == 1 ? " row of " : " rows of ",
+                                                   source,
+                                                   unknown.size() == 1 ? " names" : " name",
+                                                   " no image: ",
+                                                   FirstNames(unknown, kNamesShown)));
   }
   if (!missing.empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(source, " has no row for ", ListNames(missing)));
+    return absl::InvalidArgumentError(
+        absl::StrCat(missing.size(),
+                     missing.size() == 1 ? " image has" : " images have",
+                     " no row in ",
+                     source,
+                     ": ",
+                     FirstNames(missing, kNamesShown)));
   }
   return clusters;
 }

@@ -35,8 +35,9 @@ TEST(ReadClusterTable, GivesEveryImageItsCluster) {
 
 TEST(ReadClusterTable, NamesUnknownAndMissingImages) {
   EXPECT_THAT(ErrorOf("name,cluster\n1.jpg,x\n2.jpg,x\n3.jpg,x\n9.jpg,y\n"),
-              HasSubstr("clusters.csv names images that are not there: 9.jpg"));
-  EXPECT_THAT(ErrorOf("name,cluster\n1.jpg,x\n"), HasSubstr("no row for a/2.jpg, b/3.jpg"));
+              HasSubstr("1 row of clusters.csv names no image: 9.jpg"));
+  EXPECT_THAT(ErrorOf("name,cluster\n1.jpg,x\n"),
+              HasSubstr("2 images have no row in clusters.csv: a/2.jpg, b/3.jpg"));
 }
 
 TEST(ReadClusterTable, RefusesRowsItCannotUse) {
