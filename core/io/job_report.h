@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/cross_check.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
 
@@ -169,6 +170,8 @@ struct JobReport {
   std::vector<ReportStage> stages{};  ///< in order
   std::vector<ReportWorker> workers{};
   double elapsed_s = 0.0;
+  std::vector<CrossCheck> checks{};  ///< of all models, the largest model's first
+  Verdict verdict{};
   std::vector<std::string> warnings{};
   std::string options_text{};
   std::vector<ReportImage> images{};  ///< in id order

@@ -8,6 +8,7 @@
 
 #include "core/base/options.h"
 #include "core/bundle/adjust_bundle.h"
+#include "core/scene/cross_check.h"
 
 namespace orbweave {
 
@@ -106,7 +107,8 @@ struct GlobalAdjustReport {
       unobserved_images{};        ///< names of images left without observations; now loose
   double residual_px_mean = 0.0;  ///< angle x W / 2pi
   double residual_px_rms = 0.0;
-  double pattern_px = 0.0;  ///< what repeats in every panorama (ResidualPattern)
+  double pattern_px = 0.0;           ///< what repeats in every panorama (ResidualPattern)
+  std::vector<CrossCheck> checks{};  ///< in the order in which they were made
 };
 
 }  // namespace orbweave

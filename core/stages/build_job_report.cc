@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <set>
 
 #include "core/stages/list_missing_images.h"
@@ -220,6 +221,7 @@ JobReport BuildJobReport(const JobResults& results) {
     AddMeasures(results.models[model].measures, report);
     FillModel(results, model, report);
     report.adjustments.push_back(AdjustmentRow(results.models[model].report));
+    std::ranges::copy(results.models[model].report.checks, std::back_inserter(report.checks));
   }
   if (report.points > 0) {
     report.mean_track_length =

@@ -44,6 +44,7 @@ GlobalAdjustReport SmallReport() {
   report.uncertainty = {.known = true, .held_image = "b.jpg"};
   report.adjustments.push_back({.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
   report.unobserved_images = {"c.jpg"};
+  report.checks = {{"gnss_clock", 0.8, 0.2, "s", CheckLevel::kDoubtful, "the clock is late"}};
   return report;
 }
 
