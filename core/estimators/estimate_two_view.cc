@@ -9,6 +9,7 @@
 #include "core/base/status.h"
 #include "core/estimators/bearing_pairs.h"
 #include "core/estimators/explain_by_ray_map.h"
+#include "core/estimators/match_evidence.h"
 #include "core/estimators/refine_two_view.h"
 #include "core/estimators/resolve_cheirality.h"
 #include "core/estimators/split_by_motion.h"
@@ -123,6 +124,9 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
   ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict,
                             Classify(pairs, candidate, max_error_rad, context));
   if (!IsSupported(verdict.inliers.Size(), matches.size(), options)) return geometry;
+  geometry.log10_false_alarms =
+      EvidenceOf(pairs, verdict.b_from_a, max_error_rad).log10_false_alarms;
+  if (geometry.log10_false_alarms > options.max_log10_false_alarms) return geometry;
   geometry.kind = verdict.kind;
   geometry.b_from_a = verdict.b_from_a;
   for (const uint32_t i : verdict.inliers.order) geometry.inliers.push_back(matches[i]);

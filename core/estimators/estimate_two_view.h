@@ -25,8 +25,9 @@ struct EnumNames<TwoViewSolver> {
 struct TwoViewOptions {
   TwoViewSolver solver = TwoViewSolver::kFivePoint;
   double max_error_px = 4.0;
-  int min_inliers = 15;
-  double min_inlier_share = 0.1;
+  int min_inliers = 10;
+  double max_log10_false_alarms = -4.0;
+  double min_inlier_share = 0.0;
   double confidence = 0.9999;
   int max_trials = 10000;
 
@@ -38,6 +39,10 @@ struct TwoViewOptions {
           "distance to the epipolar plane, pixels at the equator (8)",
           Range{0.1, 100});
     visit("min_inliers", self.min_inliers, "pairs with fewer inliers are dropped", Range{5, 10000});
+    visit("max_log10_false_alarms",
+          self.max_log10_false_alarms,
+          "pairs are kept when as many matches agree by chance in one of 10^-this pairs at most",
+          Range{-1000, 1000});
     visit("min_inlier_share",
           self.min_inlier_share,
           "pairs with a smaller share of inliers are dropped",
@@ -55,7 +60,9 @@ struct TwoViewOptions {
 /// on both spheres (paper 3.3), refined over all inliers; flags pure rotation and planes. Matches
 /// at the same place of both panoramas are set aside where the others have a geometry of their own
 /// that covers more of the sphere: they show the carrier, not the scene. A pair in which nothing
-/// but the carrier matches has no geometry.
+/// but the carrier matches has no geometry. Neither has one whose inliers are no evidence
+/// (EvidenceOf): that a share of the matches agrees says nothing, since wrong ones are found in any
+/// number.
 /// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera
 /// frames; `matches` index into them. Returns kind kNone (and num_putative) when no geometry is
 /// supported. Cancelled when asked to stop. `context.seed` seeds the sampler.

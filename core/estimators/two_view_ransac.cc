@@ -3,9 +3,11 @@
 
 #include "core/estimators/two_view_ransac.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/estimators/match_evidence.h"
 #include "core/estimators/refine_two_view.h"
 #include "core/estimators/resolve_cheirality.h"
 #include "core/geometry/eight_point.h"
@@ -101,10 +103,17 @@ absl::StatusOr<std::optional<Rigid3>> Find(const BearingPairs& pairs,
                                            const TwoViewOptions& options,
                                            const StageContext& context) {
   const TwoViewEstimator<Solver> estimator(pairs, max_error_rad);
-  const RansacOptions ransac = {.confidence = options.confidence,
-                                .min_trials = kMinTrials,
-                                .max_trials = options.max_trials,
-                                .min_inlier_share = options.min_inlier_share};
+  const double telling_share =
+      std::max(options.min_inlier_share,
+               SmallestTellingShare(pairs.Size(), max_error_rad, options.max_log10_false_alarms));
+  const RansacOptions ransac = {
+      .confidence = options.confidence,
+      .min_trials = kMinTrials,
+      .max_trials =
+          std::max(kMinTrials,
+                   RequiredTrials(
+                       telling_share, Solver::kSampleSize, options.confidence, options.max_trials)),
+      .min_inlier_share = telling_share};
   ORBWEAVE_ASSIGN_OR_RETURN(const auto best, Ransac(estimator, ransac, context));
   return best.model;
 }

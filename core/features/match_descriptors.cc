@@ -12,7 +12,11 @@ std::vector<FeatureMatch> MatchDescriptors(const Features& a,
                                            const Features& b,
                                            const MatchOptions& options) {
   if (a.descriptors.empty() || b.descriptors.empty()) return {};
-  const NearestTwoBothWays nearest = FindNearestTwo(a.descriptors, b.descriptors);
+  return AcceptNearest(FindNearestTwo(a.descriptors, b.descriptors), options);
+}
+
+std::vector<FeatureMatch> AcceptNearest(const NearestTwoBothWays& nearest,
+                                        const MatchOptions& options) {
   return AcceptMatches(nearest, {options.max_ratio, options.max_distance, options.cross_check});
 }
 

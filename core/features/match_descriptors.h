@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/options.h"
+#include "core/features/nearest_two.h"
 #include "core/geometry/rigid3.h"
 #include "core/scene/features.h"
 #include "core/scene/ids.h"
@@ -17,6 +18,7 @@ struct MatchOptions {
   bool cross_check = true;
   bool guided = true;
   double guided_max_ratio = 0.8;
+  double guided_max_wrong_share = 0.2;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -34,6 +36,10 @@ struct MatchOptions {
           self.guided_max_ratio,
           "ratio test among candidates near the epipolar plane",
           Range{0.1, 1.0});
+    visit("guided_max_wrong_share",
+          self.guided_max_wrong_share,
+          "share of guided matches that planes of a wrong geometry would have found as well",
+          Range{0.0, 1.0});
   }
 };
 
@@ -43,6 +49,10 @@ struct MatchOptions {
 [[nodiscard]] std::vector<FeatureMatch> MatchDescriptors(const Features& a,
                                                          const Features& b,
                                                          const MatchOptions& options);
+
+/// The same from nearest neighbours that were found already.
+[[nodiscard]] std::vector<FeatureMatch> AcceptNearest(const NearestTwoBothWays& nearest,
+                                                      const MatchOptions& options);
 
 /// Matches among features whose bearings lie within `max_error_rad` of each other's epipolar plane
 /// under b_from_a and in front of both spheres: the nearest by descriptor among those candidates,

@@ -89,12 +89,6 @@ void ForAzimuthRange(const std::vector<AxialFeature>& sorted,
   if (high > pi) visit_between(-pi, high - 2.0 * pi);
 }
 
-int32_t SquaredDistance(const uint8_t* a, const uint8_t* b) {
-  int32_t sum = 0;
-  for (int k = 0; k < kDescriptorSize; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return sum;
-}
-
 void Update(NearestTwo& nearest, int32_t distance, FeatureIndex index) {
   if (distance < nearest.best || (distance == nearest.best && index < nearest.index)) {
     nearest.second = nearest.best;

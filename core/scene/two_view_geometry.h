@@ -18,13 +18,27 @@ enum class TwoViewKind : uint8_t {
 };
 
 /// What two panoramas say about each other.
+/// How the matches of a pair were found: the rungs of a ladder, each tried where those before it
+/// find no evidence.
+enum class MatchRung : uint8_t {
+  kGiven = 0,        ///< matches from outside
+  kDescriptors = 1,  ///< nearest descriptors, a pose by minimal samples of any orientation
+  kUpright = 2,      ///< the same matches, by samples of cameras that stand upright
+  kGuided = 3,       ///< too little by themselves; what they predict was found along the planes
+};
+constexpr int kNumMatchRungs = 4;
+
 struct TwoViewGeometry {
   ImagePair pair{};
   TwoViewKind kind = TwoViewKind::kNone;
   Rigid3 b_from_a{};                    ///< |translation| = 1, or 0 for kPureRotation
   std::vector<FeatureMatch> inliers{};  ///< sorted
   uint32_t num_putative = 0;            ///< matches before verification
-  double median_angle_rad = 0.0;        ///< median triangulation angle of the inliers
+  /// Evidence that the pair shows one scene: log10 of how many pairs of images that have nothing in
+  /// common would look as well matched (core/estimators/match_evidence.h).
+  double log10_false_alarms = 0.0;
+  MatchRung rung = MatchRung::kGiven;
+  double median_angle_rad = 0.0;  ///< median triangulation angle of the inliers
   /// Share of the equal-area cells of the sphere (core/geometry/sphere_cells.h, 8 x 8 cells)
   /// in image a that hold an inlier: 0 ... 1.
   double spread = 0.0;

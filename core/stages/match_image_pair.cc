@@ -4,14 +4,93 @@
 
 #include <algorithm>
 
+#include "core/features/match_against_decoys.h"
+#include "core/features/nearest_two.h"
+
 namespace orbweave {
 namespace {
+
+/// Geometries as good as this one are found in a pair of images of different places, a hundred at a
+/// time: no prediction could make up for it.
+constexpr double kNoEvidence = 2.0;
 
 /// Equation (8) for a pair: the coarser of the two panoramas sets the angle.
 double MaxErrorRad(const PairSide& a, const PairSide& b, double max_error_px) {
   return std::max(a.features.camera.AngleFromPixels(max_error_px),
                   b.features.camera.AngleFromPixels(max_error_px));
 }
+
+bool HasEpipolarPlanes(const TwoViewGeometry& geometry) {
+  return geometry.kind == TwoViewKind::kGeneral || geometry.kind == TwoViewKind::kPlanar;
+}
+
+/// The rungs of the ladder for one pair.
+struct PairMatcher {
+  ImagePair pair{};
+  const PairSide& a;
+  const PairSide& b;
+  const MatchOptions& match_options;
+  const TwoViewOptions& two_view_options;
+  const StageContext& context;
+
+  [[nodiscard]] double MaxError() const { return MaxErrorRad(a, b, two_view_options.max_error_px); }
+
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Verify(const std::vector<FeatureMatch>& matches,
+                                                       const TwoViewOptions& options) const {
+    return EstimateTwoView(pair, a.bearings, b.bearings, matches, MaxError(), options, context);
+  }
+
+  /// The geometry of the matches with the most evidence, however little, of those rungs that need
+  /// be climbed.
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Climb(
+      const std::vector<FeatureMatch>& matches) const {
+    TwoViewOptions any = two_view_options;
+    any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kNoEvidence);
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry best, Verify(matches, any));
+    best.rung = MatchRung::kDescriptors;
+    if (IsEvident(best) || any.solver != TwoViewSolver::kFivePoint) return best;
+    any.solver = TwoViewSolver::kUprightThreePoint;
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry upright, Verify(matches, any));
+    upright.rung = MatchRung::kUpright;
+    const bool is_better =
+        upright.kind != TwoViewKind::kNone &&
+        (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < best.log10_false_alarms);
+    return is_better ? upright : best;
+  }
+
+  /// The geometry with what it predicts, or none where there is no evidence.
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Confirm(const TwoViewGeometry& geometry,
+                                                        const NearestTwoBothWays& nearest) const {
+    const TwoViewGeometry nothing{.pair = pair, .num_putative = geometry.num_putative};
+    if (!HasEpipolarPlanes(geometry) || !match_options.guided)
+      return IsEvident(geometry) ? geometry : nothing;
+    const PredictedMatches predicted = MatchAgainstDecoys(a.features,
+                                                          b.features,
+                                                          geometry.b_from_a,
+                                                          MaxError(),
+                                                          nearest,
+                                                          geometry.inliers,
+                                                          match_options);
+    TwoViewGeometry confirmed = geometry;
+    confirmed.log10_false_alarms += predicted.log10_chance;
+    if (!IsEvident(confirmed)) return nothing;
+    if (!IsEvident(geometry)) confirmed.rung = MatchRung::kGuided;
+    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry grown,
+                              Verify(predicted.matches, two_view_options));
+    if (grown.inliers.size() <= confirmed.inliers.size()) return confirmed;
+    confirmed.kind = grown.kind;
+    confirmed.b_from_a = grown.b_from_a;
+    confirmed.inliers = grown.inliers;
+    confirmed.median_angle_rad = grown.median_angle_rad;
+    confirmed.spread = grown.spread;
+    return confirmed;
+  }
+
+  [[nodiscard]] bool IsEvident(const TwoViewGeometry& geometry) const {
+    return geometry.kind != TwoViewKind::kNone &&
+           geometry.log10_false_alarms <= two_view_options.max_log10_false_alarms;
+  }
+};
 
 }  // namespace
 
@@ -28,22 +107,15 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
                                                const MatchOptions& match_options,
                                                const TwoViewOptions& two_view_options,
                                                const StageContext& context) {
-  const double max_error_rad = MaxErrorRad(a, b, two_view_options.max_error_px);
-  const auto verify = [&](const std::vector<FeatureMatch>& matches) {
-    return EstimateTwoView(
-        pair, a.bearings, b.bearings, matches, max_error_rad, two_view_options, context);
-  };
-  if (!given.empty()) return verify(given);
-  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
-                            verify(MatchDescriptors(a.features, b.features, match_options)));
-  const bool has_epipolar_planes =
-      geometry.kind == TwoViewKind::kGeneral || geometry.kind == TwoViewKind::kPlanar;
-  if (!match_options.guided || !has_epipolar_planes) return geometry;
-
-  const std::vector<FeatureMatch> guided =
-      MatchGuided(a.features, b.features, geometry.b_from_a, max_error_rad, match_options);
-  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry guided_geometry, verify(guided));
-  return guided_geometry.inliers.size() > geometry.inliers.size() ? guided_geometry : geometry;
+  const PairMatcher matcher{pair, a, b, match_options, two_view_options, context};
+  if (!given.empty()) return matcher.Verify(given, two_view_options);
+  if (a.features.descriptors.empty() || b.features.descriptors.empty()) {
+    return TwoViewGeometry{.pair = pair};
+  }
+  const NearestTwoBothWays nearest = FindNearestTwo(a.features.descriptors, b.features.descriptors);
+  ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry,
+                            matcher.Climb(AcceptNearest(nearest, match_options)));
+  return matcher.Confirm(geometry, nearest);
 }
 
 }  // namespace orbweave

@@ -22,10 +22,13 @@ struct PairSide {
   const std::vector<Eigen::Vector3d>& bearings;
 };
 
-/// The verified matches of two panoramas: nearest descriptors, geometry on rays, then
-/// (matching.guided) a second matching along epipolar planes that recovers what the ratio test
-/// lost, verified again. `given`: putative matches from outside; when not empty, descriptors are
-/// not looked at.
+/// The verified matches of two panoramas, by a ladder (MatchRung): nearest descriptors and geometry
+/// on rays; where these are no evidence, samples of cameras that stand upright. What a geometry
+/// predicts is then looked for along its epipolar planes (matching.guided), against decoys
+/// (MatchAgainstDecoys): matches that the ratio test lost are recovered, and a pair whose few
+/// matches are no evidence by themselves is kept where those that they predict are; then
+/// log10_false_alarms is the sum of both, since new matches had no part in finding the geometry.
+/// `given`: putative matches from outside; when not empty, descriptors are not looked at.
 [[nodiscard]] absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
                                                              const PairSide& a,
                                                              const PairSide& b,

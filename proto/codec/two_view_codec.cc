@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/two_view_codec.h"
 
+#include <cmath>
+
 #include "proto/codec/pack.h"
 
 namespace orbweave {
@@ -26,6 +28,11 @@ absl::StatusOr<TwoViewGeometry> FromProto(const v1::TwoViewGeometry& proto) {
   geometry.num_putative = proto.num_putative();
   geometry.median_angle_rad = proto.median_angle_rad();
   geometry.spread = proto.spread();
+  geometry.log10_false_alarms = proto.log10_false_alarms();
+  if (!std::isfinite(geometry.log10_false_alarms) || proto.rung() >= kNumMatchRungs) {
+    return absl::InvalidArgumentError("two-view geometry: unknown rung, or evidence is no number");
+  }
+  geometry.rung = static_cast<MatchRung>(proto.rung());
   return geometry;
 }
 
@@ -43,6 +50,8 @@ std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs) {
     pair->set_num_putative(geometry.num_putative);
     pair->set_median_angle_rad(geometry.median_angle_rad);
     pair->set_spread(geometry.spread);
+    pair->set_log10_false_alarms(geometry.log10_false_alarms);
+    pair->set_rung(static_cast<uint32_t>(geometry.rung));
   }
   return proto.SerializeAsString();
 }

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/estimators/bearing_pairs.h"
+#include "core/geometry/rigid3.h"
+
+namespace orbweave {
+
+/// How surely matches show two views of one scene.
+struct MatchEvidence {
+  /// Decimal logarithm of the number of false alarms: how many geometries as well supported as this
+  /// one are to be expected among as many matches that are all wrong. Below 0: fewer than one.
+  double log10_false_alarms = 0.0;
+  double max_error_rad = 0.0;  ///< at which it is least
+  uint32_t num_inliers = 0;    ///< independent ones within that error
+  uint32_t num_matches = 0;    ///< independent ones
+  double chance_share = 1.0;   ///< of wrong matches that lie within that error by chance
+};
+
+/// A-contrario test of a relative pose (Moisan and Stival, A probabilistic criterion to detect
+/// rigid point matches between two images, IJCV 2004): of n matches k lie within e of the epipolar
+/// plane and in front of both spheres; by chance each does with probability p(e). With five matches
+/// taken to find the pose,
+///   NFA = E (n - 5) C(n, k) C(k, 5) p^(k - 5),
+/// least over E = 4 errors e = max_error_rad, 1/2, 1/4 and 1/8 of it. p(e) is counted, not assumed:
+/// it is the share of exchanged matches (a of one, b of another) that the pose explains, so that
+/// features in a band along the horizon, or all in one place, get no credit for lying there.
+/// Matches closer than two degrees to another in both panoramas say the same and count once; which
+/// one counts does not depend on the pose. Degenerate: five matches or fewer have 0.
+/// |b_from_a.translation| = 1, or 0 for a pure rotation, whose error is the angle between the rays
+/// and whose sample are two matches. The cost grows with n^2 up to 256 matches, linearly beyond.
+[[nodiscard]] MatchEvidence EvidenceOf(const BearingPairs& pairs,
+                                       const Rigid3& b_from_a,
+                                       double max_error_rad);
+
+/// The smallest share of n matches that can be evidence, -4 or so, for some pose: below it no trial
+/// is worth its time. From the NFA above with the smallest error and the share p = sin(e) / 2 of
+/// bearings all over the sphere.
+[[nodiscard]] double SmallestTellingShare(size_t num_matches,
+                                          double max_error_rad,
+                                          double max_log10_false_alarms);
+
+}  // namespace orbweave
