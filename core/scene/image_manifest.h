@@ -35,6 +35,11 @@ struct PosePrior {
   std::optional<double> heading_deg{};
   std::optional<double> pitch_deg{};
   std::optional<double> roll_deg{};
+  /// Standard deviations of `heading_deg`, and of `pitch_deg` and `roll_deg` each, stated or
+  /// assumed. The defaults are what a magnetic compass in a car and an uncalibrated inertial sensor
+  /// are good for.
+  double heading_sigma_deg = 10.0;
+  double tilt_sigma_deg = 3.0;
 };
 
 /// One panorama that takes part in the job.

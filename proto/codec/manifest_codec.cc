@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/manifest_codec.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "proto/codec/pack.h"
@@ -103,6 +104,8 @@ void ToProto(const PosePrior& value, v1::PosePrior* proto) {
   proto->set_horizontal_sigma_m(value.horizontal_sigma_m);
   proto->set_vertical_sigma_m(value.vertical_sigma_m);
   AnglesToProto(value, proto);
+  proto->set_heading_sigma_deg(value.heading_sigma_deg);
+  proto->set_tilt_sigma_deg(value.tilt_sigma_deg);
 }
 
 PosePrior FromProto(const v1::PosePrior& proto) {
@@ -111,8 +114,12 @@ PosePrior FromProto(const v1::PosePrior& proto) {
   if (proto.has_geodetic()) value.geodetic = FromProto(proto.geodetic());
   if (proto.has_position_in_enu()) value.position_in_enu = FromProto(proto.position_in_enu());
   AnglesFromProto(proto, value);
+  if (proto.has_heading_sigma_deg()) value.heading_sigma_deg = proto.heading_sigma_deg();
+  if (proto.has_tilt_sigma_deg()) value.tilt_sigma_deg = proto.tilt_sigma_deg();
   return value;
 }
+
+bool IsSigma(double value) { return std::isfinite(value) && value > 0.0; }
 
 void ToProto(const ImageRecord& value, v1::ImageRecord* proto) {
   proto->set_name(value.name);
@@ -135,6 +142,9 @@ absl::StatusOr<ImageRecord> FromProto(const v1::ImageRecord& proto) {
   if (proto.has_capture_time_s()) value.capture_time_s = proto.capture_time_s();
   if (value.camera.width_px <= 0 || value.camera.height_px <= 0) {
     return absl::InvalidArgumentError("image manifest: a camera has no size");
+  }
+  if (!IsSigma(value.prior.heading_sigma_deg) || !IsSigma(value.prior.tilt_sigma_deg)) {
+    return absl::InvalidArgumentError("image manifest: the sigma of a direction is not positive");
   }
   return value;
 }

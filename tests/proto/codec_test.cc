@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/base/random.h"
@@ -249,6 +250,8 @@ TEST(ManifestCodec, RoundTrips) {
   image.prior.geodetic = in.origin;
   image.prior.position_in_enu = Eigen::Vector3d(1, 2, 3);
   image.prior.heading_deg = 0.0;
+  image.prior.heading_sigma_deg = 0.25;
+  image.prior.tilt_sigma_deg = 0.125;
   in.images.push_back(image);
   const std::string bytes = EncodeImageManifest(in);
   const auto out = DecodeImageManifest(bytes);
@@ -259,10 +262,24 @@ TEST(ManifestCodec, RoundTrips) {
   EXPECT_EQ(out->images[0].prior.position_in_enu, image.prior.position_in_enu);
   EXPECT_EQ(out->images[0].prior.heading_deg, image.prior.heading_deg);
   EXPECT_FALSE(out->images[0].prior.pitch_deg.has_value());
+  EXPECT_EQ(out->images[0].prior.heading_sigma_deg, 0.25);
+  EXPECT_EQ(out->images[0].prior.tilt_sigma_deg, 0.125);
   EXPECT_EQ(out->images[0].capture_time_s, 12.5);
   EXPECT_EQ(out->excluded[0].reason, "not 2:1");
   EXPECT_FALSE(out->mask_ignores_white);
   EXPECT_EQ(EncodeImageManifest(*out), bytes);
+}
+
+TEST(ManifestCodec, RefusesASigmaThatIsNone) {
+  for (const double sigma_deg : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    ImageManifest manifest;
+    manifest.images.push_back({.name = "a.jpg", .camera = {100, 50}});
+    manifest.images[0].prior.heading_sigma_deg = sigma_deg;
+    EXPECT_FALSE(DecodeImageManifest(EncodeImageManifest(manifest)).ok()) << sigma_deg;
+    manifest.images[0].prior.heading_sigma_deg = 10.0;
+    manifest.images[0].prior.tilt_sigma_deg = sigma_deg;
+    EXPECT_FALSE(DecodeImageManifest(EncodeImageManifest(manifest)).ok()) << sigma_deg;
+  }
 }
 
 TEST(ReconstructionCodec, RoundTripsExactly) {
