@@ -6,11 +6,15 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "cli/exit_code.h"
 #include "cli/stop_signals.h"
 #include "cli/write_corridor.h"
 #include "core/io/file.h"
+#include "core/synthetic/realistic_street.h"
 #include "core/synthetic/write_street.h"
 
 namespace orbweave {
@@ -70,8 +74,12 @@ void AddCorridor(CLI::App& synth, SelectedCommand& selected) {
   });
 }
 
+/// A street's option as it was given: its name and text, or "true" for a switch without a text.
+using StreetSetting = std::pair<std::string, std::string>;
+
 struct StreetArguments {
-  StreetOptions options{};
+  bool realistic = false;
+  std::vector<StreetSetting> settings{};
   std::string size = "2048x1024";
   std::string output{};
 };
@@ -88,10 +96,36 @@ absl::StatusOr<int> WidthOf(const std::string& size) {
   return width;
 }
 
-absl::Status WriteRenderedStreet(StreetArguments arguments) {
+/// Sets the field of that name in the one of both that has it.
+absl::Status SetStreetOption(StreetOptions& options, const StreetSetting& setting) {
+  const auto& [name, text] = setting;
+  bool is_hardship = false;
+  internal::ForEachField(options.hardships,
+                         [&](std::string_view field, auto&, std::string_view, Range) {
+                           is_hardship = is_hardship || field == name;
+                         });
+  return is_hardship ? SetOption(options.hardships, name, text) : SetOption(options, name, text);
+}
+
+/// What was asked for one by one goes before what a scene brings along.
+absl::StatusOr<StreetOptions> StreetOptionsFrom(const StreetArguments& arguments) {
+  StreetOptions asked;
+  for (const StreetSetting& setting : arguments.settings)
+    ORBWEAVE_RETURN_IF_ERROR(SetStreetOption(asked, setting));
+  StreetOptions options;
+  if (arguments.realistic) options = RealisticStreet(options);
+  if (asked.hardships.room) options = RoomOptions(options);
+  for (const StreetSetting& setting : arguments.settings)
+    ORBWEAVE_RETURN_IF_ERROR(SetStreetOption(options, setting));
+  ORBWEAVE_ASSIGN_OR_RETURN(options.width_px, WidthOf(arguments.size));
+  ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", options));
+  ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", options.hardships));
+  return options;
+}
+
+absl::Status WriteRenderedStreet(const StreetArguments& arguments) {
   const StopSignals signals;
-  ORBWEAVE_ASSIGN_OR_RETURN(arguments.options.width_px, WidthOf(arguments.size));
-  ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", arguments.options));
+  ORBWEAVE_ASSIGN_OR_RETURN(const StreetOptions options, StreetOptionsFrom(arguments));
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
   const auto show = [](const Progress& progress) {
     std::fprintf(stderr,
@@ -103,31 +137,62 @@ absl::Status WriteRenderedStreet(StreetArguments arguments) {
       .stop = signals.token(),
       .report = show,
       .num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
-  ORBWEAVE_RETURN_IF_ERROR(WriteStreet(arguments.options, arguments.output, context));
-  std::printf(
-      "%d panoramas written to %s\n", arguments.options.panoramas, arguments.output.c_str());
+  ORBWEAVE_RETURN_IF_ERROR(WriteStreet(options, arguments.output, context));
+  std::printf("%d panoramas written to %s\n", options.panoramas, arguments.output.c_str());
   return absl::OkStatus();
+}
+
+/// One command-line option per field: --spacing and --spacing-m for spacing_m. A switch needs no
+/// value.
+template <typename Options>
+void AddStreetFields(CLI::App& command, StreetArguments& arguments, const char* group) {
+  Options defaults;
+  internal::ForEachField(
+      defaults, [&](std::string_view name, auto& member, std::string_view help, Range range) {
+        if (name == "width_px") return;  // --size
+        std::string flag = "--" + std::string(name);
+        std::replace(flag.begin(), flag.end(), '_', '-');
+        if (name == "spacing_m") flag += ",--spacing";
+        constexpr bool kIsSwitch = std::is_same_v<std::decay_t<decltype(member)>, bool>;
+        CLI::Option* option = command.add_option_function<std::string>(
+            flag,
+            [&arguments, key = std::string(name)](const std::string& text) {
+              arguments.settings.emplace_back(key, kIsSwitch && text.empty() ? "true" : text);
+              StreetOptions scratch;
+              const absl::Status status = SetStreetOption(scratch, arguments.settings.back());
+              if (!status.ok()) throw CLI::ValidationError(std::string(status.message()));
+            },
+            std::string(help));
+        option->type_name(internal::RangeOf(member, range))
+            ->default_str(internal::ValueToText(member))
+            ->group(group);
+        if (kIsSwitch) option->expected(0, 1);
+      });
 }
 
 void AddStreet(CLI::App& synth, SelectedCommand& selected) {
   CLI::App* command =
       synth.add_subcommand("street", "Rendered panoramas of a street round a block");
   const auto arguments = std::make_shared<StreetArguments>();
-  command->add_option("--panoramas", arguments->options.panoramas, "Number of panoramas")
-      ->capture_default_str();
   command->add_option("--size", arguments->size, "Width x height of a panorama")
       ->capture_default_str();
-  command->add_option("--spacing", arguments->options.spacing_m, "Metres between panoramas")
-      ->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "Another seed, another street")
-      ->capture_default_str();
+  command->add_flag("--realistic",
+                    arguments->realistic,
+                    "All that real streets have at once; the options below change single things");
   command
       ->add_option("--output",
                    arguments->output,
                    "Folder for images, masks, gnss.csv, truth.csv, surface.ply")
       ->required();
+  AddStreetFields<StreetOptions>(*command, *arguments, "Street");
+  AddStreetFields<StreetHardships>(*command, *arguments, "Hardships");
   command->footer(
-      "Example:\n  orbweave synth street --panoramas 48 --size 2048x1024 --output street");
+      "Examples:\n"
+      "  orbweave synth street --panoramas 48 --size 2048x1024 --output street\n"
+      "  orbweave synth street --realistic --spacing 8 --panoramas 60 --output town\n"
+      "  orbweave synth street --room --panoramas 36 --output room\n"
+      "  orbweave synth street --standing --pedestrians 20 --panoramas 30 --output bus_stop\n"
+      "  orbweave synth street --bus-ahead --daylight 0.1 --panoramas 60 --output behind_a_bus");
   command->callback([arguments, &selected] {
     selected.run = [arguments] { return ReportStatus(WriteRenderedStreet(*arguments)); };
   });

@@ -6,12 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/synthetic/plain_facade.h"
+#include "core/synthetic/shop_front.h"
+
 namespace orbweave {
 namespace {
 
 constexpr double kGroundFloor_m = 3.7;
-constexpr double kSignLow_m = 2.75;
-constexpr double kSignHigh_m = 3.4;
 
 /// What one house's seed decides.
 struct FacadeStyle {
@@ -67,12 +68,12 @@ Colour Weathered(const Colour& colour, const TexturePoint& p, uint32_t seed) {
 }
 
 /// Glass with mullions, frame and sill about (0, 0) .. (.., height); x from the window's axis.
-Colour Window(const Colour& wall,
-              double x,
-              double y,
-              const TexturePoint& p,
-              const FacadeStyle& style,
-              uint32_t id) {
+SurfaceColour Window(const Colour& wall,
+                     double x,
+                     double y,
+                     const TexturePoint& p,
+                     const FacadeStyle& style,
+                     uint32_t id) {
   const double w = style.window_half_m;
   const double h = style.window_height_m;
   const auto cover = [&](double left, double right, double low, double high) {
@@ -82,45 +83,20 @@ Colour Window(const Colour& wall,
   colour = Mix(colour, style.frame, cover(-w - 0.09, w + 0.09, -0.09, h + 0.09));
   Colour glass = Colour(0.13, 0.16, 0.19) + Colour(0.10, 0.11, 0.12) * (y / h);
   const double blind = UniformOf(1, 1, id) < 0.4 ? h * (1.0 - 0.8 * UniformOf(2, 1, id)) : h;
+  const double pane = cover(-w, -0.03, 0.0, h) + cover(0.03, w, 0.0, h);
   glass = Mix(glass, Tinted({0.66, 0.62, 0.55}, 0.2, id), CoverInterval(y, blind, h, p.dv_m));
-  colour = Mix(colour, glass, cover(-w, -0.03, 0.0, h) + cover(0.03, w, 0.0, h));
-  return Mix(colour, style.frame, cover(-w, w, 0.62 * h, 0.62 * h + 0.06));
-}
-
-/// A board with letters: black-on-colour blocks on a 5 x 7 raster, different for every house.
-Colour Sign(const Colour& wall,
-            double x,
-            double y,
-            double half_width_m,
-            const TexturePoint& p,
-            uint32_t id) {
-  const double on_board = CoverInterval(x, -half_width_m, half_width_m, p.du_m) *
-                          CoverInterval(y, kSignLow_m, kSignHigh_m, p.dv_m);
-  if (on_board == 0.0) return wall;
-  constexpr double kDot_m = 0.06;
-  const auto column = static_cast<int32_t>(std::floor((x + half_width_m) / kDot_m));
-  const auto row = static_cast<int32_t>(std::floor((y - kSignLow_m - 0.1) / kDot_m));
-  const bool in_letter = row >= 0 && row < 7 && column >= 1 && column % 6 != 0;
-  const bool ink = in_letter && UniformOf(column, row, id) < 0.5;
-  const double visible = std::clamp(2.0 - p.Footprint() / (0.5 * kDot_m), 0.0, 1.0);
-  const Colour board = Tinted({0.50, 0.45, 0.42}, 0.9, id);
-  const Colour letters = board.sum() > 1.4 ? Colour(0.08, 0.08, 0.1) : Colour(0.9, 0.9, 0.85);
-  const double share = in_letter ? std::lerp(0.5, ink ? 1.0 : 0.0, visible) : 0.0;
-  return Mix(wall, Mix(board, letters, share), on_board);
-}
-
-/// Light and dark, warm and cold shapes of all sizes: goods behind glass, posters.
-Colour Motley(const TexturePoint& p, uint32_t id) {
-  const double light = FractalNoise(p.u_m, p.v_m, {0.5, 0.03}, p.Footprint(), id);
-  const double warm = FractalNoise(p.u_m, p.v_m, {0.6, 0.05}, p.Footprint(), id + 31);
-  const Colour colour = Tinted({0.48, 0.45, 0.42}, 0.3, id) * (1.0 + 1.3 * light) +
-                        0.35 * warm * Colour(1.0, 0.1, -0.8);
-  return colour.cwiseMax(0.03).cwiseMin(0.97);
+  colour = Mix(colour, glass, pane);
+  const double bar = cover(-w, w, 0.62 * h, 0.62 * h + 0.06);
+  return {Mix(colour, style.frame, bar), pane * (1.0 - bar), id};
 }
 
 /// Door, shop window, poster or bare wall between the axes x = +-bay / 2 of a bay at street level.
-Colour GroundFloor(
-    const Colour& wall, double x, const TexturePoint& p, const FacadeStyle& style, uint32_t id) {
+SurfaceColour GroundFloor(const Colour& wall,
+                          double x,
+                          const TexturePoint& p,
+                          const FacadeStyle& style,
+                          uint32_t id,
+                          uint32_t wares) {
   const auto cover = [&](double half, double low, double high, double inset) {
     return CoverInterval(x, -half + inset, half - inset, p.du_m) *
            CoverInterval(p.v_m, low + inset, high - inset, p.dv_m);
@@ -128,6 +104,7 @@ Colour GroundFloor(
   const double kind = UniformOf(0, 0, id);
   const double half = 0.42 * style.bay_m;
   Colour colour = wall;
+  double glass = 0.0;
   if (kind < 0.25) {
     const Colour door = Tinted({0.35, 0.27, 0.2}, 0.6, id);
     colour = Mix(colour, style.frame, cover(0.62, 0.0, 2.35, 0.0));
@@ -135,16 +112,19 @@ Colour GroundFloor(
     colour = Mix(colour, 0.6 * door, cover(0.35, 0.3, 1.0, 0.0) + cover(0.35, 1.2, 2.0, 0.0));
   } else if (kind < 0.6) {
     colour = Mix(colour, 0.7 * style.frame, cover(half, 0.5, 2.6, 0.0));
-    colour = Mix(colour, 0.65 * Motley(p, id), cover(half, 0.5, 2.6, 0.08));
+    glass = cover(half, 0.5, 2.6, 0.08);
+    colour = Mix(colour, 0.65 * Motley(p, id + wares), glass);
   } else if (kind < 0.8) {
-    colour = Mix(colour, Motley(p, id + 7), cover(0.45, 0.8, 2.0, 0.0));
+    colour = Mix(colour, Motley(p, id + wares + 7), cover(0.45, 0.8, 2.0, 0.0));
   }
-  return kind < 0.7 ? Sign(colour, x, p.v_m, 0.45 * style.bay_m, p, id) : colour;
+  if (kind < 0.7) colour = ShopSign(colour, x, p, 0.45 * style.bay_m, id + wares);
+  return {colour, glass, id};
 }
 
 }  // namespace
 
-Colour FacadeColour(const TexturePoint& p, uint32_t seed) {
+SurfaceColour FacadeSurface(const TexturePoint& p, uint32_t seed, const FacadeLook& look) {
+  if (look.plain) return PlainFacade(p, seed, look);
   const FacadeStyle style(seed);
   Colour colour = style.brick ? Bricks(style.wall, p, seed) : style.wall;
   const double above_m = p.v_m - kGroundFloor_m;
@@ -161,12 +141,13 @@ Colour FacadeColour(const TexturePoint& p, uint32_t seed) {
   const double bays = std::max(1.0, std::floor((p.width_m - 0.4) / style.bay_m));
   const double from_first_m = p.u_m - (p.width_m - bays * style.bay_m) / 2.0;
   const double bay = std::floor(from_first_m / style.bay_m);
-  if (bay < 0.0 || bay >= bays) return colour;
+  if (bay < 0.0 || bay >= bays) return {colour};
   const double x = from_first_m - (bay + 0.5) * style.bay_m;
   const auto column = static_cast<int32_t>(bay);
-  if (above_m < 0.0) return GroundFloor(colour, x, p, style, HashOf(column, -1, seed));
-  if ((storey + 1.0) * style.floor_m + kGroundFloor_m > p.height_m) return colour;
-  const uint32_t id = HashOf(column, static_cast<int32_t>(storey), seed);
+  if (above_m < 0.0) return GroundFloor(colour, x, p, style, HashOf(column, -1, seed), look.wares);
+  if ((storey + 1.0) * style.floor_m + kGroundFloor_m > p.height_m) return {colour};
+  const uint32_t id =
+      look.equal_windows ? seed : HashOf(column, static_cast<int32_t>(storey), seed);
   return Window(colour, x, in_storey_m - 0.85, p, style, id);
 }
 

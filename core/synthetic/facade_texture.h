@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/synthetic/facade_look.h"
 #include "core/synthetic/texture.h"
 
 namespace orbweave {
@@ -12,6 +13,8 @@ namespace orbweave {
 /// equal windows (the repetition that misleads matching), and a ground floor of doors, shop
 /// windows, posters and lettered signs that tells houses apart. Proportions and colours follow
 /// from `seed`.
-[[nodiscard]] Colour FacadeColour(const TexturePoint& point, uint32_t seed);
+[[nodiscard]] SurfaceColour FacadeSurface(const TexturePoint& point,
+                                          uint32_t seed,
+                                          const FacadeLook& look = {});
 
 }  // namespace orbweave

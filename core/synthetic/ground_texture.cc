@@ -63,22 +63,25 @@ Colour Asphalt(const StreetLayout& layout,
                const Eigen::Vector2d& place,
                double from_axis_m,
                double footprint_m,
-               uint32_t seed) {
-  const double grain = FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed);
+               uint32_t seed,
+               double contrast) {
+  const double grain =
+      contrast * FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed);
   Colour colour = Colour(0.37, 0.37, 0.38) * (1.0 + 0.42 * grain);
-  colour = Mix(colour, 0.68 * colour, PatchCover(place, footprint_m, seed + 20));
+  colour = Mix(colour, 0.68 * colour, contrast * PatchCover(place, footprint_m, seed + 20));
   colour = WithManhole(colour, place, footprint_m, seed + 30);
   return WithLaneMarks(colour, layout, place, from_axis_m, 0.8 * grain, footprint_m);
 }
 
 /// Slabs of half a metre, each of its own tone.
-Colour Pavement(const Eigen::Vector2d& place, double footprint_m, uint32_t seed) {
+Colour Pavement(const Eigen::Vector2d& place, double footprint_m, uint32_t seed, double contrast) {
   constexpr double kSlab_m = 0.5;
   const double i = std::floor(place.x() / kSlab_m);
   const double j = std::floor(place.y() / kSlab_m);
-  const double visible = std::clamp(2.0 - footprint_m / (0.4 * kSlab_m), 0.0, 1.0);
+  const double visible = contrast * std::clamp(2.0 - footprint_m / (0.4 * kSlab_m), 0.0, 1.0);
   const double tone = UniformOf(static_cast<int32_t>(i), static_cast<int32_t>(j), seed) - 0.5;
-  const double grain = FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed + 1);
+  const double grain =
+      contrast * FractalNoise(place.x(), place.y(), {1.5, 0.02}, footprint_m, seed + 1);
   const double joint = std::max(CoverInterval(place.x() - i * kSlab_m, 0.0, 0.015, footprint_m),
                                 CoverInterval(place.y() - j * kSlab_m, 0.0, 0.015, footprint_m));
   const Colour slab = Colour(0.60, 0.58, 0.55) * (1.0 + 0.22 * visible * tone + 0.34 * grain);
@@ -90,19 +93,22 @@ Colour Pavement(const Eigen::Vector2d& place, double footprint_m, uint32_t seed)
 Colour GroundColour(const StreetLayout& layout,
                     const Eigen::Vector2d& place,
                     double footprint_m,
-                    uint32_t seed) {
+                    uint32_t seed,
+                    double contrast) {
   constexpr double kKerbWidth_m = 0.18;
   const double d = layout.DistanceFromAxis(place);
   const double road = CoverInterval(d, Profile::kInnerKerb_m, Profile::kOuterKerb_m, footprint_m);
   const double kerb =
       CoverInterval(d, Profile::kInnerKerb_m - kKerbWidth_m, Profile::kInnerKerb_m, footprint_m) +
       CoverInterval(d, Profile::kOuterKerb_m, Profile::kOuterKerb_m + kKerbWidth_m, footprint_m);
-  Colour colour = Pavement(place, footprint_m, seed + 1000);
+  Colour colour = Pavement(place, footprint_m, seed + 1000, contrast);
   if (kerb > 0.0) {
-    const double grain = FractalNoise(place.x(), place.y(), {2.0, 0.03}, footprint_m, seed + 2000);
+    const double grain =
+        contrast * FractalNoise(place.x(), place.y(), {2.0, 0.03}, footprint_m, seed + 2000);
     colour = Mix(colour, Colour::Constant(0.66 * (1.0 + 0.4 * grain)), kerb);
   }
-  return road > 0.0 ? Mix(colour, Asphalt(layout, place, d, footprint_m, seed), road) : colour;
+  if (road == 0.0) return colour;
+  return Mix(colour, Asphalt(layout, place, d, footprint_m, seed, contrast), road);
 }
 
 }  // namespace orbweave

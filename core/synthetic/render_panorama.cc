@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/synthetic/cover_nadir.h"
+#include "core/synthetic/soften_shade.h"
+
 namespace orbweave {
 namespace {
 
@@ -51,8 +54,7 @@ class Renderer {
       : world_(world),
         traffic_(traffic),
         view_(view),
-        street_from_cam_(view.cam_from_street.rotation.conjugate().toRotationMatrix()),
-        centre_(view.cam_from_street.Centre()),
+        rays_(view.camera, view.cam_from_street, view.lenses, view.shutter),
         pixel_rad_(view.camera.AngleFromPixels(1.0)) {}
 
   /// Sample and colour of a ray through an image position; `size` is the pixel's extent, below 1
@@ -60,14 +62,14 @@ class Renderer {
   Colour Look(double x_px, double y_px, double size, Sample& sample) const {
     const Eigen::Vector3d bearing = view_.camera.BearingFromPixel({x_px, y_px});
     const double pixel_rad = size * pixel_rad_;
-    if (bearing.y() > 0.3) {
+    if (bearing.y() > 0.3 && view_.nadir != NadirKind::kNone) {
       sample.on_roof = Eigen::Vector2d(bearing.x(), bearing.z()) * (kRoofBelow_m / bearing.y());
       if (FromRoof(sample.on_roof) < 0.0) {
         sample.hit = {.surface = kRoofSurface};
         return RoofColour(sample.on_roof, pixel_rad * kRoofBelow_m / (bearing.y() * bearing.y()));
       }
     }
-    const LightRay ray{centre_, street_from_cam_ * bearing};
+    const LightRay ray = rays_.Through(bearing, y_px);
     sample.hit = Trace(world_, traffic_, ray);
     return Shade(world_, traffic_, ray, sample.hit, pixel_rad);
   }
@@ -89,8 +91,7 @@ class Renderer {
   const StreetWorld& world_;
   const Traffic& traffic_;
   const PanoramaView& view_;
-  Eigen::Matrix3d street_from_cam_;
-  Eigen::Vector3d centre_;
+  CameraRays rays_;
   double pixel_rad_;
 };
 
@@ -127,10 +128,16 @@ double SensorNoise(int i, int j, uint32_t seed) {
 }
 
 Rgb Quantise(const Colour& colour, const PanoramaView& view, int i, int j) {
+  const double vignette = view.lenses.vignetting == 0.0
+                              ? 1.0
+                              : view.lenses.Gain(view.camera.BearingFromPixel({i + 0.5, j + 0.5}));
+  const Colour gain = vignette * view.white_balance;
   uint8_t values[3];
   for (uint32_t c = 0; c < 3; ++c) {
-    const double level = 255.0 * view.exposure * colour[c] +
-                         view.noise_levels * SensorNoise(i, j, view.seed + 8 * c);
+    const double clean = 255.0 * view.exposure * (gain[c] * colour[c]);
+    const double dark = std::clamp((120.0 - clean) / 120.0, 0.0, 1.0);
+    const double noise_levels = view.noise_levels + dark * view.shade_noise_levels;
+    const double level = clean + noise_levels * SensorNoise(i, j, view.seed + 8 * c);
     values[c] = static_cast<uint8_t>(std::clamp(std::lround(level), 0L, 255L));
   }
   return {values[0], values[1], values[2]};
@@ -165,6 +172,8 @@ RenderedPanorama RenderPanorama(const StreetWorld& world,
     above = std::move(row);
     row = std::move(below);
   }
+  SoftenShade(image, view.shade_blur_px);
+  CoverNadir(image, view.nadir);
   return image;
 }
 

@@ -8,6 +8,8 @@
 #include "core/geometry/equirectangular_camera.h"
 #include "core/geometry/rigid3.h"
 #include "core/scene/features.h"
+#include "core/synthetic/camera_rays.h"
+#include "core/synthetic/street_hardships.h"
 #include "core/synthetic/street_world.h"
 
 namespace orbweave {
@@ -16,13 +18,20 @@ namespace orbweave {
 struct PanoramaView {
   EquirectangularCamera camera{};
   Rigid3 cam_from_street{};
-  double exposure = 1.0;      ///< gain of this panorama
-  double noise_levels = 1.2;  ///< sensor noise, standard deviation of an 8-bit value
-  bool mask_traffic = true;   ///< moving cars are ignored, too
-  uint32_t seed = 0;          ///< of the sensor noise
+  double exposure = 1.0;                  ///< gain of this panorama
+  double noise_levels = 1.2;              ///< sensor noise, standard deviation of an 8-bit value
+  bool mask_traffic = true;               ///< moving cars are ignored, too
+  uint32_t seed = 0;                      ///< of the sensor noise
+  Colour white_balance = Colour::Ones();  ///< gain of each channel
+  double shade_noise_levels = 0.0;        ///< noise that grows from none at level 120 to this at 0
+  double shade_blur_px = 0.0;             ///< soften_shade.h
+  NadirKind nadir = NadirKind::kRoof;
+  LensRig lenses{};
+  RollingShutter shutter{};
 };
 
-/// Row-major pixels, and 255 where they are to be ignored: the carrier's roof, moving cars.
+/// Row-major pixels, and 255 where they are to be ignored: the carrier's roof or what covers the
+/// nadir, moving cars.
 struct RenderedPanorama {
   EquirectangularCamera camera{};
   std::vector<Rgb> pixels{};

@@ -28,16 +28,16 @@ SurfaceSamples SampleSurface(const Street& street, size_t i, int columns) {
   const Eigen::Matrix3d enu_from_cam = cam_from_enu.rotation.conjugate().toRotationMatrix();
   const Eigen::Vector3d centre_in_street = cam_from_enu.Centre() - street.street_in_enu;
   const Traffic none({});
+  const StreetWorld& world = street.WorldOf(i);
   SurfaceSamples samples;
   for (int row = 0; row < raster.height_px; ++row) {
     for (int column = 0; column < raster.width_px; ++column) {
       const Eigen::Vector3d bearing = raster.BearingFromPixel({column + 0.5, row + 0.5});
       const LightRay ray{centre_in_street, enu_from_cam * bearing};
-      const SurfaceHit hit = Trace(street.world, none, ray);
+      const SurfaceHit hit = Trace(world, none, ray);
       if (hit.surface == SurfaceHit::kSky) continue;
       samples.points_in_enu.push_back(hit.point + street.street_in_enu);
-      samples.colors.push_back(
-          Rounded(Shade(street.world, none, ray, hit, raster.AngleFromPixels(1.0))));
+      samples.colors.push_back(Rounded(Shade(world, none, ray, hit, raster.AngleFromPixels(1.0))));
     }
   }
   return samples;

@@ -7,7 +7,10 @@
 namespace orbweave {
 
 /// The sky in a unit direction of the world (z up) for pixels of `pixel_rad`: hills on the horizon
-/// and clouds, both at infinity.
-[[nodiscard]] Colour SkyColour(const Eigen::Vector3d& direction, double pixel_rad, uint32_t seed);
+/// and clouds, both at infinity. Hills follow from `seed`, clouds from `seed` and `clouds`.
+[[nodiscard]] Colour SkyColour(const Eigen::Vector3d& direction,
+                               double pixel_rad,
+                               uint32_t seed,
+                               uint32_t clouds = 0);
 
 }  // namespace orbweave

@@ -51,12 +51,11 @@ SolidHit IntersectEllipsoid(const Eigen::Vector3d& o,
 SolidHit Intersect(const LightRay& ray, const Solid& solid) {
   const Eigen::Vector3d o = solid.LocalDirection(ray.origin - solid.centre);
   const Eigen::Vector3d d = solid.LocalDirection(ray.direction);
-  return solid.kind == SolidKind::kCrown ? IntersectEllipsoid(o, d, solid.half)
-                                         : IntersectBox(o, d, solid.half);
+  return solid.IsRound() ? IntersectEllipsoid(o, d, solid.half) : IntersectBox(o, d, solid.half);
 }
 
 Eigen::Vector3d SurfaceNormal(const Solid& solid, int face, const Eigen::Vector3d& point) {
-  if (solid.kind == SolidKind::kCrown) {
+  if (solid.IsRound()) {
     const Eigen::Vector3d p = solid.LocalDirection(point - solid.centre);
     return solid.WorldDirection(p.cwiseQuotient(solid.half.cwiseAbs2()).normalized());
   }

@@ -7,12 +7,12 @@
 
 namespace orbweave {
 
-/// Colour of a solid at a point of its surface that is seen by a pixel covering `pixel_m` across
-/// the ray of unit direction `direction`.
-[[nodiscard]] Colour SolidColour(const Solid& solid,
-                                 int face,
-                                 const Eigen::Vector3d& point,
-                                 const Eigen::Vector3d& direction,
-                                 double pixel_m);
+/// Colour and glass of a solid at a point of its surface that is seen by a pixel covering `pixel_m`
+/// across the ray of unit direction `direction`.
+[[nodiscard]] SurfaceColour LookOfSolid(const Solid& solid,
+                                        int face,
+                                        const Eigen::Vector3d& point,
+                                        const Eigen::Vector3d& direction,
+                                        double pixel_m);
 
 }  // namespace orbweave

@@ -4,21 +4,17 @@
 #include "core/synthetic/street.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
-#include "core/base/random.h"
 #include "core/geometry/rotation.h"
-#include "core/synthetic/simulate_gnss.h"
-#include "core/synthetic/street_solids.h"
+#include "core/synthetic/measure_street.h"
+#include "core/synthetic/room_world.h"
+#include "core/synthetic/second_day.h"
 
 namespace orbweave {
 namespace {
-
-/// Independent random numbers for each purpose and panorama.
-Random RandomFor(const StreetOptions& options, const char* purpose, size_t i = 0) {
-  return Random("street/" + std::to_string(options.seed) + "/" + purpose + "/" + std::to_string(i));
-}
 
 std::string NameOf(size_t i) {
   char name[40];
@@ -40,20 +36,56 @@ Rigid3 PoseAt(const PathPlace& place, double tilt_sigma_deg, Random& random) {
   return Rigid3::FromCentre((tilt * Eigen::Quaterniond(R)).normalized(), centre);
 }
 
-/// Measurements in the street's frame, without those of one tunnel-like gap in the last third.
-std::vector<std::optional<Eigen::Vector3d>> Measure(const StreetOptions& options,
-                                                    const std::vector<Rigid3>& cams_from_street) {
-  std::vector<Eigen::Vector3d> centres;
-  for (const Rigid3& cam : cams_from_street) centres.push_back(cam.Centre());
-  const GnssModel model{options.gnss_sigma_m, options.gnss_bias_m, options.gnss_outlier_share};
-  const std::vector<Eigen::Vector3d> positions =
-      SimulateGnss(centres, model, RandomFor(options, "gnss").Next());
-  std::vector<std::optional<Eigen::Vector3d>> measured(positions.begin(), positions.end());
-  const auto n = static_cast<double>(measured.size());
-  const auto first = static_cast<size_t>(n * 2.0 / 3.0 * (1.0 - options.gnss_gap_share));
-  const auto count = static_cast<size_t>(n * options.gnss_gap_share);
-  for (size_t i = first; i < std::min(measured.size(), first + count); ++i) measured[i].reset();
-  return measured;
+/// Arc lengths of the panoramas. A drive that closes the loop spaces them evenly round it.
+std::vector<double> StationsOf(const StreetOptions& options, const StreetPath& axis) {
+  const auto n = static_cast<size_t>(options.panoramas);
+  if (options.hardships.standing) return std::vector<double>(n, 0.0);
+  const double length_m = options.panoramas * options.spacing_m;
+  const double step_m = length_m < axis.length_m() - options.spacing_m
+                            ? options.spacing_m
+                            : axis.length_m() / options.panoramas;
+  Random random = RandomForStreet(options, "spacing");
+  std::vector<double> stations_m;
+  for (size_t i = 0; i < n; ++i) {
+    // Places shift by up to half the spread, so that steps change by up to the whole of it.
+    const double shift = 0.5 * options.hardships.spacing_spread * random.Uniform(-1.0, 1.0);
+    stations_m.push_back((static_cast<double>(i) + shift) * step_m);
+  }
+  return stations_m;
+}
+
+/// Stretches of the second day alternate with those of the first; 20 panoramas together.
+std::vector<bool> SecondDayOfEach(const StreetOptions& options) {
+  constexpr double kPeriod = 20.0;
+  const double share = options.hardships.second_day_share;
+  Random random = RandomForStreet(options, "days");
+  const double start = kPeriod * random.Uniform(0.3, 0.7);
+  std::vector<bool> second;
+  for (int i = 0; i < options.panoramas; ++i) {
+    const double phase = (i + start) / kPeriod;
+    second.push_back(phase - std::floor(phase) >= 1.0 - share);
+  }
+  return second;
+}
+
+std::vector<double> CaptureTimes(const Street& street, const StreetHardships& hardships) {
+  constexpr double kFirstDay_s = 1.7e9;
+  constexpr double kDaysBetween_s = 86400.0 * 23.0;
+  std::vector<double> times_s;
+  for (size_t i = 0; i < street.stations_m.size(); ++i) {
+    const double since_start_s = hardships.standing ? 0.5 * static_cast<double>(i)
+                                                    : street.stations_m[i] / hardships.speed_mps;
+    times_s.push_back(kFirstDay_s + since_start_s +
+                      (street.on_second_day[i] ? kDaysBetween_s : 0.0));
+  }
+  return times_s;
+}
+
+StreetWorld MakeWorld(const StreetOptions& options) {
+  const double length_m = options.panoramas * options.spacing_m;
+  const uint64_t seed = RandomForStreet(options, "world").Next();
+  if (options.hardships.room) return MakeRoomWorld(length_m, seed);
+  return MakeStreetWorld(length_m, seed, options.hardships);
 }
 
 /// Median of each coordinate, zero when there is nothing.
@@ -74,24 +106,31 @@ Eigen::Vector3d MedianOf(const std::vector<std::optional<Eigen::Vector3d>>& posi
 
 }  // namespace
 
+Random RandomForStreet(const StreetOptions& options, const std::string& purpose, size_t i) {
+  return Random("street/" + std::to_string(options.seed) + "/" + purpose + "/" + std::to_string(i));
+}
+
 Street MakeStreet(const StreetOptions& options) {
   const auto n = static_cast<size_t>(options.panoramas);
-  const double length_m = options.panoramas * options.spacing_m;
-  Street street{.world = MakeStreetWorld(length_m, RandomFor(options, "world").Next()),
-                .origin = {22.3, 114.17, 10.0}};
-  const StreetPath& axis = street.world.layout.axis;
-  // A drive that closes the loop spaces its panoramas evenly round it.
-  const double step_m = length_m < axis.length_m() - options.spacing_m
-                            ? options.spacing_m
-                            : axis.length_m() / options.panoramas;
-  Random sway = RandomFor(options, "sway");
+  Street street{.world = MakeWorld(options), .origin = {22.3, 114.17, 10.0}};
+  street.stations_m = StationsOf(options, street.world.layout.axis);
+  street.on_second_day = SecondDayOfEach(options);
+  street.capture_times_s = CaptureTimes(street, options.hardships);
+  if (options.hardships.second_day_share > 0.0) {
+    street.second_day = SecondDayOf(street.world, RandomForStreet(options, "second day").Next());
+  }
+  Random sway = RandomForStreet(options, "sway");
   std::vector<Rigid3> cams_from_street;
+  std::vector<Eigen::Vector3d> centres;
   for (size_t i = 0; i < n; ++i) {
     street.names.push_back(NameOf(i));
-    street.stations_m.push_back(static_cast<double>(i) * step_m);
-    cams_from_street.push_back(PoseAt(axis.At(street.stations_m[i]), options.tilt_sigma_deg, sway));
+    const PathPlace place = street.world.layout.axis.At(street.stations_m[i]);
+    const bool moves = i == 0 || !options.hardships.standing;
+    cams_from_street.push_back(moves ? PoseAt(place, options.tilt_sigma_deg, sway)
+                                     : cams_from_street.front());
+    centres.push_back(cams_from_street.back().Centre());
   }
-  street.measured_in_enu = Measure(options, cams_from_street);
+  street.measured_in_enu = MeasureStreet(street, centres, options);
   street.street_in_enu = -MedianOf(street.measured_in_enu);
   for (auto& position : street.measured_in_enu) {
     if (position) *position += street.street_in_enu;
@@ -99,22 +138,6 @@ Street MakeStreet(const StreetOptions& options) {
   const Rigid3 street_from_enu{Eigen::Quaterniond::Identity(), -street.street_in_enu};
   for (const Rigid3& cam : cams_from_street) street.cams_from_enu.push_back(cam * street_from_enu);
   return street;
-}
-
-RenderedPanorama RenderStreetPanorama(const Street& street,
-                                      const StreetOptions& options,
-                                      size_t i) {
-  Random random = RandomFor(options, "shot", i);
-  const Rigid3 enu_from_street{Eigen::Quaterniond::Identity(), street.street_in_enu};
-  const PanoramaView view{
-      .camera = {options.width_px, options.width_px / 2},
-      .cam_from_street = street.cams_from_enu[i] * enu_from_street,
-      .exposure = 1.0 + random.Uniform(-options.exposure_spread, options.exposure_spread),
-      .noise_levels = options.noise_levels,
-      .mask_traffic = options.mask_moving_cars,
-      .seed = static_cast<uint32_t>(random.Next() >> 32)};
-  const Traffic traffic(MakeMovingCars(street.world.layout, street.stations_m[i], random));
-  return RenderPanorama(street.world, traffic, view);
 }
 
 }  // namespace orbweave

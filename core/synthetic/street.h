@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "core/base/options.h"
+#include "core/base/random.h"
 #include "core/geometry/rigid3.h"
 #include "core/scene/image_manifest.h"
-#include "core/synthetic/render_panorama.h"
+#include "core/synthetic/street_hardships.h"
 #include "core/synthetic/street_world.h"
 
 namespace orbweave {
 
-/// A drive round a block with a panoramic camera, 2.5 m above a street that is rendered.
+/// A drive round a block with a panoramic camera, 2.5 m above a street that is rendered; with
+/// `hardships.room`, a walk round a room.
 struct StreetOptions {
   int panoramas = 48;
   int width_px = 2048;
@@ -29,6 +31,7 @@ struct StreetOptions {
   double gnss_gap_share = 0.08;
   bool mask_moving_cars = true;
   int seed = 1;
+  StreetHardships hardships{};  ///< validated and visited on their own
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -72,22 +75,30 @@ struct StreetOptions {
 /// `origin`, which differs from the street's frame by a translation.
 struct Street {
   StreetWorld world;
-  std::vector<std::string> names{};                         ///< street_0000.jpg, ...
-  std::vector<double> stations_m{};                         ///< arc length along the axis
+  std::vector<std::string> names{};  ///< street_0000.jpg, ...
+  std::vector<double> stations_m{};  ///< arc length along the axis
+  std::optional<StreetWorld> second_day{};
+  std::vector<bool> on_second_day{};
+  std::vector<double> capture_times_s{};                    ///< since 1970
   Eigen::Vector3d street_in_enu = Eigen::Vector3d::Zero();  ///< origin of the street's frame
   std::vector<Rigid3> cams_from_enu{};                      ///< truth
   /// Median of the measured positions: the origin that an honest reader of the GNSS table would
   /// choose as well.
   GeodeticPosition origin{};
   std::vector<std::optional<Eigen::Vector3d>> measured_in_enu{};  ///< GNSS; absent in the gap
+
+  /// What stood there when panorama i was taken.
+  [[nodiscard]] const StreetWorld& WorldOf(size_t i) const {
+    return on_second_day[i] ? *second_day : world;
+  }
 };
 
 /// Places houses, camera and measurements; renders nothing.
 [[nodiscard]] Street MakeStreet(const StreetOptions& options);
 
-/// Panorama i of the street; a pure function of the options and i.
-[[nodiscard]] RenderedPanorama RenderStreetPanorama(const Street& street,
-                                                    const StreetOptions& options,
-                                                    size_t i);
+/// Independent random numbers for each purpose and panorama of a street.
+[[nodiscard]] Random RandomForStreet(const StreetOptions& options,
+                                     const std::string& purpose,
+                                     size_t i = 0);
 
 }  // namespace orbweave

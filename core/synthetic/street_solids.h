@@ -7,13 +7,16 @@
 
 #include "core/base/random.h"
 #include "core/synthetic/solid.h"
+#include "core/synthetic/street_hardships.h"
 #include "core/synthetic/street_layout.h"
 
 namespace orbweave {
 
 /// What stands along the street: houses on both sides with fixtures on their walls, lamp posts,
 /// trees, hedges and parked cars.
-[[nodiscard]] std::vector<Solid> MakeStreetSolids(const StreetLayout& layout, uint64_t seed);
+[[nodiscard]] std::vector<Solid> MakeStreetSolids(const StreetLayout& layout,
+                                                  uint64_t seed,
+                                                  const StreetHardships& hardships = {});
 
 /// The cars that happen to drive near `station_m` while that panorama is taken.
 [[nodiscard]] std::vector<Solid> MakeMovingCars(const StreetLayout& layout,

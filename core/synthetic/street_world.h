@@ -8,10 +8,19 @@
 
 #include "core/synthetic/solid.h"
 #include "core/synthetic/solid_grid.h"
+#include "core/synthetic/street_hardships.h"
 #include "core/synthetic/street_layout.h"
 #include "core/synthetic/texture.h"
 
 namespace orbweave {
+
+/// Sun and sky of one day.
+struct Daylight {
+  Eigen::Vector3d to_sun = Eigen::Vector3d(0.45, -0.55, 0.80).normalized();
+  double sun = 0.62;    ///< brightness of a white surface that faces it
+  double sky = 0.62;    ///< brightness of a white upright surface in the shade
+  uint32_t clouds = 0;  ///< another number, other clouds
+};
 
 /// A street that stands still, in its own frame (street_layout.h).
 struct StreetWorld {
@@ -19,10 +28,15 @@ struct StreetWorld {
   std::vector<Solid> solids{};
   SolidGrid grid{};  ///< of `solids`
   uint32_t seed = 0;
+  Daylight light{};
+  double ground_contrast = 1.0;
+  double reflection = 0.0;  ///< share of what glass mirrors that is to be seen
 };
 
 /// The street that a drive of `length_m` goes round; long enough drives meet their start.
-[[nodiscard]] StreetWorld MakeStreetWorld(double length_m, uint64_t seed);
+[[nodiscard]] StreetWorld MakeStreetWorld(double length_m,
+                                          uint64_t seed,
+                                          const StreetHardships& hardships = {});
 
 /// What moves while one panorama is taken.
 struct Traffic {
@@ -56,7 +70,8 @@ struct SurfaceHit {
                                const Traffic& traffic,
                                const LightRay& ray);
 
-/// Colour of a hit for a pixel of `pixel_rad`: texture times sunlight and shadow.
+/// Colour of a hit for a pixel of `pixel_rad`: texture times sunlight and shadow, and what its
+/// glass mirrors (once; Schlick's approximation of Fresnel's equations).
 [[nodiscard]] Colour Shade(const StreetWorld& world,
                            const Traffic& traffic,
                            const LightRay& ray,

@@ -13,6 +13,14 @@ namespace orbweave {
 /// Red, green, blue in [0, 1] as displayed (no gamma is applied anywhere).
 using Colour = Eigen::Vector3d;
 
+/// What a surface shows by itself, and the share of it that is glass before which the street
+/// mirrors.
+struct SurfaceColour {
+  Colour colour = Colour::Zero();
+  double glass = 0.0;
+  uint32_t pane = 0;  ///< panes of different numbers hang a little askew to each other
+};
+
 /// A place on a flat surface and how much of it one pixel covers: textures filter themselves.
 struct TexturePoint {
   double u_m = 0.0;  ///< from the left edge

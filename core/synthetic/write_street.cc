@@ -17,6 +17,7 @@
 #include "core/base/parallel_for.h"
 #include "core/base/random.h"
 #include "core/scene/local_frame.h"
+#include "core/synthetic/render_street_panorama.h"
 #include "core/synthetic/sample_surface.h"
 
 namespace orbweave {
@@ -46,6 +47,7 @@ absl::Status WriteImage(const fs::path& path, const cv::Mat& image, const std::v
 
 absl::Status WritePanorama(RenderedPanorama panorama,
                            const std::string& name,
+                           int jpeg_quality,
                            const fs::path& folder) {
   const int width = panorama.camera.width_px;
   const int height = panorama.camera.height_px;
@@ -54,7 +56,7 @@ absl::Status WritePanorama(RenderedPanorama panorama,
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   ORBWEAVE_RETURN_IF_ERROR(
-      WriteImage(folder / "images" / name, bgr, {cv::IMWRITE_JPEG_QUALITY, 95}));
+      WriteImage(folder / "images" / name, bgr, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality}));
   return WriteImage(folder / "masks" / fs::path(name).replace_extension(".png"), mask, {});
 }
 
@@ -95,19 +97,26 @@ double HeadingDeg(const Rigid3& cam_from_enu) {
 std::string GnssCsv(const Street& street, const StreetOptions& options) {
   constexpr double kHeadingSigma_deg = 2.0;
   Random random("street/heading/" + std::to_string(options.seed));
-  std::string csv = "name,latitude,longitude,altitude,accuracy,heading\n";
+  // Who recorded on two days has times of capture and a name for each drive.
+  const bool two_days = street.second_day.has_value();
+  std::string csv = "name,latitude,longitude,altitude,accuracy,heading";
+  csv += two_days ? ",time,drive\n" : "\n";
   for (size_t i = 0; i < street.names.size(); ++i) {
     const double heading =
         HeadingDeg(street.cams_from_enu[i]) + kHeadingSigma_deg * random.Normal() + 360.0;
     if (!street.measured_in_enu[i]) continue;
     const GeodeticPosition p = GeodeticFromEnu(*street.measured_in_enu[i], street.origin);
-    csv += Line("%s,%.9f,%.9f,%.4f,%.2f,%.1f\n",
+    csv += Line("%s,%.9f,%.9f,%.4f,%.2f,%.1f",
                 street.names[i].c_str(),
                 p.latitude_deg,
                 p.longitude_deg,
                 p.altitude_m,
                 std::max(0.5, options.gnss_sigma_m),
                 std::fmod(heading, 360.0));
+    if (two_days) {
+      csv += Line(",%.3f,day%d", street.capture_times_s[i], street.on_second_day[i] ? 2 : 1);
+    }
+    csv += "\n";
   }
   return csv;
 }
@@ -147,7 +156,10 @@ absl::Status WritePanoramas(const Street& street,
   ParallelFor(n, context.num_threads, [&](size_t i) {
     statuses[i] = context.CheckStop();
     if (!statuses[i].ok()) return;
-    statuses[i] = WritePanorama(RenderStreetPanorama(street, options, i), street.names[i], folder);
+    statuses[i] = WritePanorama(RenderStreetPanorama(street, options, i),
+                                street.names[i],
+                                options.hardships.jpeg_quality,
+                                folder);
     context.Report(++done, n, "panoramas");
   });
   for (const absl::Status& status : statuses) ORBWEAVE_RETURN_IF_ERROR(status);
@@ -160,6 +172,7 @@ absl::Status WriteStreet(const StreetOptions& options,
                          const std::string& output_dir,
                          const StageContext& context) {
   ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", options));
+  ORBWEAVE_RETURN_IF_ERROR(ValidateOptions("street", options.hardships));
   const fs::path folder(output_dir);
   for (const char* part : {"images", "masks"}) {
     std::error_code error;
