@@ -74,7 +74,7 @@ void AddCorridor(CLI::App& synth, SelectedCommand& selected) {
   });
 }
 
-/// A street's option as it was given: its name and text, or "true" for a switch without a text.
+/// A street's option as it was given: its name and text.
 using StreetSetting = std::pair<std::string, std::string>;
 
 struct StreetArguments {
@@ -142,31 +142,37 @@ absl::Status WriteRenderedStreet(const StreetArguments& arguments) {
   return absl::OkStatus();
 }
 
-/// One command-line option per field: --spacing and --spacing-m for spacing_m. A switch needs no
-/// value.
+/// One command-line option per field: --spacing and --spacing-m for spacing_m; a switch and its
+/// opposite, --standing and --no-standing, for a field that is true or false.
 template <typename Options>
 void AddStreetFields(CLI::App& command, StreetArguments& arguments, const char* group) {
   Options defaults;
   internal::ForEachField(
       defaults, [&](std::string_view name, auto& member, std::string_view help, Range range) {
         if (name == "width_px") return;  // --size
-        std::string flag = "--" + std::string(name);
+        std::string flag(name);
         std::replace(flag.begin(), flag.end(), '_', '-');
-        if (name == "spacing_m") flag += ",--spacing";
-        constexpr bool kIsSwitch = std::is_same_v<std::decay_t<decltype(member)>, bool>;
-        CLI::Option* option = command.add_option_function<std::string>(
-            flag,
-            [&arguments, key = std::string(name)](const std::string& text) {
-              arguments.settings.emplace_back(key, kIsSwitch && text.empty() ? "true" : text);
-              StreetOptions scratch;
-              const absl::Status status = SetStreetOption(scratch, arguments.settings.back());
-              if (!status.ok()) throw CLI::ValidationError(std::string(status.message()));
-            },
-            std::string(help));
-        option->type_name(internal::RangeOf(member, range))
-            ->default_str(internal::ValueToText(member))
-            ->group(group);
-        if (kIsSwitch) option->expected(0, 1);
+        const auto set = [&arguments, key = std::string(name)](const std::string& text) {
+          arguments.settings.emplace_back(key, text);
+          StreetOptions scratch;
+          const absl::Status status = SetStreetOption(scratch, arguments.settings.back());
+          if (!status.ok()) throw CLI::ValidationError(std::string(status.message()));
+        };
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, bool>) {
+          command
+              .add_flag_function(
+                  "--" + flag + ",!--no-" + flag,
+                  [set](int64_t count) { set(count > 0 ? "true" : "false"); },
+                  std::string(help))
+              ->group(group);
+        } else {
+          command
+              .add_option_function<std::string>(
+                  "--" + flag + (name == "spacing_m" ? ",--spacing" : ""), set, std::string(help))
+              ->type_name(internal::RangeOf(member, range))
+              ->default_str(internal::ValueToText(member))
+              ->group(group);
+        }
       });
 }
 

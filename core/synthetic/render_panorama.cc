@@ -55,6 +55,7 @@ class Renderer {
         traffic_(traffic),
         view_(view),
         rays_(view.camera, view.cam_from_street, view.lenses, view.shutter),
+        shows_roof_(view.nadir == NadirKind::kRoof || view.nadir == NadirKind::kBlurred),
         pixel_rad_(view.camera.AngleFromPixels(1.0)) {}
 
   /// Sample and colour of a ray through an image position; `size` is the pixel's extent, below 1
@@ -62,7 +63,7 @@ class Renderer {
   Colour Look(double x_px, double y_px, double size, Sample& sample) const {
     const Eigen::Vector3d bearing = view_.camera.BearingFromPixel({x_px, y_px});
     const double pixel_rad = size * pixel_rad_;
-    if (bearing.y() > 0.3 && view_.nadir != NadirKind::kNone) {
+    if (bearing.y() > 0.3 && shows_roof_) {
       sample.on_roof = Eigen::Vector2d(bearing.x(), bearing.z()) * (kRoofBelow_m / bearing.y());
       if (FromRoof(sample.on_roof) < 0.0) {
         sample.hit = {.surface = kRoofSurface};
@@ -92,6 +93,7 @@ class Renderer {
   const Traffic& traffic_;
   const PanoramaView& view_;
   CameraRays rays_;
+  bool shows_roof_;
   double pixel_rad_;
 };
 

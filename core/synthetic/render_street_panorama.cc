@@ -12,13 +12,15 @@
 namespace orbweave {
 namespace {
 
-/// Crowns of trees pushed aside, each by its own gust, with other leaves to be seen.
-StreetWorld InTheWind(StreetWorld world, double wind_m, Random random) {
+/// Crowns of trees pushed aside, each by its own gust, with other leaves to be seen; clouds go by.
+StreetWorld InTheWind(StreetWorld world, double wind_m, double since_start_s, Random random) {
   for (Solid& solid : world.solids) {
     if (solid.kind != SolidKind::kCrown) continue;
     for (const int axis : {0, 1, 2}) solid.centre[axis] += wind_m * random.Normal();
     solid.leaves = 1 + random.Index(1U << 20);
   }
+  // Clouds a kilometre up move with 8 m/s.
+  world.light.cloud_drift = 0.008 * since_start_s * Eigen::Vector2d(0.8, 0.6);
   world.grid = SolidGrid(world.solids);
   return world;
 }
@@ -96,8 +98,9 @@ RenderedPanorama RenderStreetPanorama(const Street& street,
   const StreetWorld& world = street.WorldOf(i);
   const double wind_m = options.hardships.wind_m;
   if (wind_m == 0.0) return RenderPanorama(world, traffic, view);
-  return RenderPanorama(
-      InTheWind(world, wind_m, RandomForStreet(options, "wind", i)), traffic, view);
+  const double since_start_s = street.capture_times_s[i] - street.capture_times_s[0];
+  Random gusts = RandomForStreet(options, "wind", i);
+  return RenderPanorama(InTheWind(world, wind_m, since_start_s, gusts), traffic, view);
 }
 
 }  // namespace orbweave

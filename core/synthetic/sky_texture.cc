@@ -19,13 +19,14 @@ double CrestOf(const Eigen::Vector3d& direction, double pixel_rad, uint32_t seed
 Colour SkyColour(const Eigen::Vector3d& direction,
                  double pixel_rad,
                  uint32_t seed,
-                 uint32_t clouds) {
+                 uint32_t clouds,
+                 const Eigen::Vector2d& drift) {
   const double up = std::max(0.0, direction.z());
   Colour colour = Mix({0.78, 0.84, 0.90}, {0.34, 0.52, 0.80}, std::sqrt(up));
   // A layer of clouds on a shell: the plane coordinate stays finite at the horizon.
   const double scale = 1.0 / (up + 0.25);
-  const double cloud = FractalNoise(scale * direction.x(),
-                                    scale * direction.y(),
+  const double cloud = FractalNoise(scale * direction.x() + drift.x(),
+                                    scale * direction.y() + drift.y(),
                                     {1.2, 0.02},
                                     1.5 * scale * pixel_rad,
                                     seed + 1000 * clouds);

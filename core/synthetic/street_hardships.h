@@ -91,7 +91,10 @@ struct StreetHardships {
           self.repeat_share,
           "share of houses that are the same as the one before",
           Range{0, 1});
-    visit("wind_m", self.wind_m, "crowns of trees move and their leaves turn", Range{0, 1});
+    visit("wind_m",
+          self.wind_m,
+          "crowns of trees move, their leaves turn, clouds go by",
+          Range{0, 1});
     visit("second_day_share",
           self.second_day_share,
           "share of panoramas, in stretches, of a day of other light, parked cars and shop fronts",

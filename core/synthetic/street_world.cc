@@ -50,7 +50,8 @@ SurfaceColour Lit(const StreetWorld& world,
                   const SurfaceHit& hit,
                   double pixel_rad) {
   if (hit.surface == SurfaceHit::kSky) {
-    return {SkyColour(ray.direction, pixel_rad, world.seed + 5, world.light.clouds)};
+    return {SkyColour(
+        ray.direction, pixel_rad, world.seed + 5, world.light.clouds, world.light.cloud_drift)};
   }
   const double pixel_m = pixel_rad * hit.distance_m;
   SurfaceColour seen;

@@ -20,6 +20,7 @@ struct Daylight {
   double sun = 0.62;    ///< brightness of a white surface that faces it
   double sky = 0.62;    ///< brightness of a white upright surface in the shade
   uint32_t clouds = 0;  ///< another number, other clouds
+  Eigen::Vector2d cloud_drift = Eigen::Vector2d::Zero();  ///< way gone, in heights of the clouds
 };
 
 /// A street that stands still, in its own frame (street_layout.h).
