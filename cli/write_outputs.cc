@@ -3,8 +3,8 @@
 #include "cli/write_outputs.h"
 
 #include <filesystem>
-#include <map>
 #include <utility>
+#include <vector>
 
 #include "cli/fetch_results.h"
 #include "cli/write_models.h"
@@ -38,23 +38,29 @@ void FillRun(const JobStatus& status, JobReport& report) {
   }
 }
 
-absl::Status WriteMainModelFiles(const JobResults& results,
-                                 bool georeferenced,
-                                 const std::filesystem::path& folder) {
-  const std::map<ImageId, RegisteredImage> none;
-  const std::map<ImageId, RegisteredImage>& main =
-      results.models.empty() ? none : results.models.front().images;
-  ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / "cameras.csv").string(),
-                                               CamerasCsv(main, results.manifest, georeferenced)));
+/// Models that have the job's frame on earth.
+std::vector<uint32_t> ModelsOnEarth(const JobReport& report) {
+  std::vector<uint32_t> models;
+  for (uint32_t number = 0; number < report.each_model.size(); ++number) {
+    if (report.each_model[number].gnss.used) models.push_back(number);
+  }
+  return models;
+}
+
+absl::Status WritePoseFiles(const JobReport& report,
+                            const ImageManifest& manifest,
+                            const std::filesystem::path& folder) {
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteFileAtomically((folder / "cameras.csv").string(), CamerasCsv(report)));
   ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / "georeference.json").string(),
-                                               GeoreferenceJson(results.manifest, georeferenced)));
+                                               GeoreferenceJson(manifest, ModelsOnEarth(report))));
   const std::string geojson_path = (folder / "trajectory.geojson").string();
-  if (!georeferenced) {
+  if (!report.origin) {
     std::error_code ignored;
     std::filesystem::remove(geojson_path, ignored);
     return absl::OkStatus();
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::string geojson, TrajectoryGeoJson(main, results.manifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string geojson, TrajectoryGeoJson(report));
   return WriteFileAtomically(geojson_path, geojson);
 }
 
@@ -92,7 +98,7 @@ absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
   JobReport report = BuildJobReport(results);
   FillRun(status, report);
 
-  ORBWEAVE_RETURN_IF_ERROR(WriteMainModelFiles(results, report.origin.has_value(), path));
+  ORBWEAVE_RETURN_IF_ERROR(WritePoseFiles(report, results.manifest, path));
   ORBWEAVE_RETURN_IF_ERROR(WriteTrace(coordinator, status.id, path));
   ORBWEAVE_RETURN_IF_ERROR(
       WriteFileAtomically((path / "report.json").string(), ReportJson(report)));

@@ -47,29 +47,69 @@ void AppendUncertainty(std::string& line, const std::optional<PoseUncertainty>& 
   AppendNumber(line, uncertainty->RotationSigma_deg(), 7);
 }
 
+constexpr const char* kPoseHeader =
+    "name,x,y,z,qw,qx,qy,qz,latitude,longitude,altitude,state,"
+    "sigma_x,sigma_y,sigma_z,sigma_rotation_deg";
+
+/// From name to sigma_rotation_deg. `origin`: null where the pose is not on earth.
+void AppendPoseCells(std::string& line, const ReportImage& image, const GeodeticPosition* origin) {
+  line += CsvField(image.name);
+  if (!image.registered) {
+    line += ",,,,,,,,,,,not_registered,,,,";
+    return;
+  }
+  AppendPose(line, image.cam_from_world);
+  if (origin != nullptr) {
+    AppendGeodetic(line, image.cam_from_world, *origin);
+  } else {
+    line += ",,,";
+  }
+  line += ',';
+  line += image.StateText();
+  AppendUncertainty(line, image.uncertainty);
+}
+
+/// From model to residual_px.
+void AppendMeasureCells(std::string& line, const ReportImage& image) {
+  line += ',';
+  if (image.registered) line += std::to_string(image.model);
+  line += ',';
+  if (image.cluster >= 0) line += std::to_string(image.cluster);
+  line += ',';
+  if (image.registered) line += std::to_string(image.observations);
+  if (image.observations > 0) {
+    AppendNumber(line, image.residual_px_mean, 4);
+  } else {
+    line += ',';
+  }
+}
+
 }  // namespace
+
+std::string CamerasCsv(const JobReport& report) {
+  std::string csv = std::string(kPoseHeader) + ",model,cluster,observations,residual_px\n";
+  for (const ReportImage& image : report.images) {
+    const bool on_earth = report.origin && report.IsGeoreferenced(image);
+    AppendPoseCells(csv, image, on_earth ? &*report.origin : nullptr);
+    AppendMeasureCells(csv, image);
+    csv += '\n';
+  }
+  return csv;
+}
 
 std::string CamerasCsv(const std::map<ImageId, RegisteredImage>& images,
                        const ImageManifest& manifest,
                        bool georeferenced) {
-  std::string csv =
-      "name,x,y,z,qw,qx,qy,qz,latitude,longitude,altitude,state,"
-      "sigma_x,sigma_y,sigma_z,sigma_rotation_deg\n";
+  std::string csv = std::string(kPoseHeader) + "\n";
   for (const ImageRecord& record : manifest.images) {
-    csv += CsvField(record.name);
-    const auto image = images.find(record.id);
-    if (image == images.end()) {
-      csv += ",,,,,,,,,,,not_registered,,,,\n";
-      continue;
+    ReportImage row{.name = record.name};
+    if (const auto image = images.find(record.id); image != images.end()) {
+      row.registered = true;
+      row.loose = image->second.loose;
+      row.cam_from_world = image->second.cam_from_world;
+      row.uncertainty = image->second.uncertainty;
     }
-    AppendPose(csv, image->second.cam_from_world);
-    if (georeferenced && manifest.origin) {
-      AppendGeodetic(csv, image->second.cam_from_world, *manifest.origin);
-    } else {
-      csv += ",,,";
-    }
-    csv += image->second.loose ? ",loose" : ",registered";
-    AppendUncertainty(csv, image->second.uncertainty);
+    AppendPoseCells(csv, row, georeferenced && manifest.origin ? &*manifest.origin : nullptr);
     csv += '\n';
   }
   return csv;

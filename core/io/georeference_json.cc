@@ -24,7 +24,8 @@ Json EcefFromEnu(const GeodeticPosition& origin) {
 
 }  // namespace
 
-std::string GeoreferenceJson(const ImageManifest& manifest, bool georeferenced) {
+std::string GeoreferenceJson(const ImageManifest& manifest, const std::vector<uint32_t>& models) {
+  const bool georeferenced = !models.empty();
   Json json;
   json["georeferenced"] = georeferenced && manifest.origin.has_value();
   if (!georeferenced || !manifest.origin) {
@@ -39,6 +40,7 @@ std::string GeoreferenceJson(const ImageManifest& manifest, bool georeferenced) 
   json["axes"] = "east-north-up";
   json["unit"] = "metre";
   json["ecef_from_enu"] = EcefFromEnu(*manifest.origin);
+  json["models"] = models;
   return JsonText(json);
 }
 

@@ -103,11 +103,9 @@ std::string DurationText(double seconds) {
   return absl::StrCat(whole / 3600, " h ", two(whole / 60 % 60), " min");
 }
 
-std::string ClusterColor(int cluster) {
-  if (cluster < 0) return "hsl(0 0% 55%)";
-  // The golden angle spreads any number of hues; lightness alternates for those that come close.
-  const double hue = std::fmod(205.0 + 137.508 * cluster, 360.0);
-  return absl::StrCat("hsl(", DecimalText(hue, 0), " 56% ", cluster % 2 == 0 ? 50 : 42, "%)");
+std::string SeriesColor(int number) {
+  constexpr int kColors = 7;
+  return number < 0 ? "var(--kn)" : absl::StrCat("var(--k", number % kColors, ")");
 }
 
 }  // namespace orbweave

@@ -25,7 +25,8 @@ namespace orbweave {
 [[nodiscard]] std::string DurationText(double seconds);
 /// `seconds` to a tenth, for columns: "12.3".
 [[nodiscard]] inline std::string SecondsText(double seconds) { return DecimalText(seconds, 1); }
-/// A colour per cluster, far from that of its neighbours in number; grey for none (-1).
-[[nodiscard]] std::string ClusterColor(int cluster);
+/// A colour per line or part of a chart, as CSS: seven that people tell apart whatever their eyes
+/// see, in turn; grey below zero.
+[[nodiscard]] std::string SeriesColor(int number);
 
 }  // namespace orbweave

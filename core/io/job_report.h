@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/geometry/rigid3.h"
 #include "core/scene/cross_check.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
@@ -25,13 +27,20 @@ struct ReportImage {
   int cluster = -1;         ///< cluster it is interior to; -1: none
   bool in_overlap = false;  ///< shared by two or more clusters
   uint32_t drive = 0;
+  Rigid3 cam_from_world{};
   Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d>
-      gnss_in_world{};  ///< GNSS position, when the model is georeferenced
+  /// GNSS position, where its model is georeferenced, or where it has none and another one is.
+  std::optional<Eigen::Vector3d> gnss_in_world{};
   bool gnss_outlier = false;
   uint32_t observations = 0;
   double residual_px_mean = 0.0;
   std::optional<PoseUncertainty> uncertainty{};
+
+  /// "registered", "loose" or "not_registered".
+  [[nodiscard]] std::string_view StateText() const {
+    if (!registered) return "not_registered";
+    return loose ? "loose" : "registered";
+  }
 };
 
 struct ReportStage {
@@ -86,8 +95,9 @@ struct ReportSeam {
   double position_jump_m = 0.0;  ///< metres where georeferenced, model units otherwise
   double rotation_jump_deg = 0.0;
   bool used = true;
-  std::string reason{};   ///< why it is not used
-  ReportSeamFit after{};  ///< the global adjustment
+  bool contradicted = false;  ///< by loops, hence not used
+  std::string reason{};       ///< why it is not used
+  ReportSeamFit after{};      ///< the global adjustment
 };
 
 struct ReportGnss {
@@ -99,6 +109,19 @@ struct ReportGnss {
   double residual_rms_inliers_m = 0.0;
   double bend_m = 0.0;  ///< that the model was bent to the positions, at most; 0: it was rigid
   std::vector<std::string> outliers{};  ///< names
+};
+
+/// One of the written models: sparse/N.
+struct ReportModel {
+  uint32_t images = 0;  ///< registered in it
+  uint32_t loose = 0;   ///< placed in it loosely
+  uint64_t points = 0;
+  uint64_t observations = 0;
+  double residual_px_mean = 0.0;
+  ReportGnss gnss{};  ///< used: the model has the job's east-north-up frame
+  /// Between registered images that follow each other in a drive, world units.
+  double step_median = 0.0;
+  double path_length = 0.0;
 };
 
 /// Sigmas of the main model's poses: of positions root of the trace, in its units (metres with
@@ -153,6 +176,7 @@ struct JobReport {
   std::vector<Exclusion>
       not_registered{};  ///< excluded files and images without a pose, with reasons
   uint32_t models = 0;   ///< sparse/0 ... sparse/(models - 1)
+  std::vector<ReportModel> each_model{};  ///< in order; most images first
   uint64_t points = 0;
   uint64_t observations = 0;
   double mean_track_length = 0.0;
@@ -162,11 +186,11 @@ struct JobReport {
   std::vector<uint64_t> track_lengths{};  ///< [n]: points seen by n images; the last: by n or more
   std::vector<ReportCluster> clusters{};
   std::vector<ReportSeam> seams{};
-  ReportGnss gnss{};
-  ReportUncertainty uncertainty{};
+  ReportGnss gnss{};                            ///< of the first model
+  ReportUncertainty uncertainty{};              ///< of the first model
   std::vector<ReportAdjustment> adjustments{};  ///< per model
   std::optional<GeodeticPosition>
-      origin{};                       ///< of the east-north-up frame; absent: the frame is free
+      origin{};  ///< of the east-north-up frame; absent: all models' frames are free
   std::vector<ReportStage> stages{};  ///< in order
   std::vector<ReportWorker> workers{};
   double elapsed_s = 0.0;
@@ -175,6 +199,11 @@ struct JobReport {
   std::vector<std::string> warnings{};
   std::string options_text{};
   std::vector<ReportImage> images{};  ///< in id order
+
+  /// Whether the image has a pose in the job's east-north-up frame.
+  [[nodiscard]] bool IsGeoreferenced(const ReportImage& image) const {
+    return image.registered && image.model < each_model.size() && each_model[image.model].gnss.used;
+  }
 };
 
 }  // namespace orbweave

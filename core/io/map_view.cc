@@ -13,6 +13,8 @@ namespace {
 constexpr double kMinHeight = 220.0;
 constexpr double kMaxHeight = 680.0;
 constexpr double kMargin = 46.0;
+constexpr double kFrame = 14.0;         // of the page, that symbols stay away from its edge
+constexpr double kRoomForMarks = 0.25;  // share of the extent
 
 /// Two rows that take a world point to the plane of the map, x right and y up.
 Eigen::Matrix<double, 2, 3> MapAxes(const MapImages& images, bool georeferenced) {
@@ -39,7 +41,9 @@ Eigen::Matrix<double, 2, 3> MapAxes(const MapImages& images, bool georeferenced)
 
 }  // namespace
 
-MapView FitMapView(const MapImages& images, bool georeferenced) {
+MapView FitMapView(const MapImages& images,
+                   bool georeferenced,
+                   const std::vector<Eigen::Vector3d>& marks) {
   MapView view;
   view.axes = MapAxes(images, georeferenced);
   view.low.setConstant(std::numeric_limits<double>::infinity());
@@ -49,6 +53,15 @@ MapView FitMapView(const MapImages& images, bool georeferenced) {
     view.low = view.low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  // A street that runs straight has no extent across: its longer side counts.
+  const double room = kRoomForMarks * (high - view.low).maxCoeff();
+  const Eigen::Vector2d lowest = view.low.array() - room;
+  const Eigen::Vector2d highest = high.array() + room;
+  for (const Eigen::Vector3d& mark : marks) {
+    const Eigen::Vector2d p = view.axes * mark;
+    view.low = view.low.cwiseMin(p.cwiseMax(lowest));
+    high = high.cwiseMax(p.cwiseMin(highest));
+  }
   const Eigen::Vector2d extent = (high - view.low).cwiseMax(1e-9);
   view.units_per_pixel =
       std::max(extent.x() / (kMapWidth - 2 * kMargin), extent.y() / (kMaxHeight - 2 * kMargin));
@@ -56,6 +69,20 @@ MapView FitMapView(const MapImages& images, bool georeferenced) {
   view.height = std::max(kMinHeight, drawn.y() + 2 * kMargin);
   view.offset = 0.5 * (Eigen::Vector2d(kMapWidth, view.height) - drawn);
   return view;
+}
+
+Eigen::Vector2d WithinFrame(const MapView& view,
+                            const Eigen::Vector2d& from,
+                            const Eigen::Vector2d& place) {
+  const Eigen::Vector2d low(kFrame, kFrame);
+  const Eigen::Vector2d high(kMapWidth - kFrame, view.height - kFrame);
+  const Eigen::Vector2d way = place - from;
+  double share = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (way[axis] > 0.0) share = std::min(share, (high[axis] - from[axis]) / way[axis]);
+    if (way[axis] < 0.0) share = std::min(share, (low[axis] - from[axis]) / way[axis]);
+  }
+  return from + std::max(share, 0.0) * way;
 }
 
 }  // namespace orbweave

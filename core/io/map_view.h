@@ -28,7 +28,16 @@ struct MapView {
 };
 
 /// Shows all `images` from above or, in a free frame, along the direction in which the centres
-/// spread least.
-[[nodiscard]] MapView FitMapView(const MapImages& images, bool georeferenced);
+/// spread least. The map grows by up to a quarter of its extent on each side for `marks`; those
+/// further off are beyond its frame.
+[[nodiscard]] MapView FitMapView(const MapImages& images,
+                                 bool georeferenced,
+                                 const std::vector<Eigen::Vector3d>& marks);
+
+/// A place on the page, moved straight towards `from`, which is within, until it is within the
+/// map's frame.
+[[nodiscard]] Eigen::Vector2d WithinFrame(const MapView& view,
+                                          const Eigen::Vector2d& from,
+                                          const Eigen::Vector2d& place);
 
 }  // namespace orbweave

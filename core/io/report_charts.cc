@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/cluster_colors.h"
 #include "core/io/html_text.h"
 
 namespace orbweave {
@@ -17,16 +19,16 @@ namespace {
 
 constexpr double kHalfWidth = 520.0;
 constexpr double kFullWidth = 1080.0;
-constexpr double kHeight = 220.0;
-constexpr double kLeft = 62.0;
+constexpr double kHeight = 226.0;
+constexpr double kLeft = 70.0;
 constexpr double kRight = 10.0;
 constexpr double kTop = 12.0;
-constexpr double kBottom = 34.0;
+constexpr double kBottom = 40.0;
 
 struct Bar {
   double value = 0.0;
   std::string title{};
-  std::string color{};  ///< empty: the accent colour
+  std::string color{};  ///< class of the stylesheet; empty: the accent colour
 };
 
 /// A label below the boundary before bar `bar` (or below its middle).
@@ -68,7 +70,8 @@ std::string Gridline(double y, double width, const std::string& label) {
 }
 
 /// Vertical bars with a value axis, tick labels and a caption below. `extra` is drawn on top.
-std::string BarChart(double width,
+std::string BarChart(const std::string& classes,
+                     double width,
                      const std::vector<Bar>& bars,
                      const std::vector<Tick>& ticks,
                      const std::string& caption,
@@ -80,7 +83,9 @@ std::string BarChart(double width,
       (width - kLeft - kRight) / static_cast<double>(std::max<size_t>(bars.size(), 1));
   const double base = kHeight - kBottom;
   const auto y_of = [&](double value) { return base - value / top * (base - kTop); };
-  std::string svg = absl::StrCat("<svg class=\"chart\" viewBox=\"0 0 ",
+  std::string svg = absl::StrCat("<svg class=\"",
+                                 classes,
+                                 "\" viewBox=\"0 0 ",
                                  width,
                                  " ",
                                  kHeight,
@@ -94,7 +99,9 @@ std::string BarChart(double width,
     if (bars[i].value <= 0.0) continue;
     const double y = y_of(bars[i].value);
     absl::StrAppend(&svg,
-                    "<rect class=\"bar\" x=\"",
+                    "<rect class=\"bar",
+                    bars[i].color.empty() ? "" : " " + bars[i].color,
+                    "\" x=\"",
                     DecimalText(kLeft + static_cast<double>(i) * bar_width + 0.5 * gap, 2),
                     "\" y=\"",
                     DecimalText(y, 1),
@@ -103,17 +110,14 @@ std::string BarChart(double width,
                     "\" height=\"",
                     DecimalText(base - y, 1),
                     "\"",
-                    bars[i].color.empty() ? "" : " style=\"fill:" + bars[i].color + "\"",
-                    "><title>",
-                    bars[i].title,
-                    "</title></rect>");
+                    bars[i].title.empty() ? "/>" : "><title>" + bars[i].title + "</title></rect>");
   }
   for (const Tick& tick : ticks) {
     absl::StrAppend(&svg,
                     "<text class=\"tick\" text-anchor=\"middle\" x=\"",
                     DecimalText(kLeft + tick.bar * bar_width, 1),
                     "\" y=\"",
-                    base + 14,
+                    base + 17,
                     "\">",
                     tick.text,
                     "</text>");
@@ -151,7 +155,7 @@ std::string ResidualHistogramSvg(const JobReport& report) {
     if (i % 10 == 0) ticks.push_back({static_cast<double>(i), DecimalText(low, 0)});
   }
   return BarChart(
-      kHalfWidth, bars, ticks, "residual, pixels at the equator", [&](double bar_width) {
+      "chart", kHalfWidth, bars, ticks, "residual, pixels at the equator", [&](double bar_width) {
         const double x =
             kLeft +
             std::min(report.residual_px_mean / width, static_cast<double>(bars.size())) * bar_width;
@@ -187,12 +191,19 @@ std::string TrackLengthSvg(const JobReport& report) {
     if (n % 2 == 0)
       ticks.push_back({static_cast<double>(n) - 1.5, absl::StrCat(n, last ? "+" : "")});
   }
-  return BarChart(kHalfWidth, bars, ticks, "images that see a point");
+  return BarChart("chart", kHalfWidth, bars, ticks, "images that see a point");
 }
 
-std::string TracksPerImageSvg(const JobReport& report) {
-  constexpr size_t kMaxBars = 450;
-  const size_t group = std::max<size_t>((report.images.size() + kMaxBars - 1) / kMaxBars, 1);
+namespace {
+
+/// At most `max_bars`, groups of images sharing one. `titled`: bars tell their numbers.
+std::string TracksPerImage(const JobReport& report,
+                           const std::string& classes,
+                           double width,
+                           size_t max_bars,
+                           bool titled) {
+  const size_t group = std::max<size_t>((report.images.size() + max_bars - 1) / max_bars, 1);
+  const std::vector<int> colors = ColorsOfClusters(report);
   std::vector<Bar> bars;
   for (size_t begin = 0; begin < report.images.size(); begin += group) {
     const size_t end = std::min(begin + group, report.images.size());
@@ -200,20 +211,32 @@ std::string TracksPerImageSvg(const JobReport& report) {
     for (size_t i = begin; i < end; ++i) sum += report.images[i].observations;
     const double mean = sum / static_cast<double>(end - begin);
     const ReportImage& first = report.images[begin];
-    std::string title =
-        absl::StrCat(EscapeHtml(first.name),
-                     end - begin > 1 ? absl::StrCat(" and ", end - begin - 1, " more") : "",
-                     ": ",
-                     ShortText(mean),
-                     " tracks");
-    bars.push_back({mean, std::move(title), ClusterColor(first.cluster)});
+    const bool known = first.cluster >= 0 && std::cmp_less(first.cluster, colors.size());
+    std::string title;
+    if (titled) {
+      title = absl::StrCat(EscapeHtml(first.name),
+                           end - begin > 1 ? absl::StrCat(" and ", end - begin - 1, " more") : "",
+                           ": ",
+                           ShortText(mean),
+                           " tracks");
+    }
+    bars.push_back({mean,
+                    std::move(title),
+                    ColorClass(known ? colors[static_cast<size_t>(first.cluster)] : -1)});
   }
   std::vector<Tick> ticks;
   const double step = NiceCeiling(static_cast<double>(report.images.size()) / 5.0);
   for (double i = 0.0; i < static_cast<double>(report.images.size()); i += std::max(step, 1.0)) {
     ticks.push_back({i / static_cast<double>(group), CountText(static_cast<uint64_t>(i))});
   }
-  return BarChart(kFullWidth, bars, ticks, "image, in order; colour: cluster");
+  return BarChart(classes, width, bars, ticks, "image, in order; colour: cluster");
+}
+
+}  // namespace
+
+std::string TracksPerImageSvg(const JobReport& report) {
+  return TracksPerImage(report, "chart only-wide", kFullWidth, 450, true) +
+         TracksPerImage(report, "chart only-narrow", kHalfWidth, 120, false);
 }
 
 std::string StageTimesHtml(const JobReport& report) {
@@ -222,7 +245,8 @@ std::string StageTimesHtml(const JobReport& report) {
     longest = std::max({longest, stage.wall_s, stage.cpu_s});
   std::string html =
       "<table class=\"stages\"><thead><tr><th>stage</th><th>wall s</th><th>CPU s</th><th "
-      "class=\"wide\"></th><th>computed</th><th>reused</th></tr></thead><tbody>";
+      "class=\"wide minor\"></th><th "
+      "class=\"minor\">computed</th><th>reused</th></tr></thead><tbody>";
   for (const ReportStage& stage : report.stages) {
     absl::StrAppend(
         &html,
@@ -232,11 +256,11 @@ std::string StageTimesHtml(const JobReport& report) {
         SecondsText(stage.wall_s),
         "</td><td>",
         SecondsText(stage.cpu_s),
-        "</td><td class=\"wide\"><div class=\"wall\" style=\"width:",
+        "</td><td class=\"wide minor\"><div class=\"wall\" style=\"width:",
         DecimalText(100.0 * stage.wall_s / longest, 2),
         "%\"></div><div class=\"cpu\" style=\"width:",
         DecimalText(100.0 * stage.cpu_s / longest, 2),
-        "%\"></div></td><td>",
+        "%\"></div></td><td class=\"minor\">",
         CountText(stage.tasks_computed),
         stage.retries > 0 ? absl::StrCat(" <small>", stage.retries, " again</small>") : "",
         "</td><td>",

@@ -14,7 +14,7 @@ namespace orbweave {
 /// Points by the number of images that see them.
 [[nodiscard]] std::string TrackLengthSvg(const JobReport& report);
 /// Tracks seen by each image in order, coloured by cluster; groups of images share a bar when there
-/// are many.
+/// are many. Two drawings, one of them for narrow pages.
 [[nodiscard]] std::string TracksPerImageSvg(const JobReport& report);
 /// Rows of wall and CPU time per stage as an HTML table with bars.
 [[nodiscard]] std::string StageTimesHtml(const JobReport& report);

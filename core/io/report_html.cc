@@ -10,16 +10,18 @@
 #include "core/io/html_text.h"
 #include "core/io/report_adjustment.h"
 #include "core/io/report_charts.h"
+#include "core/io/report_gnss.h"
 #include "core/io/report_map.h"
+#include "core/io/report_models.h"
 #include "core/io/report_seams.h"
 #include "core/io/report_tables.h"
 #include "core/io/report_uncertainty.h"
+#include "core/io/report_verdict.h"
 
 namespace orbweave {
 namespace {
 
-constexpr size_t kMaxNames = 200;  ///< of contradicted positions; report.json has all
-constexpr uint32_t kMaxMaps = 4;
+constexpr size_t kMaxMaps = 4;
 
 std::string Header(const JobReport& report) {
   return absl::StrCat("<header><h1>",
@@ -65,61 +67,51 @@ std::string Cards(const JobReport& report) {
                                " agree"));
   }
   if (report.uncertainty.known) {
-    cards += Card(SigmaText(report.uncertainty.position_median),
-                  report.gnss.used ? "m" : "units",
-                  "median position sigma (" + SigmaText(report.uncertainty.rotation_median_deg) +
-                      "° of rotation)");
+    const std::string relative = RelativePrecisionText(report);
+    cards +=
+        Card(SigmaText(report.uncertainty.position_median),
+             report.gnss.used ? "m" : "units",
+             (relative.empty() ? "median position sigma" : "median position sigma: " + relative) +
+                 "; " + SigmaText(report.uncertainty.rotation_median_deg) + "° of rotation");
   }
   return "<div class=\"cards\">" + cards + "</div>\n";
 }
 
-std::string MapKey(const JobReport& report) {
-  const auto any = [&](bool (*test)(const ReportImage&)) {
-    return std::any_of(report.images.begin(), report.images.end(), test);
-  };
-  std::string key;
-  const size_t shown = std::min<size_t>(report.clusters.size(), 12);
-  for (size_t i = 0; i < shown; ++i) {
-    absl::StrAppend(&key,
-                    "<span><i style=\"background:",
-                    ClusterColor(static_cast<int>(i)),
-                    "\"></i>cluster ",
-                    i,
-                    "</span>");
+/// How a frame lies, and which models share it.
+std::string FrameText(const JobReport& report, const MapFrame& frame) {
+  const ReportGnss& gnss = report.each_model[frame.models.front()].gnss;
+  std::string text;
+  if (report.models > 1) {
+    text = frame.models.size() == 1
+               ? absl::StrCat("Model ", frame.models.front(), ". ")
+               : absl::StrCat(frame.models.size(), " models that GNSS puts into one frame. ");
   }
-  if (report.clusters.size() > shown)
-    absl::StrAppend(&key, "<span>and ", report.clusters.size() - shown, " more</span>");
-  if (any([](const ReportImage& image) { return image.in_overlap; }))
-    key += "<span><i class=\"ring\"></i>in two clusters or more</span>";
-  if (any([](const ReportImage& image) { return image.loose; }))
-    key += "<span><i class=\"hollow\"></i>placed by GNSS only</span>";
-  if (!report.seams.empty())
-    key +=
-        "<span><i class=\"diamond\"></i>seam that fits</span><span><i class=\"diamond "
-        "warn\"></i>doubtful</span><span><i class=\"diamond bad\"></i>bad or not used</span>";
-  if (any([](const ReportImage& image) { return image.uncertainty.has_value(); }))
-    key += "<span><i class=\"sigma\"></i>error ellipse, one sigma</span>";
-  if (any([](const ReportImage& image) { return image.gnss_outlier; }))
-    key += "<span><i class=\"dash\"></i>contradicted GNSS position</span>";
-  return "<div class=\"key\">" + key + "</div>";
+  if (frame.georeferenced) return text + "From above, north up, metres.";
+  return text + "From above, in a free frame and scale" +
+         (gnss.reason.empty() ? "." : ": " + EscapeHtml(gnss.reason) + ".");
 }
 
 std::string Maps(const JobReport& report) {
+  const std::vector<MapFrame> frames = MapFrames(report);
   std::string maps;
-  const uint32_t models = std::min(std::max(report.models, 1U), kMaxMaps);
-  for (uint32_t model = 0; model < models; ++model) {
-    const std::string map = TrajectoryMapSvg(report, model);
+  for (size_t i = 0; i < std::min(frames.size(), kMaxMaps); ++i) {
+    const std::string map = TrajectoryMapSvg(report, frames[i]);
     if (map.empty()) continue;
-    if (report.models > 1) absl::StrAppend(&maps, "<p class=\"sub\">model ", model, "</p>");
-    maps += map;
+    absl::StrAppend(&maps,
+                    "<p class=\"sub\">",
+                    FrameText(report, frames[i]),
+                    "</p>",
+                    map,
+                    MapKeyHtml(report, frames[i], map));
   }
   if (maps.empty()) return Section("Trajectory", "No panorama could be placed.", "");
-  const std::string frame =
-      report.gnss.used
-          ? "From above, north up, metres."
-          : "From above, in a free frame and scale" +
-                (report.gnss.reason.empty() ? "." : ": " + EscapeHtml(report.gnss.reason) + ".");
-  return Section("Trajectory", frame, maps + MapKey(report));
+  if (frames.size() > kMaxMaps) {
+    absl::StrAppend(&maps,
+                    "<p class=\"sub\">",
+                    CountText(frames.size() - kMaxMaps),
+                    " smaller models are not drawn.</p>");
+  }
+  return "<section><h2>Trajectory</h2>" + maps + "</section>\n";
 }
 
 std::string Charts(const JobReport& report) {
@@ -151,11 +143,12 @@ std::string Times(const JobReport& report) {
                    " of CPU; ",
                    CountText(reused),
                    reused == 1 ? " task was found finished." : " tasks were found finished.");
-  return Section("Time",
-                 subtitle,
-                 StageTimesHtml(report) +
-                     "<div class=\"key\"><span><i class=\"wall\"></i>wall clock</span><span><i "
-                     "class=\"cpu\"></i>CPU</span></div>");
+  return Section(
+      "Time",
+      subtitle,
+      StageTimesHtml(report) +
+          "<div class=\"key only-wide\"><span><i class=\"wall\"></i>wall clock</span><span><i "
+          "class=\"cpu\"></i>CPU</span></div>");
 }
 
 std::string Seams(const JobReport& report) {
@@ -168,38 +161,6 @@ std::string Seams(const JobReport& report) {
       "that panoramas of one side see and of the other. Good: less than three times what "
       "the noise of bearings explains.",
       table);
-}
-
-std::string Gnss(const JobReport& report) {
-  const ReportGnss& gnss = report.gnss;
-  if (gnss.num_priors == 0) return "";
-  const std::string said =
-      gnss.used
-          ? absl::StrCat(CountText(gnss.num_inliers),
-                         " of ",
-                         CountText(gnss.num_priors),
-                         " positions agree with the model; median distance ",
-                         ShortText(gnss.residual_median_m),
-                         " m, rms of those that agree ",
-                         ShortText(gnss.residual_rms_inliers_m),
-                         " m.",
-                         gnss.bend_m > 0.0 ? absl::StrCat(" The model was bent to them by up to ",
-                                                          ShortText(gnss.bend_m),
-                                                          " m.")
-                                           : "")
-          : absl::StrCat(
-                CountText(gnss.num_priors), " positions, not used: ", EscapeHtml(gnss.reason));
-  std::string names;
-  for (size_t i = 0; i < std::min(gnss.outliers.size(), kMaxNames); ++i)
-    absl::StrAppend(&names, i == 0 ? "" : ", ", EscapeHtml(gnss.outliers[i]));
-  return Section("GNSS",
-                 said,
-                 names.empty() ? ""
-                               : absl::StrCat("<p class=\"warn\">",
-                                              gnss.outliers.size(),
-                                              " contradicted</p><p class=\"sub\">",
-                                              names,
-                                              "</p>"));
 }
 
 std::string Uncertainty(const JobReport& report) {
@@ -234,17 +195,20 @@ std::string ReportHtml(const JobReport& report) {
       report.title.empty() ? "Orbweave report" : report.title + " - Orbweave",
       absl::StrCat(
           Header(report),
+          VerdictHtml(report),
+          WarningsHtml(report),
           Cards(report),
           Maps(report),
+          ChecksHtml(report),
+          LeftOutHtml(report),
+          ModelsHtml(report),
+          GnssHtml(report),
+          Uncertainty(report),
           Charts(report),
-          Times(report),
           ClustersHtml(report),
           Seams(report),
           Adjustment(report),
-          Gnss(report),
-          Uncertainty(report),
-          LeftOutHtml(report),
-          WarningsHtml(report),
+          Times(report),
           WorkersHtml(report),
           Options(report),
           "<footer>Residuals are angles times width over 2π. All numbers of this page are in "

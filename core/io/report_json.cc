@@ -3,7 +3,11 @@
 
 #include "core/io/report_json.h"
 
+#include <utility>
+
 #include "core/io/json_text.h"
+#include "core/io/level_text.h"
+#include "core/io/report_gnss.h"
 #include "core/io/report_seams.h"
 #include "core/io/report_uncertainty.h"
 
@@ -53,6 +57,7 @@ Json Seams(const JobReport& report) {
                     {"after_adjustment", SeamAfter(seam.after)},
                     {"verdict", VerdictText(seam.after.Verdict())},
                     {"used", seam.used},
+                    {"contradicted", seam.contradicted},
                     {"reason", seam.reason}});
   }
   return list;
@@ -69,6 +74,87 @@ Json Gnss(const ReportGnss& gnss) {
           {"outliers", gnss.outliers}};
 }
 
+Json VectorJson(const Eigen::Vector3d& vector) {
+  return Json::array({vector.x(), vector.y(), vector.z()});
+}
+
+/// GNSS minus model of the positions that are contradicted.
+Json Contradicted(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportImage* image : ContradictedPositions(report)) {
+    const Eigen::Vector3d off_m = *image->gnss_in_world - image->centre_in_world;
+    list.push_back({{"name", image->name},
+                    {"model", image->model},
+                    {"east_m", off_m.x()},
+                    {"north_m", off_m.y()},
+                    {"up_m", off_m.z()},
+                    {"distance_m", off_m.norm()}});
+  }
+  return list;
+}
+
+Json Checks(const JobReport& report) {
+  Json list = Json::array();
+  for (const CrossCheck& check : report.checks) {
+    list.push_back({{"name", check.name},
+                    {"value", check.value},
+                    {"limit", check.limit},
+                    {"unit", check.unit},
+                    {"level", LevelText(check.level)},
+                    {"sentence", check.sentence}});
+  }
+  return list;
+}
+
+Json EachModel(const JobReport& report) {
+  Json list = Json::array();
+  for (const ReportModel& model : report.each_model) {
+    list.push_back({{"registered", model.images},
+                    {"loose", model.loose},
+                    {"points", model.points},
+                    {"observations", model.observations},
+                    {"residual_px_mean", model.residual_px_mean},
+                    {"georeferenced", model.gnss.used},
+                    {"gnss", Gnss(model.gnss)},
+                    {"step_median", model.step_median},
+                    {"path_length", model.path_length}});
+  }
+  return list;
+}
+
+Json ImageRow(const ReportImage& image) {
+  Json row = {{"name", image.name}, {"state", image.StateText()}, {"drive", image.drive}};
+  row["cluster"] = image.cluster < 0 ? Json(nullptr) : Json(image.cluster);
+  if (!image.registered) return row;
+  row["model"] = image.model;
+  row["observations"] = image.observations;
+  row["residual_px"] = image.observations > 0 ? Json(image.residual_px_mean) : Json(nullptr);
+  row["centre"] = VectorJson(image.centre_in_world);
+  if (image.uncertainty) {
+    row["sigma"] = VectorJson(image.uncertainty->PositionSigmas());
+    row["sigma_rotation_deg"] = image.uncertainty->RotationSigma_deg();
+  }
+  if (image.gnss_in_world) {
+    row["gnss_minus_model_m"] = VectorJson(*image.gnss_in_world - image.centre_in_world);
+    row["gnss_contradicted"] = image.gnss_outlier;
+  }
+  return row;
+}
+
+/// A line per image, as the last member of the outermost object of `json`.
+std::string WithImages(std::string json, const JobReport& report) {
+  json.erase(json.rfind("\n}"));
+  json += ",\n \"images\": [";
+  const char* separator = "\n  ";
+  for (const ReportImage& image : report.images) {
+    std::string row = JsonText(ImageRow(image), -1);
+    row.pop_back();
+    json += separator + row;
+    separator = ",\n  ";
+  }
+  return json + "\n ]\n}\n";
+}
+
 Json Uncertainty(const JobReport& report) {
   const ReportUncertainty& uncertainty = report.uncertainty;
   Json json = {{"known", uncertainty.known}, {"frame", UncertaintyFrameText(uncertainty)}};
@@ -81,6 +167,16 @@ Json Uncertainty(const JobReport& report) {
   json["bearing_sigma_factor"] = uncertainty.bearing_sigma_factor;
   json["gnss_sigma_factors"] = {{"horizontal", uncertainty.horizontal_gnss_sigma_factor},
                                 {"vertical", uncertainty.vertical_gnss_sigma_factor}};
+  if (!report.each_model.empty()) {
+    const ReportModel& model = report.each_model.front();
+    const auto share = [&](double length) {
+      return length > 0.0 ? Json(uncertainty.position_median / length) : Json(nullptr);
+    };
+    json["relative"] = {{"path_length", model.path_length},
+                        {"step_median", model.step_median},
+                        {"position_sigma_median_share_of_path", share(model.path_length)},
+                        {"position_sigma_median_share_of_step", share(model.step_median)}};
+  }
   json["worst"] = Json::array();
   for (const uint32_t index : uncertainty.worst) {
     const ReportImage& image = report.images[index];
@@ -133,10 +229,13 @@ std::string ReportJson(const JobReport& report) {
   Json json;
   json["version"] = report.version;
   json["title"] = report.title;
+  json["verdict"] = {{"level", LevelText(report.verdict.level)},
+                     {"reasons", report.verdict.reasons}};
   json["images_total"] = report.images_total;
   json["registered"] = report.registered;
   json["not_registered"] = NotRegistered(report);
   json["models"] = report.models;
+  json["each_model"] = EachModel(report);
   json["points"] = report.points;
   json["observations"] = report.observations;
   json["mean_track_length"] = report.mean_track_length;
@@ -147,7 +246,9 @@ std::string ReportJson(const JobReport& report) {
   json["track_lengths"] = report.track_lengths;
   json["clusters"] = Clusters(report);
   json["seams"] = Seams(report);
+  json["checks"] = Checks(report);
   json["gnss"] = Gnss(report.gnss);
+  json["gnss"]["contradicted"] = Contradicted(report);
   json["uncertainty"] = Uncertainty(report);
   json["global_adjustment"] = Adjustments(report);
   json["stages"] = Stages(report);
@@ -155,7 +256,7 @@ std::string ReportJson(const JobReport& report) {
   json["elapsed_s"] = report.elapsed_s;
   json["warnings"] = report.warnings;
   json["options"] = report.options_text;
-  return JsonText(json);
+  return WithImages(JsonText(json), report);
 }
 
 }  // namespace orbweave

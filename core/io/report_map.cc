@@ -8,10 +8,13 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/cluster_colors.h"
 #include "core/io/html_text.h"
+#include "core/io/map_symbols.h"
 #include "core/io/map_view.h"
 #include "core/io/report_seams.h"
 #include "core/io/uncertainty_ellipses.h"
@@ -20,32 +23,77 @@ namespace orbweave {
 namespace {
 
 constexpr size_t kMaxDots = 3000;
+constexpr size_t kFewDots = 100;   ///< more are drawn smaller on narrow pages
+constexpr size_t kMaxMarks = 500;  ///< of images without a pose, and of contradicted positions
 
-MapImages ImagesOf(const JobReport& report, uint32_t model) {
+MapImages ImagesOf(const JobReport& report, const MapFrame& frame) {
   MapImages images;
   for (const ReportImage& image : report.images) {
-    if (image.registered && image.model == model) images.push_back(&image);
+    if (image.registered && std::ranges::binary_search(frame.models, image.model))
+      images.push_back(&image);
   }
   return images;
 }
+
+/// Images without a pose, where GNSS says.
+MapImages MissingImages(const JobReport& report, const MapFrame& frame) {
+  MapImages images;
+  if (!frame.georeferenced) return images;
+  for (const ReportImage& image : report.images) {
+    if (!image.registered && image.gnss_in_world && images.size() < kMaxMarks)
+      images.push_back(&image);
+  }
+  return images;
+}
+
+MapImages ContradictedImages(const MapImages& images) {
+  MapImages contradicted;
+  for (const ReportImage* image : images) {
+    if (image->gnss_outlier && image->gnss_in_world && contradicted.size() < kMaxMarks)
+      contradicted.push_back(image);
+  }
+  return contradicted;
+}
+
+/// The colour of an image: its model's where the frame has several, else its cluster's.
+class MapColors {
+ public:
+  MapColors(const JobReport& report, const MapFrame& frame)
+      : frame_(frame), of_cluster_(ColorsOfClusters(report)) {}
+
+  [[nodiscard]] std::string ClassOf(const ReportImage& image) const {
+    if (frame_.models.size() > 1) return ColorClass(OfModel(image.model));
+    const bool known = image.cluster >= 0 && std::cmp_less(image.cluster, of_cluster_.size());
+    return ColorClass(known ? of_cluster_[static_cast<size_t>(image.cluster)] : -1);
+  }
+  /// Models of a frame take colours in turn.
+  [[nodiscard]] int OfModel(uint32_t model) const {
+    return static_cast<int>(std::ranges::lower_bound(frame_.models, model) - frame_.models.begin());
+  }
+
+ private:
+  const MapFrame& frame_;
+  std::vector<int> of_cluster_;
+};
 
 std::string PairText(const Eigen::Vector2d& p) {
   return DecimalText(p.x(), 1) + "," + DecimalText(p.y(), 1);
 }
 
-/// A thin line per drive through its images.
+/// A thin line per model and drive through its images.
 std::string DriveLines(const MapImages& images, const MapView& view) {
-  std::map<uint32_t, std::string> points;
-  std::map<uint32_t, Eigen::Vector2d> last;
+  std::map<std::pair<uint32_t, uint32_t>, std::string> points;
+  std::map<std::pair<uint32_t, uint32_t>, Eigen::Vector2d> last;
   for (const ReportImage* image : images) {
     const Eigen::Vector2d p = view.Page(image->centre_in_world);
-    const auto [previous, is_first] = last.emplace(image->drive, p);
+    const std::pair line(image->model, image->drive);
+    const auto [previous, is_first] = last.emplace(line, p);
     if (!is_first && (p - previous->second).norm() < 0.7) continue;
     previous->second = p;
-    absl::StrAppend(&points[image->drive], PairText(p), " ");
+    absl::StrAppend(&points[line], PairText(p), " ");
   }
   std::string svg;
-  for (const auto& [drive, list] : points)
+  for (const auto& [line, list] : points)
     absl::StrAppend(&svg, "<polyline class=\"path\" points=\"", list, "\"/>");
   return svg;
 }
@@ -59,59 +107,88 @@ std::string UncertaintyText(const ReportImage& image) {
                       " deg");
 }
 
-std::string Dot(const ReportImage& image, const MapView& view, double radius) {
-  const Eigen::Vector2d p = view.Page(image.centre_in_world);
-  const std::string color = ClusterColor(image.cluster);
-  return absl::StrCat("<circle cx=\"",
-                      DecimalText(p.x(), 1),
-                      "\" cy=\"",
-                      DecimalText(p.y(), 1),
-                      "\" r=\"",
-                      DecimalText(image.in_overlap ? radius + 0.6 : radius, 1),
-                      "\" ",
-                      image.loose ? "fill=\"none\" stroke-width=\"2\" stroke=\"" + color + "\""
-                                  : "fill=\"" + color + "\"",
-                      image.in_overlap ? " class=\"overlap\"" : "",
-                      "><title>",
-                      EscapeHtml(image.name),
-                      "\ncluster ",
-                      image.cluster,
-                      image.in_overlap ? ", in overlap" : "",
-                      image.loose ? ", placed by GNSS only" : "",
+std::string TitleOf(const JobReport& report, const ReportImage& image) {
+  std::string title = EscapeHtml(image.name) + "\n";
+  if (report.models > 1) absl::StrAppend(&title, "model ", image.model, ", ");
+  absl::StrAppend(&title,
+                  image.cluster < 0 ? "no cluster" : absl::StrCat("cluster ", image.cluster),
+                  image.in_overlap ? ", in overlap" : "");
+  if (image.loose) return title + "\nplaced loosely, not registered";
+  return absl::StrCat(title,
                       "\n",
                       CountText(image.observations),
                       " observations, ",
                       DecimalText(image.residual_px_mean, 2),
                       " px",
-                      UncertaintyText(image),
-                      "</title></circle>");
+                      UncertaintyText(image));
 }
 
-std::string Dots(const MapImages& images, const MapView& view) {
+std::string Dots(const JobReport& report,
+                 const MapImages& images,
+                 const MapColors& colors,
+                 const MapView& view) {
   const size_t stride = (images.size() + kMaxDots - 1) / kMaxDots;
   const double radius = images.size() > 1000 ? 2.0 : images.size() > 200 ? 3.0 : 4.2;
   std::string svg;
-  for (size_t i = 0; i < images.size(); i += stride) svg += Dot(*images[i], view, radius);
+  for (size_t i = 0; i < images.size(); i += stride) {
+    const ReportImage& image = *images[i];
+    const Eigen::Vector2d p = view.Page(image.centre_in_world);
+    const std::string title = TitleOf(report, image);
+    if (image.loose) {
+      svg += DrawnSymbol(MapSymbol::kLoose, p, radius, colors.ClassOf(image), title);
+      continue;
+    }
+    absl::StrAppend(&svg,
+                    "<circle class=\"",
+                    image.in_overlap ? SymbolClass(MapSymbol::kOverlap) : "dot",
+                    " ",
+                    colors.ClassOf(image),
+                    "\" cx=\"",
+                    DecimalText(p.x(), 1),
+                    "\" cy=\"",
+                    DecimalText(p.y(), 1),
+                    "\" r=\"",
+                    DecimalText(radius, 1),
+                    "\"><title>",
+                    title,
+                    "</title></circle>");
+  }
+  return svg;
+}
+
+Eigen::Vector2d MiddleOf(const MapView& view) { return {0.5 * kMapWidth, 0.5 * view.height}; }
+
+std::string Missing(const MapImages& missing, const MapView& view) {
+  std::string svg;
+  for (const ReportImage* image : missing) {
+    const Eigen::Vector2d place =
+        WithinFrame(view, MiddleOf(view), view.Page(*image->gnss_in_world));
+    svg += DrawnSymbol(MapSymbol::kMissing,
+                       place,
+                       5.0,
+                       "",
+                       EscapeHtml(image->name) + "\nnot registered, at its GNSS position");
+  }
   return svg;
 }
 
 /// Dashes from a camera to the GNSS position that it contradicts.
-std::string GnssOutliers(const MapImages& images, const MapView& view) {
+std::string GnssOutliers(const MapImages& contradicted, const MapView& view) {
   std::string svg;
-  for (const ReportImage* image : images) {
-    if (!image->gnss_outlier || !image->gnss_in_world) continue;
+  for (const ReportImage* image : contradicted) {
     const Eigen::Vector2d from = view.Page(image->centre_in_world);
-    const Eigen::Vector2d to = view.Page(*image->gnss_in_world);
-    absl::StrAppend(&svg,
-                    "<path class=\"outlier\" d=\"M",
-                    PairText(from),
-                    "L",
-                    PairText(to),
-                    "m-4,-4l8,8m0,-8l-8,8\"><title>GNSS of ",
-                    EscapeHtml(image->name),
-                    " is contradicted by ",
-                    ShortText((image->centre_in_world - *image->gnss_in_world).norm()),
-                    " m</title></path>");
+    const Eigen::Vector2d to = WithinFrame(view, from, view.Page(*image->gnss_in_world));
+    absl::StrAppend(&svg, "<path class=\"dash\" d=\"M", PairText(from), "L", PairText(to), "\"/>");
+    svg +=
+        DrawnSymbol(MapSymbol::kContradicted,
+                    to,
+                    4.0,
+                    "",
+                    absl::StrCat("GNSS of ",
+                                 EscapeHtml(image->name),
+                                 " is contradicted by ",
+                                 ShortText((image->centre_in_world - *image->gnss_in_world).norm()),
+                                 " m"));
   }
   return svg;
 }
@@ -135,6 +212,44 @@ std::optional<Eigen::Vector3d> SeamPlace(const std::map<int, MapImages>& by_clus
   return middle;
 }
 
+MapSymbol SymbolOf(const ReportSeam& seam) {
+  if (!seam.used) return MapSymbol::kSeamUnused;
+  switch (seam.after.Verdict()) {
+    case SeamVerdict::kGood:
+      return MapSymbol::kSeamGood;
+    case SeamVerdict::kDoubtful:
+      return MapSymbol::kSeamDoubtful;
+    case SeamVerdict::kBad:
+      return MapSymbol::kSeamBad;
+    case SeamVerdict::kUnknown:
+      break;
+  }
+  return MapSymbol::kSeamUnknown;
+}
+
+std::string TitleOf(const ReportSeam& seam) {
+  std::string title = absl::StrCat("seam ",
+                                   seam.cluster_a,
+                                   " - ",
+                                   seam.cluster_b,
+                                   "\n",
+                                   seam.common_images,
+                                   " common images, ",
+                                   CountText(seam.inlier_tracks),
+                                   " of ",
+                                   CountText(seam.common_tracks),
+                                   " common tracks agree");
+  if (seam.after.images > 0) {
+    absl::StrAppend(&title,
+                    "\nafter the adjustment ",
+                    ShortText(seam.after.Ratio()),
+                    " times the noise: ",
+                    VerdictText(seam.after.Verdict()));
+  }
+  if (!seam.used) absl::StrAppend(&title, "\nnot used: ", EscapeHtml(seam.reason));
+  return title;
+}
+
 std::string Seams(const JobReport& report, const MapImages& images, const MapView& view) {
   std::map<int, MapImages> by_cluster;
   for (const ReportImage* image : images) by_cluster[image->cluster].push_back(image);
@@ -142,44 +257,7 @@ std::string Seams(const JobReport& report, const MapImages& images, const MapVie
   const double r = report.seams.size() > 120 ? 3.0 : report.seams.size() > 40 ? 5.0 : 8.0;
   for (const ReportSeam& seam : report.seams) {
     const std::optional<Eigen::Vector3d> place = SeamPlace(by_cluster, seam);
-    if (!place) continue;
-    absl::StrAppend(&svg,
-                    "<path class=\"seam",
-                    seam.used ? " " + VerdictText(seam.after.Verdict()) : " unused",
-                    "\" d=\"M",
-                    PairText(view.Page(*place)),
-                    "m0,",
-                    -r,
-                    "l",
-                    r,
-                    ",",
-                    r,
-                    "l",
-                    -r,
-                    ",",
-                    r,
-                    "l",
-                    -r,
-                    ",",
-                    -r,
-                    "z\"><title>seam ",
-                    seam.cluster_a,
-                    " - ",
-                    seam.cluster_b,
-                    "\n",
-                    seam.common_images,
-                    " common images, ",
-                    CountText(seam.inlier_tracks),
-                    " of ",
-                    CountText(seam.common_tracks),
-                    " common tracks agree",
-                    seam.after.images == 0 ? ""
-                                           : absl::StrCat("\nafter the adjustment ",
-                                                          ShortText(seam.after.Ratio()),
-                                                          " times the noise: ",
-                                                          VerdictText(seam.after.Verdict())),
-                    seam.used ? "" : "\nnot used: " + EscapeHtml(seam.reason),
-                    "</title></path>");
+    if (place) svg += DrawnSymbol(SymbolOf(seam), view.Page(*place), r, "", TitleOf(seam));
   }
   return svg;
 }
@@ -208,26 +286,100 @@ std::string NorthArrow() {
          "<text text-anchor=\"middle\" y=\"16\">N</text></g>";
 }
 
+std::string ColorEntry(int color, const std::string& text) {
+  return absl::StrCat("<span><i class=\"", ColorClass(color), "\"></i>", text, "</span>");
+}
+
+std::string ModelKey(const JobReport& report, const MapFrame& frame) {
+  std::string key;
+  for (size_t i = 0; i < std::min<size_t>(frame.models.size(), kMapColors); ++i) {
+    const uint32_t model = frame.models[i];
+    key += ColorEntry(
+        static_cast<int>(i),
+        absl::StrCat("model ", model, " (", CountText(report.each_model[model].images), ")"));
+  }
+  if (frame.models.size() > kMapColors)
+    absl::StrAppend(&key, "<span>and ", frame.models.size() - kMapColors, " more models</span>");
+  return key;
+}
+
+/// The clusters of a map with few, else that colours are theirs.
+std::string ClusterKey(const JobReport& report, const MapFrame& frame) {
+  const std::vector<int> colors = ColorsOfClusters(report);
+  std::map<int, bool> shown;
+  for (const ReportImage* image : ImagesOf(report, frame)) {
+    if (!image->loose) shown[image->cluster] = true;
+  }
+  if (shown.size() < 2) return "";
+  if (shown.size() > kMapColors)
+    return absl::StrCat("<span>colours: ", shown.size(), " clusters</span>");
+  std::string key;
+  for (const auto& [cluster, yes] : shown) {
+    const bool known = cluster >= 0 && std::cmp_less(cluster, colors.size());
+    key += ColorEntry(known ? colors[static_cast<size_t>(cluster)] : -1,
+                      cluster < 0 ? "no cluster" : absl::StrCat("cluster ", cluster));
+  }
+  return key;
+}
+
 }  // namespace
 
-std::string TrajectoryMapSvg(const JobReport& report, uint32_t model) {
-  const MapImages images = ImagesOf(report, model);
+std::vector<MapFrame> MapFrames(const JobReport& report) {
+  std::vector<MapFrame> frames;
+  std::vector<size_t> images;
+  std::optional<size_t> on_earth;
+  for (uint32_t model = 0; model < report.each_model.size(); ++model) {
+    const bool georeferenced = report.each_model[model].gnss.used;
+    if (!georeferenced || !on_earth) {
+      if (georeferenced) on_earth = frames.size();
+      frames.push_back({.georeferenced = georeferenced});
+      images.push_back(0);
+    }
+    const size_t frame = georeferenced ? *on_earth : frames.size() - 1;
+    frames[frame].models.push_back(model);
+    images[frame] += report.each_model[model].images;
+  }
+  std::vector<size_t> order(frames.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, [&](size_t x, size_t y) { return images[x] > images[y]; });
+  std::vector<MapFrame> sorted;
+  for (const size_t i : order) sorted.push_back(std::move(frames[i]));
+  return sorted;
+}
+
+std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame) {
+  const MapImages images = ImagesOf(report, frame);
   if (images.empty()) return "";
-  const bool georeferenced = report.gnss.used;
-  const MapView view = FitMapView(images, georeferenced);
-  return absl::StrCat("<svg class=\"map\" viewBox=\"0 0 ",
+  const MapImages missing = MissingImages(report, frame);
+  const MapImages contradicted = ContradictedImages(images);
+  std::vector<Eigen::Vector3d> marks;
+  for (const MapImages* list : {&missing, &contradicted}) {
+    for (const ReportImage* image : *list) marks.push_back(*image->gnss_in_world);
+  }
+  const MapView view = FitMapView(images, frame.georeferenced, marks);
+  return absl::StrCat("<svg class=\"map",
+                      images.size() > kFewDots ? " many" : "",
+                      "\" viewBox=\"0 0 ",
                       kMapWidth,
                       " ",
                       DecimalText(view.height, 0),
                       "\" role=\"img\" aria-label=\"Trajectory from above\">",
                       DriveLines(images, view),
                       UncertaintyEllipses(images, view),
-                      GnssOutliers(images, view),
-                      Dots(images, view),
+                      Missing(missing, view),
+                      GnssOutliers(contradicted, view),
+                      Dots(report, images, MapColors(report, frame), view),
                       Seams(report, images, view),
-                      images.size() > 1 ? ScaleBar(view, georeferenced) : "",
-                      georeferenced && report.origin ? NorthArrow() : "",
+                      images.size() > 1 ? ScaleBar(view, frame.georeferenced) : "",
+                      frame.georeferenced && report.origin ? NorthArrow() : "",
                       "</svg>");
+}
+
+std::string MapKeyHtml(const JobReport& report, const MapFrame& frame, const std::string& map) {
+  const std::string key =
+      (frame.models.size() > 1 ? ModelKey(report, frame) : ClusterKey(report, frame)) +
+      LegendOfSymbols(map);
+  return key.empty() ? "" : "<div class=\"key\">" + key + "</div>";
 }
 
 }  // namespace orbweave

@@ -16,11 +16,13 @@ constexpr double kCmPerM = 100.0;
 constexpr double kMilli = 1000.0;
 
 std::string Cell(const std::string& text) { return "<td>" + text + "</td>"; }
+/// One that narrow pages leave out.
+std::string MinorCell(const std::string& text) { return "<td class=\"minor\">" + text + "</td>"; }
 
 /// Position and rotation, in the units of the table's head.
-std::string JumpCells(double position, double rotation_deg, bool metric) {
-  return Cell(ShortText(metric ? kCmPerM * position : position)) +
-         Cell(ShortText(kMilli * rotation_deg));
+std::string JumpCells(double position, double rotation_deg, bool metric, bool after) {
+  const std::string jump = ShortText(metric ? kCmPerM * position : position);
+  return (after ? Cell(jump) : MinorCell(jump)) + MinorCell(ShortText(kMilli * rotation_deg));
 }
 
 std::string StateCell(const ReportSeam& seam) {
@@ -39,13 +41,14 @@ std::string StateCell(const ReportSeam& seam) {
 
 std::string Row(const ReportSeam& seam, bool metric) {
   std::string row = absl::StrCat("<tr><td>", seam.cluster_a, " - ", seam.cluster_b, "</td>");
-  row += Cell(CountText(seam.common_images));
-  row += Cell(absl::StrCat(CountText(seam.inlier_tracks), " of ", CountText(seam.common_tracks)));
-  row += Cell(ShortText(seam.condition_number));
-  row += JumpCells(seam.position_jump_m, seam.rotation_jump_deg, metric);
+  row += MinorCell(CountText(seam.common_images));
+  row +=
+      MinorCell(absl::StrCat(CountText(seam.inlier_tracks), " of ", CountText(seam.common_tracks)));
+  row += MinorCell(ShortText(seam.condition_number));
+  row += JumpCells(seam.position_jump_m, seam.rotation_jump_deg, metric, false);
   row += seam.after.images > 0
-             ? JumpCells(seam.after.position_jump_m, seam.after.rotation_jump_deg, metric)
-             : Cell("") + Cell("");
+             ? JumpCells(seam.after.position_jump_m, seam.after.rotation_jump_deg, metric, true)
+             : Cell("") + MinorCell("");
   return row + StateCell(seam) + "</tr>";
 }
 
@@ -75,12 +78,13 @@ std::string SeamsHtml(const JobReport& report) {
   });
   const std::string unit = report.gnss.used ? "cm" : "units";
   std::string html = absl::StrCat(
-      "<table><thead><tr><th>clusters</th><th>images</th><th>tracks that "
-      "agree</th><th>condition</th><th>jump before, ",
+      "<table><thead><tr><th>clusters</th><th class=\"minor\">images</th><th "
+      "class=\"minor\">tracks "
+      "that agree</th><th class=\"minor\">condition</th><th class=\"minor\">jump before, ",
       unit,
-      "</th><th>m°</th><th>after, ",
+      "</th><th class=\"minor\">m°</th><th>after, ",
       unit,
-      "</th><th>m°</th><th class=\"text\"></th></tr></thead><tbody>");
+      "</th><th class=\"minor\">m°</th><th class=\"text\"></th></tr></thead><tbody>");
   for (size_t i = 0; i < std::min(seams.size(), kMaxRows); ++i)
     html += Row(*seams[i], report.gnss.used);
   html += "</tbody></table>";

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/first_names.h"
+#include "core/io/group_messages.h"
 #include "core/io/html_page.h"
 #include "core/io/html_text.h"
 
@@ -12,6 +14,8 @@ namespace orbweave {
 namespace {
 
 constexpr size_t kMaxRows = 200;
+constexpr size_t kMaxNames = 12;    ///< of images left out for the same reason
+constexpr size_t kMaxWarnings = 8;  ///< shown at once
 
 }  // namespace
 
@@ -25,13 +29,13 @@ std::string ClustersHtml(const JobReport& report) {
                     i,
                     "</td><td>",
                     CountText(cluster.images),
-                    "</td><td>",
+                    "</td><td class=\"minor\">",
                     CountText(cluster.interior),
                     "</td><td>",
                     CountText(cluster.registered),
                     "</td><td>",
                     cluster.components,
-                    "</td><td>",
+                    "</td><td class=\"minor\">",
                     CountText(cluster.points),
                     "</td><td>",
                     DecimalText(cluster.residual_px_rms, 3),
@@ -40,42 +44,66 @@ std::string ClustersHtml(const JobReport& report) {
   return Section(
       "Clusters",
       "Parts of the job that were reconstructed on their own before they were joined.",
-      "<table><thead><tr><th>cluster</th><th>images</th><th>interior</th><th>registered</"
-      "th><th>components</th><th>points</th><th>rms px</th></tr></thead><tbody>" +
+      "<table><thead><tr><th>cluster</th><th>images</th><th class=\"minor\">interior</th>"
+      "<th>registered</th><th>parts</th><th class=\"minor\">points</th><th>rms "
+      "px</th></tr></thead><tbody>" +
           rows + "</tbody></table>");
 }
 
 std::string LeftOutHtml(const JobReport& report) {
-  if (report.not_registered.empty()) return "";
+  const std::vector<Exclusion>& images = report.not_registered;
+  if (images.empty()) return "";
+  std::vector<std::string> reasons;
+  for (const Exclusion& image : images) reasons.push_back(image.reason);
+  const std::vector<MessageGroup> groups = GroupByKind(reasons);
   std::string rows;
-  for (size_t i = 0; i < std::min(report.not_registered.size(), kMaxRows); ++i) {
+  for (size_t i = 0; i < std::min(groups.size(), kMaxRows); ++i) {
+    std::vector<std::string> names;
+    for (const size_t member : groups[i].members) names.push_back(images[member].name);
     absl::StrAppend(&rows,
-                    "<tr><td class=\"text\">",
-                    EscapeHtml(report.not_registered[i].name),
+                    "<tr><td>",
+                    CountText(names.size()),
                     "</td><td class=\"text\">",
-                    EscapeHtml(report.not_registered[i].reason),
-                    "</td></tr>");
+                    groups[i].same_words ? "" : "such as: ",
+                    EscapeHtml(reasons[groups[i].members.front()]),
+                    "<p class=\"sub\">",
+                    EscapeHtml(FirstNames(names, kMaxNames)),
+                    "</p></td></tr>");
   }
-  const size_t more =
-      report.not_registered.size() - std::min(report.not_registered.size(), kMaxRows);
-  if (more > 0)
+  if (groups.size() > kMaxRows) {
     absl::StrAppend(&rows,
                     "<tr><td class=\"text\" colspan=\"2\">and ",
-                    CountText(more),
-                    " more, all in report.json</td></tr>");
+                    CountText(groups.size() - kMaxRows),
+                    " more reasons, all in report.json</td></tr>");
+  }
   return Section(
       "Left out",
-      absl::StrCat(CountText(report.not_registered.size()), " images are not registered."),
-      "<table><thead><tr><th>image</th><th class=\"text\">reason</th></tr></thead><tbody>" + rows +
-          "</tbody></table>");
+      absl::StrCat(CountText(images.size()),
+                   images.size() == 1 ? " image is" : " images are",
+                   " not registered; all of them are in report.json and, where they "
+                   "take part, in cameras.csv."),
+      "<table><thead><tr><th class=\"slim\">images</th><th class=\"text\">reason</th></tr></thead>"
+      "<tbody>" +
+          rows + "</tbody></table>");
 }
 
 std::string WarningsHtml(const JobReport& report) {
   if (report.warnings.empty()) return "";
-  std::string items;
-  for (size_t i = 0; i < std::min(report.warnings.size(), kMaxRows); ++i)
-    absl::StrAppend(&items, "<li>", EscapeHtml(report.warnings[i]), "</li>");
-  return Section("Warnings", "Worth knowing; the job went on.", "<ul>" + items + "</ul>");
+  const std::vector<std::string> lines = CountedLines(report.warnings);
+  std::string first;
+  std::string more;
+  for (size_t i = 0; i < std::min(lines.size(), kMaxRows); ++i)
+    absl::StrAppend(i < kMaxWarnings ? &first : &more, "<li>", EscapeHtml(lines[i]), "</li>");
+  std::string body = "<ul>" + first + "</ul>";
+  if (!more.empty()) {
+    absl::StrAppend(&body,
+                    "<details><summary>",
+                    CountText(lines.size() - kMaxWarnings),
+                    " more</summary><ul>",
+                    more,
+                    "</ul></details>");
+  }
+  return Section("Warnings", "Worth knowing; the job went on.", body);
 }
 
 std::string WorkersHtml(const JobReport& report) {

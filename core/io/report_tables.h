@@ -9,7 +9,8 @@
 namespace orbweave {
 
 /// Sections of the page that are lists and tables of names. At most 200 rows of each, report.json
-/// has all; empty when there is nothing to list.
+/// has all; empty when there is nothing to list. Warnings and reasons of one kind are one row with
+/// their count.
 [[nodiscard]] std::string ClustersHtml(const JobReport& report);
 [[nodiscard]] std::string LeftOutHtml(const JobReport& report);
 [[nodiscard]] std::string WarningsHtml(const JobReport& report);

@@ -3,17 +3,28 @@
 
 #include "core/io/report_uncertainty.h"
 
+#include <cmath>
+
 #include "absl/strings/str_cat.h"
 #include "core/io/html_text.h"
 
 namespace orbweave {
 namespace {
 
-std::string Row(const std::string& what, double position, double rotation_deg) {
+/// A share of a length, in words that fit its size.
+std::string ShareText(double share) {
+  if (!std::isfinite(share)) return "-";
+  return share < 1e-3 ? SigmaText(1e6 * share) + " ppm" : SigmaText(100.0 * share) + " %";
+}
+
+/// `step`: the median distance of neighbours; 0: unknown.
+std::string Row(const std::string& what, double position, double rotation_deg, double step) {
   return absl::StrCat("<tr><td class=\"text\">",
                       what,
                       "</td><td>",
                       SigmaText(position),
+                      "</td><td>",
+                      step > 0.0 ? ShareText(position / step) : "-",
                       "</td><td>",
                       SigmaText(rotation_deg),
                       "</td></tr>");
@@ -32,16 +43,36 @@ std::string UncertaintyFrameText(const ReportUncertainty& uncertainty) {
   return text + ", as is its distance to " + uncertainty.held_distance_to;
 }
 
+std::string RelativePrecisionText(const JobReport& report) {
+  if (!report.uncertainty.known || report.each_model.empty()) return "";
+  const ReportModel& model = report.each_model.front();
+  if (!(model.path_length > 0.0) || !(model.step_median > 0.0)) return "";
+  const double median = report.uncertainty.position_median;
+  const std::string unit = report.gnss.used ? " m" : " units";
+  return absl::StrCat(ShareText(median / model.path_length),
+                      " of a path of ",
+                      ShortText(model.path_length),
+                      unit,
+                      ", ",
+                      ShareText(median / model.step_median),
+                      " of a step of ",
+                      ShortText(model.step_median),
+                      unit);
+}
+
 std::string UncertaintyHtml(const JobReport& report) {
   const ReportUncertainty& uncertainty = report.uncertainty;
   if (!uncertainty.known) return "";
-  std::string rows = Row("median", uncertainty.position_median, uncertainty.rotation_median_deg) +
-                     Row("95 % below", uncertainty.position_p95, uncertainty.rotation_p95_deg);
+  const double step = report.each_model.empty() ? 0.0 : report.each_model.front().step_median;
+  std::string rows =
+      Row("median", uncertainty.position_median, uncertainty.rotation_median_deg, step) +
+      Row("95 % below", uncertainty.position_p95, uncertainty.rotation_p95_deg, step);
   for (const uint32_t index : uncertainty.worst) {
     const ReportImage& image = report.images[index];
     rows += Row(EscapeHtml(image.name),
                 image.uncertainty->PositionSigma(),
-                image.uncertainty->RotationSigma_deg());
+                image.uncertainty->RotationSigma_deg(),
+                step);
   }
   std::string factors = "Bearings scatter " + ShortText(uncertainty.bearing_sigma_factor) +
                         " times as much as they claim";
@@ -53,13 +84,17 @@ std::string UncertaintyHtml(const JobReport& report) {
                     ShortText(uncertainty.vertical_gnss_sigma_factor),
                     " times vertically");
   }
-  return absl::StrCat("<table><thead><tr><th>panorama</th><th>position, ",
-                      report.gnss.used ? "m" : "units",
-                      "</th><th>rotation, °</th></tr></thead><tbody>",
-                      rows,
-                      "</tbody></table><div class=\"key\"><span>",
-                      factors,
-                      "; the sigmas account for it.</span></div>");
+  const std::string relative = RelativePrecisionText(report);
+  return absl::StrCat(
+      "<table><thead><tr><th>panorama</th><th>position, ",
+      report.gnss.used ? "m" : "units",
+      "</th><th>of a step</th><th>rotation, °</th></tr></thead><tbody>",
+      rows,
+      "</tbody></table><div class=\"key\"><span>",
+      factors,
+      "; the sigmas account for it.</span>",
+      relative.empty() ? "" : "<span>Median position sigma: " + relative + ".</span>",
+      "</div>");
 }
 
 }  // namespace orbweave

@@ -29,13 +29,13 @@ std::vector<ChartLine> LinesOver(const ScalingReport& report, PointValue value, 
   for (const ScalingPrediction& prediction : report.predictions) {
     ChartLine& line = lines.emplace_back();
     line.name = NameOf(prediction);
-    line.color = ClusterColor(static_cast<int>(lines.size()) - 1);
+    line.color = SeriesColor(static_cast<int>(lines.size()) - 1);
     line.dashed = prediction.extrapolated;
     for (const ScalingPoint& point : prediction.points)
       line.points.push_back({point.workers, value(point)});
   }
   ChartLine marks{.name = absl::StrCat(CountText(report.panoramas), " panoramas, measured"),
-                  .color = "var(--warn)",
+                  .color = "var(--ink)",
                   .marks = true};
   for (const ScalingRun& run : report.runs) {
     if (run.panoramas == report.panoramas && measured(run) > 0.0)
@@ -70,7 +70,7 @@ std::string WeakScaling(const ScalingReport& report) {
   if (report.weak.empty()) return "";
   ChartLine line{
       .name = absl::StrCat(CountText(report.panoramas), " panoramas per worker, simulated"),
-      .color = ClusterColor(0)};
+      .color = SeriesColor(0)};
   std::string rows;
   for (const ScalingWeakPoint& point : report.weak) {
     line.points.push_back({static_cast<double>(point.workers), point.efficiency});
@@ -112,7 +112,7 @@ std::string ShareRow(const std::string& name,
                     "\" style=\"height:14px;width:",
                     DecimalText(100.0 * stage_s[s] / sum_s, 3),
                     "%;background:",
-                    ClusterColor(static_cast<int>(s)),
+                    SeriesColor(static_cast<int>(s)),
                     "\"></div>");
   }
   return absl::StrCat("<tr><td>",
@@ -129,7 +129,7 @@ std::string StageKey(const std::vector<ScalingStage>& stages) {
   for (size_t s = 0; s < stages.size(); ++s) {
     absl::StrAppend(&key,
                     "<span><i style=\"background:",
-                    ClusterColor(static_cast<int>(s)),
+                    SeriesColor(static_cast<int>(s)),
                     "\"></i>",
                     EscapeHtml(stages[s].name),
                     "</span>");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/io/json_text.h"
 #include "core/scene/local_frame.h"
@@ -28,8 +29,15 @@ Json Feature(const char* type, Json coordinates, Json properties) {
           {"properties", std::move(properties)}};
 }
 
-Json PropertiesOf(const ImageRecord& record, const RegisteredImage& image) {
-  Json properties = {{"name", record.name}, {"drive", record.drive}, {"loose", image.loose}};
+Json PropertiesOf(const ReportImage& image) {
+  Json properties = {{"name", image.name},
+                     {"state", image.StateText()},
+                     {"model", image.model},
+                     {"drive", image.drive},
+                     {"loose", image.loose},
+                     {"observations", image.observations}};
+  if (image.cluster >= 0) properties["cluster"] = image.cluster;
+  if (image.observations > 0) properties["residual_px"] = Rounded(image.residual_px_mean, 1e-4);
   if (!image.uncertainty) return properties;
   const Eigen::Vector3d sigmas_m = image.uncertainty->PositionSigmas();
   properties["sigma_east_m"] = Rounded(sigmas_m.x(), 1e-6);
@@ -41,22 +49,21 @@ Json PropertiesOf(const ImageRecord& record, const RegisteredImage& image) {
 
 }  // namespace
 
-absl::StatusOr<std::string> TrajectoryGeoJson(const std::map<ImageId, RegisteredImage>& images,
-                                              const ImageManifest& manifest) {
-  if (!manifest.origin)
-    return absl::FailedPreconditionError("the job has no latitude and longitude");
-  std::map<uint32_t, Json> line_of_drive;
+absl::StatusOr<std::string> TrajectoryGeoJson(const JobReport& report) {
+  if (!report.origin) return absl::FailedPreconditionError("the job has no latitude and longitude");
+  std::map<std::pair<uint32_t, uint32_t>, Json> lines;  // by model and drive
   Json points = Json::array();
-  for (const auto& [id, image] : images) {
-    const ImageRecord& record = manifest.At(id);
-    Json position = PositionOf(image.cam_from_world, *manifest.origin);
-    line_of_drive[record.drive].push_back(position);
-    points.push_back(Feature("Point", std::move(position), PropertiesOf(record, image)));
+  for (const ReportImage& image : report.images) {
+    if (!report.IsGeoreferenced(image)) continue;
+    Json position = PositionOf(image.cam_from_world, *report.origin);
+    lines[{image.model, image.drive}].push_back(position);
+    points.push_back(Feature("Point", std::move(position), PropertiesOf(image)));
   }
   Json features = Json::array();
-  for (auto& [drive, line] : line_of_drive) {
+  for (auto& [place, line] : lines) {
     if (line.size() < 2) continue;  // a LineString has two positions at least
-    features.push_back(Feature("LineString", std::move(line), {{"drive", drive}}));
+    features.push_back(
+        Feature("LineString", std::move(line), {{"model", place.first}, {"drive", place.second}}));
   }
   for (Json& point : points) features.push_back(std::move(point));
   return JsonText({{"type", "FeatureCollection"}, {"features", std::move(features)}});

@@ -2,19 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "core/scene/image_manifest.h"
-#include "core/scene/reconstruction.h"
+#include "core/io/job_report.h"
 
 namespace orbweave {
 
-/// RFC 7946 FeatureCollection in WGS84: one LineString per drive through its registered images in
-/// id order, then one Point per registered image with its name and sigmas. FailedPrecondition: the
-/// manifest has no origin.
-[[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(
-    const std::map<ImageId, RegisteredImage>& images, const ImageManifest& manifest);
+/// RFC 7946 FeatureCollection in WGS84 of all models that are georeferenced: one LineString per
+/// model and drive through its placed images in id order, then one Point per placed image with its
+/// name, state (registered or loose), model, drive, cluster, observations, mean residual and
+/// sigmas. FailedPrecondition: the report has no origin.
+[[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(const JobReport& report);
 
 }  // namespace orbweave

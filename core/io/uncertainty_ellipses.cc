@@ -98,7 +98,7 @@ std::string UncertaintyEllipses(const MapImages& images, const MapView& view) {
   std::string svg;
   for (const Ellipse& ellipse : ellipses) svg += Drawn(ellipse, enlargement);
   if (svg.empty()) return "";
-  const double y = view.height - 20.0;
+  const double y = view.height - 12.0;
   return absl::StrCat(svg,
                       "<text text-anchor=\"end\" x=\"980\" y=\"",
                       DecimalText(y, 1),

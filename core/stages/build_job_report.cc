@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
+#include <map>
 #include <set>
 
+#include "core/merging/quantile.h"
+#include "core/stages/check_contradicted_pairs.h"
+#include "core/stages/check_job.h"
+#include "core/stages/check_residual_patterns.h"
+#include "core/stages/judge_model.h"
 #include "core/stages/list_missing_images.h"
 #include "core/stages/summarise_uncertainty.h"
 
@@ -37,15 +42,20 @@ void FillModel(const JobResults& results, uint32_t number, JobReport& report) {
                                        model.report.gnss.outliers.end());
   for (const auto& [id, image] : model.images) {
     ReportImage& row = report.images[id.value];
-    if (image.loose && row.registered) continue;  // seen by a model before
+    // Rather where it is observed, then in the larger model.
+    if (row.registered && (image.loose || !row.loose)) continue;
     const ImageRecord& record = results.manifest.At(id);
     row.registered = true;
     row.loose = image.loose;
     row.model = number;
     row.uncertainty = image.uncertainty;
+    row.cam_from_world = image.cam_from_world;
     row.centre_in_world = image.cam_from_world.Centre();
+    row.gnss_in_world.reset();
     if (model.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
     row.gnss_outlier = outliers.contains(record.name);
+    row.observations = 0;
+    row.residual_px_mean = 0.0;
     if (const auto found = model.measures.images.find(id); found != model.measures.images.end()) {
       row.observations = found->second.observations;
       row.residual_px_mean = found->second.residual_px_mean;
@@ -76,37 +86,6 @@ void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
   report.residual_histogram.bin_width = measures.residual_histogram.bin_width;
   AddCounts(measures.residual_histogram.counts, report.residual_histogram.counts);
   AddCounts(measures.track_lengths, report.track_lengths);
-}
-
-void WarnOfContradictedPairs(const JobResults& results, JobReport& report) {
-  std::set<ImagePair> pairs;
-  for (const ClusterSummary& cluster : results.clusters)
-    pairs.insert(cluster.contradicted_pairs.begin(), cluster.contradicted_pairs.end());
-  if (pairs.empty()) return;
-  report.warnings.push_back(std::to_string(pairs.size()) +
-                            " verified pairs contradict the model, first " +
-                            results.manifest.At(pairs.begin()->a).name + " and " +
-                            results.manifest.At(pairs.begin()->b).name +
-                            ": places that look alike, or a model folded onto itself");
-}
-
-/// Residuals that repeat in every panorama bend a model without showing in its uncertainty.
-void WarnOfPatterns(const JobResults& results, JobReport& report) {
-  constexpr double kNoticeable_px = 0.1;
-  for (size_t model = 0; model < results.models.size(); ++model) {
-    const double pattern_px = results.models[model].report.pattern_px;
-    if (pattern_px < kNoticeable_px) continue;
-    char text[256];
-    std::snprintf(
-        text,
-        sizeof text,
-        "model %zu: residuals of up to %.2f px repeat at the same place of every panorama: "
-        "stitched lenses that do not share a centre, or another projection; the model may "
-        "be bent or stretched by more than its sigmas say",
-        model,
-        pattern_px);
-    report.warnings.emplace_back(text);
-  }
 }
 
 void TellReviews(const PartitionReview& review, JobReport& report) {
@@ -168,6 +147,7 @@ std::vector<ReportSeam> SeamRows(const JobResults& results) {
                     .position_jump_m = seam.position_jump_m,
                     .rotation_jump_deg = seam.rotation_jump_deg,
                     .used = seam.used,
+                    .contradicted = seam.contradicted,
                     .reason = seam.reason});
     if (seam.used) rows.back().after = FitAfter(results, rows.back());
   }
@@ -196,6 +176,62 @@ ReportGnss GnssRow(const GnssReport& gnss) {
           .outliers = gnss.outliers};
 }
 
+/// Steps between images of a model that follow each other in a drive.
+void MeasurePath(const JobReport& report, uint32_t number, ReportModel& row) {
+  std::map<uint32_t, Eigen::Vector3d> last_of_drive;
+  std::vector<double> steps;
+  for (const ReportImage& image : report.images) {
+    if (!image.registered || image.loose || image.model != number) continue;
+    const auto [last, is_first] = last_of_drive.emplace(image.drive, image.centre_in_world);
+    if (is_first) continue;
+    steps.push_back((image.centre_in_world - last->second).norm());
+    row.path_length += steps.back();
+    last->second = image.centre_in_world;
+  }
+  row.step_median = Quantile(std::move(steps), 0.5);
+}
+
+std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& report) {
+  std::vector<ReportModel> rows;
+  for (uint32_t number = 0; number < results.models.size(); ++number) {
+    const AdjustedModel& model = results.models[number];
+    ReportModel& row = rows.emplace_back();
+    row.points = model.measures.points;
+    row.observations = model.measures.observations;
+    row.residual_px_mean = model.measures.residual_px_mean;
+    row.gnss = GnssRow(model.report.gnss);
+    MeasurePath(report, number, row);
+  }
+  for (const ReportImage& image : report.images) {
+    if (image.registered) ++(image.loose ? rows[image.model].loose : rows[image.model].images);
+  }
+  return rows;
+}
+
+/// On the map, images without a pose are where GNSS says.
+void PlaceMissingByGnss(const ImageManifest& manifest, JobReport& report) {
+  const bool on_earth = std::ranges::any_of(
+      report.each_model, [](const ReportModel& model) { return model.gnss.used; });
+  if (!on_earth) return;
+  report.origin = manifest.origin;
+  for (const ImageRecord& record : manifest.images) {
+    ReportImage& row = report.images[record.id.value];
+    if (!row.registered) row.gnss_in_world = record.prior.position_in_enu;
+  }
+}
+
+void Judge(const JobResults& results, JobReport& report) {
+  for (const AdjustedModel& model : results.models)
+    std::ranges::copy(model.report.checks, std::back_inserter(report.checks));
+  std::ranges::copy(CheckResidualPatterns(results), std::back_inserter(report.checks));
+  const bool has_pairs = std::ranges::any_of(
+      report.checks, [](const CrossCheck& check) { return check.name == "pairs_contradicted"; });
+  if (const auto pairs = CheckContradictedPairs(results); pairs && !has_pairs)
+    report.checks.push_back(*pairs);
+  std::ranges::copy(CheckJob(results, report), std::back_inserter(report.checks));
+  report.verdict = JudgeModel(report);
+}
+
 }  // namespace
 
 ClusterSummary SummariseCluster(const ClusterResult& result) {
@@ -221,7 +257,6 @@ JobReport BuildJobReport(const JobResults& results) {
     AddMeasures(results.models[model].measures, report);
     FillModel(results, model, report);
     report.adjustments.push_back(AdjustmentRow(results.models[model].report));
-    std::ranges::copy(results.models[model].report.checks, std::back_inserter(report.checks));
   }
   if (report.points > 0) {
     report.mean_track_length =
@@ -233,15 +268,15 @@ JobReport BuildJobReport(const JobResults& results) {
   report.seams = SeamRows(results);
   report.warnings = results.manifest.warnings;
   ListMissingImages(results, report);
-  WarnOfPatterns(results, report);
-  WarnOfContradictedPairs(results, report);
   TellReviews(results.review, report);
   if (!results.models.empty()) {
     const AdjustedModel& main = results.models.front();
     report.gnss = GnssRow(main.report.gnss);
     report.uncertainty = SummariseUncertainty(main.report.uncertainty, main.images);
-    if (report.gnss.used) report.origin = results.manifest.origin;
   }
+  report.each_model = ModelRows(results, report);
+  PlaceMissingByGnss(results.manifest, report);
+  Judge(results, report);
   return report;
 }
 

@@ -51,65 +51,117 @@ TEST(PlyWriter, HoldsEveryPointAndColour) {
   }
 }
 
-TEST(CamerasCsv, GivesPosesBack) {
+/// The scene's images in two models, of which the first is on earth. Images that the scene has no
+/// pose for are missing.
+JobReport ReportOf(const SmallScene& scene) {
+  JobReport report;
+  report.origin = scene.manifest.origin;
+  report.models = 2;
+  report.each_model = {{.gnss = {.used = true}}, {}};
+  for (const ImageRecord& record : scene.manifest.images) {
+    ReportImage& row = report.images.emplace_back();
+    row.name = record.name;
+    row.drive = record.drive;
+    row.cluster = static_cast<int>(record.id.value / 4);
+    const auto found = scene.reconstruction.images.find(record.id);
+    if (found == scene.reconstruction.images.end()) continue;
+    row.registered = true;
+    row.loose = found->second.loose;
+    row.model = record.id.value < 8 ? 0 : 1;
+    row.cam_from_world = found->second.cam_from_world;
+    row.centre_in_world = row.cam_from_world.Centre();
+    row.uncertainty = found->second.uncertainty;
+    if (row.loose) continue;
+    row.observations = 100 + record.id.value;
+    row.residual_px_mean = 0.5;
+  }
+  return report;
+}
+
+TEST(CamerasCsv, HasEveryImageOfEveryModelWithItsPoseAndMeasures) {
   SmallScene scene = GeoreferencedScene();
   scene.manifest.images[2].name = "a,\"b\".jpg";
   scene.reconstruction.images[ImageId(3)].loose = true;
   scene.reconstruction.images[ImageId(4)].uncertainty = {
       Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
-  const std::string csv = CamerasCsv(scene.reconstruction.images, scene.manifest, true);
+  const std::string csv = CamerasCsv(ReportOf(scene));
   const std::vector<std::string_view> lines = SplitLines(csv);
   ASSERT_EQ(lines.size(), 13U);
   for (uint32_t i = 0; i < 12; ++i) {
     const std::vector<std::string> cells = SplitFields(lines[i + 1], ',');
-    ASSERT_EQ(cells.size(), 16U) << lines[i + 1];
+    ASSERT_EQ(cells.size(), SplitFields(lines[0], ',').size()) << lines[i + 1];
+    const bool missing = i % 10 == 1;
     EXPECT_EQ(cells[0], scene.manifest.images[i].name);
-    EXPECT_EQ(cells[11], i == 3 ? "loose" : i % 10 == 1 ? "not_registered" : "registered");
+    EXPECT_EQ(cells[11], i == 3 ? "loose" : missing ? "not_registered" : "registered");
     EXPECT_EQ(cells[12], i == 4 ? "2.000000" : "");
     EXPECT_EQ(cells[14], i == 4 ? "4.000000" : "");
     EXPECT_EQ(cells[15], i == 4 ? "0.5729578" : "");
-    if (i % 10 == 1) continue;
+    EXPECT_EQ(cells[16], missing ? "" : i < 8 ? "0" : "1");
+    EXPECT_EQ(cells[17], std::to_string(i / 4));
+    EXPECT_EQ(cells[18], missing ? "" : i == 3 ? "0" : std::to_string(100 + i));
+    EXPECT_EQ(cells[19], missing || i == 3 ? "" : "0.5000");
+    if (missing) continue;
     const Rigid3& pose = scene.reconstruction.images.at(ImageId(i)).cam_from_world;
-    double v[10];
-    for (size_t c = 0; c < 10; ++c) v[c] = NumberFromText(cells[c + 1]).value();
+    double v[10] = {};
+    for (size_t c = 0; c < (i < 8 ? 10U : 7U); ++c) v[c] = NumberFromText(cells[c + 1]).value();
     EXPECT_LT((Eigen::Vector3d(v[0], v[1], v[2]) - pose.Centre()).norm(), 1e-5);
     EXPECT_LT(Eigen::Quaterniond(v[3], v[4], v[5], v[6]).angularDistance(pose.rotation), 1e-7);
     EXPECT_GE(v[3], 0.0);
+    if (i >= 8) {
+      EXPECT_EQ(cells[8] + cells[9] + cells[10], "") << "its model is not on earth";
+      continue;
+    }
     EXPECT_LT((EnuFromGeodetic({v[7], v[8], v[9]}, *scene.manifest.origin) - pose.Centre()).norm(),
               1e-3);
   }
-  EXPECT_THAT(
-      std::string(SplitLines(CamerasCsv(scene.reconstruction.images, scene.manifest, false))[1]),
-      HasSubstr(",,,,registered,,,,"));
 }
 
-TEST(TrajectoryGeoJson, HasALinePerDriveAndAPointPerImage) {
+TEST(CamerasCsv, OfPosesAloneHasNoMeasures) {
+  const SmallScene scene = GeoreferencedScene();
+  const std::string csv = CamerasCsv(scene.reconstruction.images, scene.manifest, false);
+  const std::string first(SplitLines(csv)[1]);
+  EXPECT_THAT(first, HasSubstr(",,,,registered,,,,"));
+  EXPECT_EQ(SplitFields(first, ',').size(), 16U);
+  EXPECT_EQ(SplitFields(SplitLines(csv)[0], ',').size(), 16U);
+}
+
+TEST(TrajectoryGeoJson, HasALinePerModelAndDriveAndAPointPerImageOnEarth) {
   SmallScene scene = GeoreferencedScene();
   scene.reconstruction.images[ImageId(0)].uncertainty = {
       Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
-  const auto json =
-      nlohmann::json::parse(TrajectoryGeoJson(scene.reconstruction.images, scene.manifest).value());
+  scene.reconstruction.images[ImageId(3)].loose = true;
+  JobReport report = ReportOf(scene);
+  const auto json = nlohmann::json::parse(TrajectoryGeoJson(report).value());
   EXPECT_EQ(json["type"], "FeatureCollection");
-  ASSERT_EQ(json["features"].size(), 2 + scene.reconstruction.images.size());
+  // Images 0 to 7 but 1, of two drives.
+  ASSERT_EQ(json["features"].size(), 2 + 7U);
   EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
   EXPECT_EQ(json["features"][1]["properties"]["drive"], 1);
   const auto& point = json["features"][2];
   EXPECT_EQ(point["properties"]["name"], "street/img0.jpg");
   EXPECT_EQ(point["properties"]["sigma_north_m"], 3.0);
+  EXPECT_EQ(point["properties"]["model"], 0);
+  EXPECT_EQ(point["properties"]["cluster"], 0);
+  EXPECT_EQ(point["properties"]["observations"], 100);
+  EXPECT_EQ(point["properties"]["residual_px"], 0.5);
+  EXPECT_EQ(point["properties"]["state"], "registered");
   EXPECT_FALSE(json["features"][3]["properties"].contains("sigma_north_m"));
+  EXPECT_EQ(json["features"][4]["properties"]["state"], "loose");
   const auto& position = point["geometry"]["coordinates"];
   const Eigen::Vector3d enu =
       EnuFromGeodetic({position[1], position[0], position[2]}, *scene.manifest.origin);
   EXPECT_LT((enu - scene.reconstruction.images.at(ImageId(0)).cam_from_world.Centre()).norm(),
             1e-3);
-  EXPECT_EQ(TrajectoryGeoJson(scene.reconstruction.images, {}).status().code(),
-            absl::StatusCode::kFailedPrecondition);
+  report.each_model[1].gnss.used = true;
+  EXPECT_EQ(nlohmann::json::parse(TrajectoryGeoJson(report).value())["features"].size(), 3 + 10U);
+  EXPECT_EQ(TrajectoryGeoJson({}).status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
 TEST(GeoreferenceJson, PlacesTheFrameOnTheEarth) {
   const SmallScene scene = GeoreferencedScene();
-  const auto json = nlohmann::json::parse(GeoreferenceJson(scene.manifest, true));
+  const auto json = nlohmann::json::parse(GeoreferenceJson(scene.manifest, {0, 2}));
   EXPECT_EQ(json["axes"], "east-north-up");
+  EXPECT_EQ(json["models"], nlohmann::json::array({0, 2}));
   EXPECT_EQ(json["unit"], "metre");
   EXPECT_DOUBLE_EQ(json["origin"]["latitude"], 47.61);
   const auto& M = json["ecef_from_enu"];
@@ -117,7 +169,7 @@ TEST(GeoreferenceJson, PlacesTheFrameOnTheEarth) {
   const double latitude = 47.61 * M_PI / 180.0;
   EXPECT_NEAR(up.z(), std::sin(latitude), 1e-12);
   EXPECT_NEAR(Eigen::Vector3d(M[0][3], M[1][3], M[2][3]).norm(), 6.3667e6, 3e3);
-  EXPECT_EQ(nlohmann::json::parse(GeoreferenceJson(scene.manifest, false))["georeferenced"], false);
+  EXPECT_EQ(nlohmann::json::parse(GeoreferenceJson(scene.manifest, {}))["georeferenced"], false);
 }
 
 ReconstructionMeasures Measured(const Reconstruction& model, const ImageManifest& manifest) {

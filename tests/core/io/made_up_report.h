@@ -26,6 +26,16 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
       {"IMG_0031.jpg", "it is byte for byte a copy of IMG_0030.jpg"},
       {"IMG_0090.jpg", "truncated: the data end after 81920 bytes, before the image does"}};
   report.models = 1;
+  report.each_model = {{.images = num_images,
+                        .points = 38412,
+                        .observations = 182734,
+                        .residual_px_mean = 0.712,
+                        .step_median = 5.2,
+                        .path_length = 5.2 * num_images}};
+  report.checks = {
+      {"images_registered", 1.0, 0.95, "share", CheckLevel::kGood, "all are registered"},
+      {"gnss_clock", 0.83, 0.2, "s", CheckLevel::kDoubtful, "the GNSS clock is <late> by 0.8 s"}};
+  report.verdict = {CheckLevel::kDoubtful, {"the GNSS clock is <late> by 0.8 s"}};
   report.points = 38412;
   report.observations = 182734;
   report.mean_track_length = 4.757;
@@ -48,6 +58,7 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                  .residual_median_m = 0.84,
                  .residual_rms_inliers_m = 1.02,
                  .outliers = {"IMG_0020.jpg", "IMG_0060.jpg"}};
+  report.each_model.front().gnss = report.gnss;
   report.origin = GeodeticPosition{47.61019, -122.32385, 60.0};
   for (uint32_t c = 0; c < num_clusters; ++c)
     report.clusters.push_back({num_images / num_clusters + 8,
@@ -60,16 +71,16 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
     const uint32_t a = std::min(c, (c + 1) % num_clusters);
     const uint32_t b = std::max(c, (c + 1) % num_clusters);
     if (a != b)
-      report.seams.push_back({a,
-                              b,
-                              8,
-                              640 + 11 * c,
-                              611 + 9 * c,
-                              18.4 + c,
-                              0.013,
-                              0.008,
-                              c != 1,
-                              c == 1 ? "3 tracks only <agree>" : ""});
+      report.seams.push_back({.cluster_a = a,
+                              .cluster_b = b,
+                              .common_images = 8,
+                              .common_tracks = 640 + 11 * c,
+                              .inlier_tracks = 611 + 9 * c,
+                              .condition_number = 18.4 + c,
+                              .position_jump_m = 0.013,
+                              .rotation_jump_deg = 0.008,
+                              .used = c != 1,
+                              .reason = c == 1 ? "3 tracks only <agree>" : ""});
   }
   report.stages = {{"extract_features", 131.2, 251.9, num_images, 0, 0},
                    {"select_pairs", 0.2, 0.2, 1, 0, 0},
@@ -102,6 +113,8 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                              side(std::sin(angle), 62.0) + 0.5 * random.Normal(),
                              0.2 * random.Normal()};
     const double place = share * num_clusters;
+    image.cam_from_world =
+        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), image.centre_in_world);
     image.cluster = static_cast<int>(place);
     const double to_border = std::abs(place - std::round(place)) * num_images / num_clusters;
     image.in_overlap = to_border < 4.0;

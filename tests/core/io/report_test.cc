@@ -3,8 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/io/cluster_colors.h"
 #include "core/io/html_text.h"
 #include "core/io/report_html.h"
 #include "core/io/report_json.h"
@@ -76,6 +78,32 @@ TEST(ReportJson, HasEveryKeyAndIsDeterministic) {
   EXPECT_EQ(ReportJson(report), ReportJson(MadeUpReport(40, 3)));
 }
 
+TEST(ReportJson, TellsVerdictChecksModelsAndEveryImage) {
+  JobReport report = MadeUpReport(40, 3);
+  report.images[7].registered = false;
+  const auto json = nlohmann::json::parse(ReportJson(report));
+  EXPECT_EQ(json["verdict"]["level"], "doubtful");
+  EXPECT_EQ(json["verdict"]["reasons"][0], report.verdict.reasons[0]);
+  EXPECT_EQ(json["checks"][1]["name"], "gnss_clock");
+  EXPECT_EQ(json["checks"][1]["level"], "doubtful");
+  EXPECT_EQ(json["checks"][1]["value"], 0.83);
+  EXPECT_EQ(json["each_model"][0]["registered"], 40);
+  ASSERT_EQ(json["images"].size(), 40U);
+  EXPECT_EQ(json["images"][3]["cluster"], report.images[3].cluster);
+  EXPECT_EQ(json["images"][3]["observations"], report.images[3].observations);
+  EXPECT_EQ(json["images"][3]["residual_px"], report.images[3].residual_px_mean);
+  EXPECT_EQ(json["images"][3]["model"], 0);
+  EXPECT_EQ(json["images"][7]["state"], "not_registered");
+  EXPECT_FALSE(json["images"][7].contains("centre"));
+  EXPECT_EQ(json["images"][20]["state"], "loose");
+  EXPECT_EQ(json["gnss"]["contradicted"][0]["name"], "IMG_0020.jpg");
+  EXPECT_NEAR(json["gnss"]["contradicted"][0]["east_m"], 22.0, 1e-9);
+  EXPECT_NEAR(json["gnss"]["contradicted"][0]["distance_m"], std::hypot(22.0, 14.0), 1e-9);
+  EXPECT_NEAR(
+      json["uncertainty"]["relative"]["position_sigma_median_share_of_step"], 0.037 / 5.2, 1e-12);
+  EXPECT_EQ(nlohmann::json::parse(ReportJson({}))["images"].size(), 0U);
+}
+
 TEST(ReportJson, TakesNamesThatAreNoUtf8AndNumbersThatAreNone) {
   JobReport report;
   report.not_registered = {{"\xff\xfe.jpg", "odd"}};
@@ -107,6 +135,10 @@ TEST(ReportHtml, DefusesStrangersTextWhereverItStands) {
   report.not_registered = {{hostile, hostile}};
   report.warnings = {hostile};
   report.gnss.outliers = {hostile};
+  report.checks = {{hostile, 1.0, 0.5, hostile, CheckLevel::kBad, hostile}};
+  report.verdict = {CheckLevel::kBad, {hostile}};
+  report.models = 2;
+  report.each_model.push_back({.gnss = {.reason = hostile}});
   report.uncertainty.held_image = report.uncertainty.held_distance_to = hostile;
   for (const bool is_known : {true, false}) {
     report.gnss.used = report.uncertainty.known = is_known;
@@ -119,32 +151,119 @@ TEST(ReportHtml, DefusesStrangersTextWhereverItStands) {
   }
 }
 
-TEST(ReportHtml, ShowsEveryImageSeamAndOutlierOnTheMap) {
+std::string FirstMap(const JobReport& report) {
+  return TrajectoryMapSvg(report, MapFrames(report).front());
+}
+
+TEST(TrajectoryMap, ShowsEveryImageSeamAndOutlier) {
   const JobReport report = MadeUpReport(96, 5);
-  const std::string map = TrajectoryMapSvg(report, 0);
-  EXPECT_EQ(CountOf(map, "<circle"), 96U);
-  EXPECT_EQ(CountOf(map, "class=\"seam"), report.seams.size());
-  EXPECT_EQ(CountOf(map, "class=\"seam unused"), 1U);
-  EXPECT_EQ(CountOf(map, "class=\"outlier"), 2U);
+  const std::string map = FirstMap(report);
+  EXPECT_EQ(CountOf(map, "<circle"), 95U);
+  EXPECT_EQ(CountOf(map, "class=\"sym loose"), 1U);
+  EXPECT_EQ(CountOf(map, "class=\"sym seam"), report.seams.size());
+  EXPECT_EQ(CountOf(map, "class=\"sym seam unused"), 1U);
+  EXPECT_EQ(CountOf(map, "class=\"sym outlier"), 2U);
   EXPECT_THAT(map, HasSubstr(">N</text>"));
   EXPECT_THAT(map, HasSubstr(">50 m</text>"));
-  EXPECT_EQ(TrajectoryMapSvg(report, 1), "");
+  EXPECT_EQ(TrajectoryMapSvg(report, {.georeferenced = false, .models = {1}}), "");
+}
+
+TEST(TrajectoryMap, KeepsEveryMarkWithinItsFrameHoweverFarOffGnssIs) {
+  JobReport report = MadeUpReport(96, 5);
+  report.images[20].gnss_in_world = Eigen::Vector3d(3e6, -2e5, 9e3);
+  report.images[60].gnss_in_world = Eigen::Vector3d(-40.0, 900.0, 0.0);
+  ReportImage& missing = report.images.emplace_back();
+  missing.name = "far <away>.jpg";
+  missing.gnss_in_world = Eigen::Vector3d(-7e4, 1e3, 0.0);
+  const std::string map = FirstMap(report);
+  EXPECT_EQ(CountOf(map, "class=\"sym missing"), 1U);
+  EXPECT_THAT(map, HasSubstr("far &lt;away&gt;.jpg"));
+  double width = 0.0;
+  double height = 0.0;
+  ASSERT_EQ(
+      std::sscanf(map.c_str() + map.find("viewBox"), "viewBox=\"0 0 %lf %lf", &width, &height), 2);
+  size_t marks = 0;
+  for (size_t at = map.find("translate("); at != std::string::npos;
+       at = map.find("translate(", at + 1)) {
+    double x = 0.0;
+    double y = 0.0;
+    ASSERT_EQ(std::sscanf(map.c_str() + at, "translate(%lf,%lf", &x, &y), 2);
+    EXPECT_TRUE(x > 0.0 && x < width && y > 0.0 && y < height) << x << " " << y;
+    ++marks;
+  }
+  EXPECT_GT(marks, 8U);
+  // The street itself still fills most of the map.
+  EXPECT_GT(height, 300.0);
+}
+
+TEST(TrajectoryMap, PutsGeoreferencedModelsIntoOneFrameAndOthersIntoTheirOwn) {
+  JobReport report = MadeUpReport(60, 3);
+  report.models = 3;
+  const ReportModel first = report.each_model.front();
+  report.each_model = {first, {.images = 15}, first};
+  report.each_model[0].images = 35;
+  report.each_model[2].images = 10;
+  for (size_t i = 0; i < 60; ++i) report.images[i].model = i < 35 ? 0 : i < 50 ? 1 : 2;
+  const std::vector<MapFrame> frames = MapFrames(report);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].models, (std::vector<uint32_t>{0, 2}));
+  EXPECT_EQ(frames[1].models, (std::vector<uint32_t>{1}));
+  const std::string together = TrajectoryMapSvg(report, frames[0]);
+  EXPECT_EQ(CountOf(together, "<title>IMG_"), 45U);
+  EXPECT_EQ(CountOf(TrajectoryMapSvg(report, frames[1]), "<title>IMG_"), 15U);
+  EXPECT_THAT(MapKeyHtml(report, frames[0], together), HasSubstr("model 2 (10)"));
+  EXPECT_TRUE(IsBalanced(ReportHtml(report)));
+  EXPECT_THAT(ReportHtml(report), HasSubstr("2 models that GNSS puts into one frame"));
+}
+
+TEST(MapKey, ListsWhatIsShownAndNothingElse) {
+  JobReport report = MadeUpReport(96, 5);
+  const auto key = [&] {
+    const MapFrame frame = MapFrames(report).front();
+    return MapKeyHtml(report, frame, TrajectoryMapSvg(report, frame));
+  };
+  for (const char* shown : {"cluster 4",
+                            "in two clusters",
+                            "placed loosely",
+                            "switched off",
+                            "without certificate",
+                            "error ellipse",
+                            "contradicted GNSS"})
+    EXPECT_THAT(key(), HasSubstr(shown));
+  for (const char* absent : {"doubtful seam", "bad seam", "seam that fits", "not registered, at"})
+    EXPECT_THAT(key(), Not(HasSubstr(absent)));
+  report.seams.clear();
+  for (ReportImage& image : report.images) {
+    image.cluster = 0;
+    image.in_overlap = image.loose = image.gnss_outlier = false;
+    image.uncertainty.reset();
+  }
+  EXPECT_EQ(key(), "");
+}
+
+TEST(ColorsOfClusters, DifferAcrossEverySeam) {
+  JobReport report = MadeUpReport(200, 11);
+  report.seams.push_back({.cluster_a = 0, .cluster_b = 5});  // the same colour in turn
+  const std::vector<int> colors = ColorsOfClusters(report);
+  ASSERT_EQ(colors.size(), 11U);
+  for (const ReportSeam& seam : report.seams)
+    EXPECT_NE(colors[seam.cluster_a], colors[seam.cluster_b]) << seam.cluster_a;
 }
 
 TEST(ReportHtml, DrawsEllipsesOfAllThatIsKnownAndCutsTheLargest) {
   JobReport report = MadeUpReport(48, 5);
-  const std::string map = TrajectoryMapSvg(report, 0);
+  const std::string map = FirstMap(report);
   EXPECT_EQ(CountOf(map, "<ellipse"), 47U);
   EXPECT_EQ(CountOf(map, "sigma cut"), 1U);
   EXPECT_THAT(map, HasSubstr("ellipses: one sigma, x "));
   // Twice as far along x as along y, flat on the page.
   EXPECT_EQ(CountOf(map, "rotate(0)"), 47U);
   for (ReportImage& image : report.images) image.uncertainty.reset();
-  EXPECT_THAT(TrajectoryMapSvg(report, 0), Not(HasSubstr("ellipse")));
+  EXPECT_THAT(FirstMap(report), Not(HasSubstr("ellipse")));
 }
 
 TEST(ReportHtml, KeepsTheLeastCertainImageOfALongStreet) {
-  EXPECT_EQ(CountOf(TrajectoryMapSvg(MadeUpReport(2000, 20), 0), "sigma cut"), 1U);
+  EXPECT_EQ(CountOf(FirstMap(MadeUpReport(2000, 20)), "sigma cut"), 1U);
 }
 
 TEST(ReportHtml, SaysWhatSigmasAreRelativeTo) {
@@ -187,6 +306,52 @@ TEST(ReportHtml, TakesDegenerateReports) {
   EXPECT_TRUE(IsBalanced(html));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
   EXPECT_THAT(html, Not(HasSubstr("inf,")));
+}
+
+TEST(ReportHtml, SaysTheVerdictFirstThenWarningsThenFigures) {
+  JobReport report = MadeUpReport(40, 3);
+  const std::string html = ReportHtml(report);
+  const size_t verdict = html.find("Verdict: doubtful");
+  const size_t warnings = html.find("<h2>Warnings");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_LT(verdict, warnings);
+  EXPECT_LT(warnings, html.find("class=\"cards\""));
+  EXPECT_THAT(html, HasSubstr("<li>the GNSS clock is &lt;late&gt; by 0.8 s</li>"));
+  // The doubtful check is above the good one, each with what it is held to.
+  EXPECT_LT(html.find("gnss_clock"), html.find("images_registered"));
+  EXPECT_THAT(html, HasSubstr("<td>0.83 s</td><td>≤ 0.2 s</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>100 %</td><td>≥ 95 %</td>"));
+  report.verdict = {};
+  EXPECT_THAT(ReportHtml(report), HasSubstr("nothing that speaks against the model"));
+}
+
+TEST(ReportHtml, TellsHowFarContradictedPositionsAreOffEastNorthAndUp) {
+  const std::string html = ReportHtml(MadeUpReport(96, 5));
+  EXPECT_THAT(html, HasSubstr("2 contradicted positions"));
+  EXPECT_THAT(html,
+              HasSubstr("<td class=\"text\">IMG_0020.jpg</td><td>22</td><td>14</td><td>0</td>"
+                        "<td>26.1</td>"));
+}
+
+TEST(ReportHtml, MakesOneLineOfWarningsAndReasonsOfAKind) {
+  JobReport report = MadeUpReport(40, 3);
+  report.warnings.clear();
+  report.not_registered.clear();
+  for (int i = 0; i < 30; ++i) {
+    report.warnings.push_back("row " + std::to_string(i) + " of gnss.csv has no image");
+    report.not_registered.push_back({"stop_" + std::to_string(i) + ".jpg", "no pair could start"});
+  }
+  const std::string html = ReportHtml(report);
+  EXPECT_EQ(CountOf(html, "of gnss.csv has no image"), 1U);
+  EXPECT_THAT(html, HasSubstr("row 0 of gnss.csv has no image (and 29 more of this kind)"));
+  EXPECT_EQ(CountOf(html, "no pair could start"), 1U);
+  EXPECT_THAT(html, HasSubstr("<td>30</td><td class=\"text\">no pair could start"));
+  EXPECT_EQ(nlohmann::json::parse(ReportJson(report))["warnings"].size(), 30U);
+}
+
+TEST(ReportHtml, GivesPrecisionAsShareOfPathAndStepToo) {
+  EXPECT_THAT(ReportHtml(MadeUpReport(40, 3)),
+              HasSubstr("178 ppm of a path of 208 m, 0.71 % of a step of 5.2 m"));
 }
 
 TEST(EscapeHtml, KeepsTextAndDefusesTheRest) {

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/io/job_report.h"
+
+namespace orbweave {
+
+/// Colours that people tell apart whatever their eyes see (Okabe and Ito 2002, without those that
+/// stand for states or are too light), as classes of the stylesheet: k0 to k4.
+inline constexpr int kMapColors = 5;
+
+/// "k0" ... "k4", in turn; "kn", grey, below zero.
+[[nodiscard]] std::string ColorClass(int color);
+
+/// A colour per cluster, another one than those of the clusters it has seams with where five
+/// suffice.
+[[nodiscard]] std::vector<int> ColorsOfClusters(const JobReport& report);
+
+}  // namespace orbweave
