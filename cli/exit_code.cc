@@ -6,11 +6,25 @@
 #include <cstdio>
 #include <string>
 
+#include "absl/strings/cord.h"
 #include "core/io/printable_text.h"
 
 namespace orbweave {
+namespace {
+
+/// Marks an error that a code alone does not tell from others.
+constexpr const char* kVerdictPayload = "orbweave/verdict";
+
+}  // namespace
+
+absl::Status VerdictError(const std::string& message) {
+  absl::Status status = absl::FailedPreconditionError(message);
+  status.SetPayload(kVerdictPayload, absl::Cord());
+  return status;
+}
 
 int ExitCodeOf(const absl::Status& status) {
+  if (status.GetPayload(kVerdictPayload).has_value()) return kExitVerdict;
   switch (status.code()) {
     case absl::StatusCode::kOk:
       return kExitOk;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "core/base/status.h"
 
 namespace orbweave {
@@ -12,8 +14,12 @@ enum ExitCode : int {
   kExitFailed = 1,        ///< the job failed, or something broke on the way
   kExitUsage = 2,         ///< the command line or the input is not right
   kExitUnavailable = 3,   ///< no coordinator there
+  kExitVerdict = 4,       ///< the job is done, its model judged as --fail-on does not take it
   kExitInterrupted = 130  ///< stopped by Ctrl-C or SIGTERM
 };
+
+/// The error of a job that is done and whose verdict is too bad: its exit code is kExitVerdict.
+[[nodiscard]] absl::Status VerdictError(const std::string& message);
 
 [[nodiscard]] int ExitCodeOf(const absl::Status& status);
 

@@ -2,24 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/format_summary.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/io/group_messages.h"
 #include "core/io/html_text.h"
+#include "core/io/level_text.h"
 #include "core/io/printable_text.h"
 
 namespace orbweave {
 namespace {
 
-constexpr size_t kNamesShown = 5;
+constexpr size_t kLinesShown = 12;  ///< of a kind; report.html has all
 
 std::string GnssLine(const ReportGnss& gnss) {
   if (!gnss.used) return gnss.reason.empty() ? "none" : "not used: " + PrintableText(gnss.reason);
-  const std::string agreement = absl::StrFormat("%u of %u positions agree, %.2f m RMS",
-                                                gnss.num_inliers,
-                                                gnss.num_priors,
-                                                gnss.residual_rms_inliers_m);
-  if (gnss.bend_m == 0.0) return agreement;
-  return agreement + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.bend_m);
+  std::string line = absl::StrFormat("%u of %u positions agree, %.2f m RMS",
+                                     gnss.num_inliers,
+                                     gnss.num_priors,
+                                     gnss.residual_rms_inliers_m);
+  if (!gnss.outliers.empty())
+    absl::StrAppend(&line, "; ", gnss.outliers.size(), " contradicted, see report.html");
+  if (gnss.bend_m == 0.0) return line;
+  return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.bend_m);
 }
 
 std::string SigmaLine(const JobReport& report) {
@@ -36,23 +44,43 @@ std::string SigmaLine(const JobReport& report) {
                       ")");
 }
 
-std::string LeftOut(const JobReport& report) {
-  std::string text;
-  for (size_t i = 0; i < report.not_registered.size() && i < kNamesShown; ++i) {
-    absl::StrAppend(&text,
-                    "  left out    ",
-                    PrintableText(report.not_registered[i].name),
-                    ": ",
-                    PrintableText(report.not_registered[i].reason),
-                    "\n");
+/// Seams between clusters, and what is wrong with them.
+std::string SeamsLine(const JobReport& report) {
+  const auto count = [&](auto test) { return std::ranges::count_if(report.seams, test); };
+  const auto is = [](SeamVerdict verdict) {
+    return
+        [verdict](const ReportSeam& seam) { return seam.used && seam.after.Verdict() == verdict; };
+  };
+  std::string line = absl::StrFormat("%u, %u seams", report.clusters.size(), report.seams.size());
+  const std::pair<const char*, std::ptrdiff_t> faults[] = {
+      {"switched off", count([](const ReportSeam& seam) { return !seam.used; })},
+      {"bad", count(is(SeamVerdict::kBad))},
+      {"doubtful", count(is(SeamVerdict::kDoubtful))},
+      {"not certified", count(is(SeamVerdict::kUnknown))}};
+  const char* separator = ": ";
+  for (const auto& [what, number] : faults) {
+    if (number == 0) continue;
+    absl::StrAppend(&line, separator, number, " ", what);
+    separator = ", ";
   }
-  if (report.not_registered.size() > kNamesShown) {
-    absl::StrAppend(&text,
-                    "  left out    ",
-                    report.not_registered.size() - kNamesShown,
-                    " more, see report.html\n");
+  return line;
+}
+
+/// A line for each, the first few of them. `more`: what the rest is.
+std::string Lines(const char* label, const std::vector<std::string>& lines, const char* more) {
+  std::string text;
+  for (size_t i = 0; i < std::min(lines.size(), kLinesShown); ++i)
+    absl::StrAppendFormat(&text, "  %-11s %s\n", label, PrintableText(lines[i]));
+  if (lines.size() > kLinesShown) {
+    absl::StrAppendFormat(
+        &text, "  %-11s %u more %s, see report.html\n", label, lines.size() - kLinesShown, more);
   }
   return text;
+}
+
+std::string VerdictLines(const Verdict& verdict) {
+  return absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
+         Lines("", verdict.reasons, "reasons");
 }
 
 std::string StageTable(const JobReport& report) {
@@ -86,18 +114,17 @@ std::string FormatSummary(const JobReport& report, const std::string& output) {
                         "  residual    %.3f px mean, %.3f px RMS\n",
                         report.residual_px_mean,
                         report.residual_px_rms);
-  absl::StrAppendFormat(
-      &text, "  clusters    %u, %u seams\n", report.clusters.size(), report.seams.size());
+  absl::StrAppend(&text, "  clusters    ", SeamsLine(report), "\n");
   absl::StrAppend(&text, "  GNSS        ", GnssLine(report.gnss), "\n");
   absl::StrAppend(&text, "  sigma       ", SigmaLine(report), "\n");
-  absl::StrAppend(&text, LeftOut(report));
-  for (const std::string& warning : report.warnings)
-    absl::StrAppend(&text, "  warning     ", PrintableText(warning), "\n");
+  text += Lines("left out", CountedLines(report.not_registered), "reasons");
+  text += Lines("warning", CountedLines(report.warnings), "warnings");
   absl::StrAppend(&text, "\n", StageTable(report), "\n");
   absl::StrAppend(&text,
                   "  outputs     ",
                   output,
                   " (open report.html; sparse/0 in COLMAP; points.ply in CloudCompare)\n");
+  text += VerdictLines(report.verdict);
   return text;
 }
 

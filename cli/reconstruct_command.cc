@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/exit_code.h"
+#include "cli/fail_on_argument.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/prepare_job.h"
@@ -21,6 +22,7 @@ struct ReconstructArguments {
   std::string output{};
   bool single = false;
   uint32_t workers = 2;
+  FailOn fail_on{};
   OptionArguments options{};
 };
 
@@ -30,6 +32,7 @@ absl::Status Reconstruct(const ReconstructArguments& arguments) {
   return RunLocalJob(
       {.output = arguments.output,
        .workers = arguments.workers,
+       .fail_on = arguments.fail_on,
        .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
          return PrepareDatabaseJob(
              coordinator, arguments.database, arguments.gnss, arguments.clusters, options, context);
@@ -57,6 +60,7 @@ void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--workers", arguments->workers, "Worker processes")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  AddFailOnArgument(*command, arguments->fail_on);
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"

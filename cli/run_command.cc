@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/exit_code.h"
+#include "cli/fail_on_argument.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/prepare_job.h"
@@ -19,6 +20,7 @@ struct RunArguments {
   std::string clusters{};
   std::string output{};
   uint32_t workers = 2;
+  FailOn fail_on{};
   OptionArguments options{};
 };
 
@@ -26,6 +28,7 @@ absl::Status Run(const RunArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   return RunLocalJob({.output = arguments.output,
                       .workers = arguments.workers,
+                      .fail_on = arguments.fail_on,
                       .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
                         return PrepareImageJob(
                             coordinator, arguments.scan, arguments.clusters, options, context);
@@ -47,6 +50,7 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--workers", arguments->workers, "Worker processes")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  AddFailOnArgument(*command, arguments->fail_on);
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"

@@ -38,14 +38,15 @@ absl::Status Interrupted(const std::string& output) {
 
 absl::Status WriteAndSummarize(CoordinatorApi& coordinator,
                                const JobStatus& status,
-                               const std::string& output) {
+                               const LocalJob& job) {
+  const std::string& output = job.output;
   ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(coordinator, status, output));
   std::fputs(FormatSummary(report, output).c_str(), stdout);
   if (report.registered == 0) {
     return absl::InternalError("no image could be registered; the reasons are in " + output +
                                "/report.html");
   }
-  return absl::OkStatus();
+  return CheckVerdict(report.verdict, job.fail_on);
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ absl::Status RunLocalJob(const LocalJob& job) {
   ORBWEAVE_RETURN_IF_ERROR(status.status());
   ORBWEAVE_RETURN_IF_ERROR(CheckEnd(*status));
   if (job.conclude) return job.conclude(fleet->coordinator(), *status);
-  return WriteAndSummarize(fleet->coordinator(), *status, job.output);
+  return WriteAndSummarize(fleet->coordinator(), *status, job);
 }
 
 }  // namespace orbweave

@@ -9,6 +9,7 @@
 
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
+#include "cli/fail_on_argument.h"
 #include "cli/format_summary.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
@@ -29,12 +30,13 @@ struct SubmitArguments {
   ScanRequest scan{};
   std::string clusters{};
   std::string output{};
+  FailOn fail_on{};
   OptionArguments options{};
 };
 
 absl::Status WaitAndWrite(CoordinatorApi& coordinator,
                           const Digest& job,
-                          const std::string& output,
+                          const SubmitArguments& arguments,
                           const std::stop_token& stop) {
   ProgressBar bar(stderr);
   const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
@@ -42,9 +44,10 @@ absl::Status WaitAndWrite(CoordinatorApi& coordinator,
   bar.Finish();
   if (status.state != JobState::kDone)
     return absl::InternalError("the job did not finish: " + status.error);
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(coordinator, status, output));
-  std::fputs(FormatSummary(report, output).c_str(), stdout);
-  return absl::OkStatus();
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report,
+                            WriteOutputs(coordinator, status, arguments.output));
+  std::fputs(FormatSummary(report, arguments.output).c_str(), stdout);
+  return CheckVerdict(report.verdict, arguments.fail_on);
 }
 
 absl::Status Submit(const SubmitArguments& arguments) {
@@ -60,8 +63,7 @@ absl::Status Submit(const SubmitArguments& arguments) {
       PrepareImageJob(
           *coordinator, arguments.scan, arguments.clusters, options, {.stop = signals.token()}));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator->SubmitJob(spec));
-  if (!arguments.output.empty())
-    return WaitAndWrite(*coordinator, job, arguments.output, signals.token());
+  if (!arguments.output.empty()) return WaitAndWrite(*coordinator, job, arguments, signals.token());
   std::printf("%s\n", job.ToHex().c_str());
   return absl::OkStatus();
 }
@@ -79,10 +81,11 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
                   "sent, the coordinator reads them itself (repeatable)");
   AddImageArguments(*command, arguments->scan);
   AddClustersArgument(*command, arguments->clusters);
-  command->add_option(
+  CLI::Option* output = command->add_option(
       "--output",
       arguments->output,
       "Wait for the end and write the results here (default: print the job's id and leave)");
+  AddFailOnArgument(*command, arguments->fail_on)->needs(output);
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"
