@@ -15,9 +15,9 @@ trap 'rm -rf "$folder"' EXIT
 # A number or word of report.json's outermost object.
 field() { sed -n "s/^ \"$1\": \([^,]*\),*$/\1/p" "$folder/out/report.json" | head -1; }
 
-# What the report says beyond numbers: models, GNSS not used, GNSS outliers, warnings.
+# What the report says beyond numbers: GNSS not used, GNSS outliers, warnings, verdict and its first reason.
 remarks() {
-  local file=$folder/out/report.json gnss used reason outliers warnings seams
+  local file=$folder/out/report.json gnss used reason outliers warnings seams verdict
   gnss=$(sed -n '/^ "gnss": {/,/^ }/p' "$file")
   used=$(sed -n 's/^  "used": \([a-z]*\),*$/\1/p' <<<"$gnss")
   reason=$(sed -n 's/^  "reason": "\(.*\)",*$/\1/p' <<<"$gnss")
@@ -28,6 +28,9 @@ remarks() {
   seams=$(sed -n '/^ "seams": \[/,/^ \]/p' "$file" | grep -c '"used": false' || true)
   [ "$seams" = 0 ] || echo -n "seams switched off: $seams; "
   [ -z "$warnings" ] || echo -n "$warnings; "
+  verdict=$(sed -n '/^ "verdict": {/,/^ }/p' "$file")
+  reason=$(sed -n '/"reasons": \[/,/\]/s/^   "\(.*\)",*$/\1/p' <<<"$verdict" | head -1)
+  echo -n "$(sed -n 's/^  "level": "\(.*\)",*$/\1/p' <<<"$verdict")${reason:+: $reason}; "
 }
 
 # error REGEX: the number before it in what evaluate printed.
