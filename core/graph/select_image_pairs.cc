@@ -4,9 +4,9 @@
 #include "core/graph/select_image_pairs.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/graph/find_near_positions.h"
+#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -22,9 +22,7 @@ void AddEveryPair(const ImageManifest& manifest, Pairs& pairs) {
 }
 
 void AddSequencePairs(const ImageManifest& manifest, size_t window, Pairs& pairs) {
-  std::map<uint32_t, std::vector<ImageId>> drives;
-  for (const ImageRecord& image : manifest.images) drives[image.drive].push_back(image.id);
-  for (const auto& [drive, sequence] : drives) {
+  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
     for (size_t i = 0; i < sequence.size(); ++i) {
       for (size_t j = i + 1; j < sequence.size() && j - i <= window; ++j) {
         pairs.push_back(MakePair(sequence[i], sequence[j]));

@@ -47,7 +47,7 @@ struct PairOptions {
 };
 
 /// Which two panoramas may see the same. The union of
-///   - a window along the sequence of each drive (images of one drive in id order),
+///   - a window along the sequence of each drive (SequenceOfDrives),
 ///   - each image's nearest GNSS neighbours within a radius, by horizontal distance,
 ///   - `similar` (per image the most similar others, best first; may be empty), without those whose
 ///     horizontal GNSS distance exceeds max(similar_gate_m, similar_gate_sigmas (sigma_a +

@@ -54,6 +54,18 @@ TEST(SelectImagePairs, KeepsDrivesApart) {
   EXPECT_FALSE(Has(pairs, 2, 3));
 }
 
+TEST(SelectImagePairs, PairsNeighboursInTimeRatherThanInNames) {
+  ImageManifest manifest = DriveAlongStreet(6, false);
+  const double times_s[] = {0.0, 3.0, 1.0, 4.0, 2.0, 5.0};  // in time: 0 2 4 1 3 5
+  for (uint32_t i = 0; i < 6; ++i) manifest.images[i].capture_time_s = times_s[i];
+  const auto pairs = SelectImagePairs(manifest, {}, {.sequence_window = 1, .exhaustive_below = 0});
+  EXPECT_EQ(pairs.size(), 5U);
+  EXPECT_TRUE(Has(pairs, 0, 2));
+  EXPECT_TRUE(Has(pairs, 1, 4));
+  EXPECT_FALSE(Has(pairs, 0, 1));
+  ExpectSortedAndUnique(pairs);
+}
+
 TEST(SelectImagePairs, FindsTheSamePlaceVisitedTwice) {
   ImageManifest manifest = DriveAlongStreet(100, true);
   manifest.images[90].prior.position_in_enu =
