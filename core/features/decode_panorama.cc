@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/status.h"
-#include "core/features/image_header.h"
+#include "core/scene/image_header.h"
 
 namespace orbweave {
 namespace {

@@ -3,8 +3,6 @@
 
 #include "core/io/image_metadata.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <exiv2/exiv2.hpp>
 #include <memory>
@@ -13,8 +11,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
-#include "core/io/image_container.h"
 #include "core/io/text_fields.h"
+#include "core/scene/image_header.h"
 
 namespace orbweave {
 namespace {
@@ -97,25 +95,7 @@ void ReadTime(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
   if (!NumberFromText(text)) metadata.capture_time_s = TimeFromText(text);
 }
 
-/// Width and height of "P6 # comment 640 320 255".
-absl::Status ReadPnmHeader(std::string_view encoded, ImageMetadata& metadata) {
-  size_t at = 2;
-  int values[2] = {0, 0};
-  for (int& value : values) {
-    while (at < encoded.size() &&
-           (std::isspace(static_cast<unsigned char>(encoded[at])) != 0 || encoded[at] == '#')) {
-      at = encoded[at] == '#' ? std::min(encoded.find('\n', at), encoded.size()) : at + 1;
-    }
-    while (at < encoded.size() && std::isdigit(static_cast<unsigned char>(encoded[at])) != 0 &&
-           value < kMaxSidePx) {
-      value = value * 10 + (encoded[at++] - '0');
-    }
-  }
-  metadata.width_px = values[0];
-  metadata.height_px = values[1];
-  return absl::OkStatus();
-}
-
+/// EXIF and XMP; the size is not asked for, so that one parser alone says what it is.
 absl::Status ReadWithExiv2(std::string_view encoded, ImageMetadata& metadata) {
   // Exiv2's XMP parser and its log level are shared by the process: one reader at a time.
   static std::mutex mutex;
@@ -125,8 +105,6 @@ absl::Status ReadWithExiv2(std::string_view encoded, ImageMetadata& metadata) {
     const auto image = Exiv2::ImageFactory::open(
         reinterpret_cast<const Exiv2::byte*>(encoded.data()), static_cast<long>(encoded.size()));
     image->readMetadata();
-    metadata.width_px = image->pixelWidth();
-    metadata.height_px = image->pixelHeight();
     ReadPosition(image->exifData(), metadata);
     ReadOrientation(image->exifData(), image->xmpData(), metadata);
     ReadTime(image->exifData(), metadata);
@@ -139,17 +117,19 @@ absl::Status ReadWithExiv2(std::string_view encoded, ImageMetadata& metadata) {
 }  // namespace
 
 absl::StatusOr<ImageMetadata> ReadImageMetadata(std::string_view encoded) {
-  ImageMetadata metadata;
   const ImageKind kind = IdentifyImage(encoded);
   if (encoded.empty()) return absl::InvalidArgumentError("the file is empty");
   if (kind == ImageKind::kUnknown)
     return absl::InvalidArgumentError("not an image of a known kind");
-  ORBWEAVE_RETURN_IF_ERROR(kind == ImageKind::kPnm ? ReadPnmHeader(encoded, metadata)
-                                                   : ReadWithExiv2(encoded, metadata));
-  const bool sane = metadata.width_px > 0 && metadata.height_px > 0 &&
-                    metadata.width_px <= kMaxSidePx && metadata.height_px <= kMaxSidePx;
-  if (!sane) return absl::InvalidArgumentError("the header gives no dimensions");
-  ORBWEAVE_RETURN_IF_ERROR(CheckComplete(encoded));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageHeader header, ReadImageHeader(encoded));
+  if (header.width_px > kMaxSidePx || header.height_px > kMaxSidePx)
+    return absl::InvalidArgumentError("the header gives no dimensions");
+  if (!header.complete) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "truncated: the data end after ", encoded.size(), " bytes, before the image does"));
+  }
+  ImageMetadata metadata{.width_px = header.width_px, .height_px = header.height_px};
+  if (kind != ImageKind::kPnm) ORBWEAVE_RETURN_IF_ERROR(ReadWithExiv2(encoded, metadata));
   return metadata;
 }
 

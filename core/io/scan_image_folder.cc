@@ -174,7 +174,7 @@ absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
     return absl::NotFoundError(
         absl::StrCat("no images in ",
                      folder,
-                     "; expected jpg, png, tif, bmp, webp or ppm files there or below"));
+                     "; expected jpg, png, tif, bmp, webp, ppm or pgm files there or below"));
   }
   ImageSources sources;
   sources.mask_ignores_white = request.mask_ignores_white;

@@ -19,7 +19,7 @@ struct ScanRequest {
   std::string gnss_table{};  ///< path of the GNSS table; empty: none
 };
 
-/// Lists the image files (jpg jpeg png tif tiff bmp webp ppm, in any case) below a folder,
+/// Lists the image files (jpg jpeg png tif tiff bmp webp ppm pgm, in any case) below a folder,
 /// following symbolic links, in natural name order, and reads each once: digest, dimensions,
 /// metadata, mask. A file that cannot be used, one whose name is not UTF-8 too, is listed with its
 /// `problem`. NotFound: the folder is

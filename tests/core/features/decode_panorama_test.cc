@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/features/image_header.h"
+#include "core/scene/image_header.h"
 #include "tests/core/features/panorama_images.h"
 
 namespace orbweave {
@@ -22,7 +22,7 @@ std::string ProblemOf(std::string_view encoded) {
 class EveryFormat : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Formats,
                          EveryFormat,
-                         ::testing::Values(".jpg", ".png", ".tiff", ".bmp", ".webp"));
+                         ::testing::Values(".jpg", ".png", ".tiff", ".bmp", ".webp", ".ppm"));
 
 TEST_P(EveryFormat, HeaderTellsTheSize) {
   const auto header = ReadImageHeader(Encoded(TexturedPanorama(256, 1), GetParam()));
@@ -93,6 +93,24 @@ TEST(ReadImageHeader, TakesTheLargerOfTwoWidthsInATiff) {
   const size_t third = width + 24;  // whatever it says, now it says the width again
   tiff.replace(third, 12, tiff.substr(width, 8) + std::string("\xFF\xFF\0\0", 4));
   EXPECT_EQ(ReadImageHeader(tiff)->width_px, 65535);
+}
+
+TEST(ReadImageHeader, ReadsCommentsAndWideSamplesOfPnm) {
+  const std::string grey = "P5\n# made by hand\n 8\t4 # and this\n65535\n" + std::string(64, 'x');
+  const auto header = ReadImageHeader(grey);
+  ASSERT_TRUE(header.ok()) << header.status();
+  EXPECT_EQ(header->width_px, 8);
+  EXPECT_EQ(header->height_px, 4);
+  EXPECT_TRUE(header->complete);
+  EXPECT_FALSE(ReadImageHeader(grey.substr(0, grey.size() - 1))->complete);
+  EXPECT_TRUE(DecodePanorama(grey, 4096).ok());
+}
+
+TEST(ReadImageHeader, KnowsThatPixelsOfABmpAreMissingWhateverTheFileSaysOfItsLength) {
+  std::string bmp = Encoded(TexturedPanorama(256, 1), ".bmp");
+  bmp.replace(2, 4, std::string(4, '\0'));  // as some programs leave it
+  EXPECT_TRUE(ReadImageHeader(bmp)->complete);
+  EXPECT_FALSE(ReadImageHeader(bmp.substr(0, bmp.size() / 2))->complete);
 }
 
 TEST(DecodePanorama, IgnoresThumbnailsWhenLookingForTheEnd) {

@@ -5,7 +5,6 @@
 
 #include <tuple>
 
-#include "core/io/image_container.h"
 #include "tests/core/io/io_test_support.h"
 #include "tests/core/io/tagged_image.h"
 
@@ -77,13 +76,13 @@ TEST(ReadImageMetadata, LeavesOutAPositionThatIsNowhereAndSaysSo) {
 }
 
 TEST(ReadImageMetadata, RefusesEveryTruncation) {
-  for (const char* extension : {".jpg", ".png", ".bmp", ".webp"}) {
+  for (const char* extension : {".jpg", ".png", ".bmp", ".webp", ".ppm"}) {
     const std::string bytes = EncodedImage(64, 32, extension);
     for (size_t size = 0; size + 2 < bytes.size(); size += 1 + size / 8) {
       EXPECT_FALSE(ReadImageMetadata(std::string_view(bytes).substr(0, size)).ok())
           << extension << " " << size;
     }
-    EXPECT_TRUE(CheckComplete(bytes).ok()) << extension;
+    EXPECT_TRUE(ReadImageMetadata(bytes).ok()) << extension;
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/features/image_header.h"
+#include "core/scene/image_header.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -101,11 +101,53 @@ ImageHeader ReadTiff(std::string_view data, Endian endian) {
   return header;
 }
 
+/// Bytes of an uncompressed BMP up to the end of its last row: rows are filled up to 4 bytes.
+size_t BmpBytes(const Bytes& bytes, const ImageHeader& header, uint32_t bits_per_pixel) {
+  const size_t row_bytes = (size_t(header.width_px) * std::min(bits_per_pixel, 64U) + 31) / 32 * 4;
+  return bytes.U32(10) + row_bytes * static_cast<size_t>(header.height_px);
+}
+
+/// Both headers of a BMP: OS/2's of 12 bytes with sides of 16 bits, and all later ones.
 ImageHeader ReadBmp(std::string_view data) {
   const Bytes bytes(data, Endian::kLittle);
+  if (bytes.U32(14) == 12) {
+    ImageHeader header{.width_px = Dimension(bytes.U16(18)), .height_px = Dimension(bytes.U16(20))};
+    header.complete = BmpBytes(bytes, header, bytes.U16(24)) <= bytes.size();
+    return header;
+  }
   const auto height = static_cast<int32_t>(bytes.U32(22));  // negative: rows from the top
-  return {.width_px = Dimension(bytes.U32(18)),
-          .height_px = Dimension(height < 0 ? 0U - bytes.U32(22) : bytes.U32(22))};
+  ImageHeader header{.width_px = Dimension(bytes.U32(18)),
+                     .height_px = Dimension(height < 0 ? 0U - bytes.U32(22) : bytes.U32(22))};
+  const bool compressed = bytes.U32(30) == 1 || bytes.U32(30) == 2;  // by run lengths
+  header.complete =
+      (compressed ? bytes.U32(2) : BmpBytes(bytes, header, bytes.U16(28))) <= bytes.size();
+  return header;
+}
+
+/// The number at `at` of a PNM header, behind blanks and comments ("# ..." up to the end of the
+/// line); moves `at` behind it. 0 where there is none, capped like every dimension.
+int TakePnmNumber(std::string_view data, size_t& at) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  while (at < data.size() && (data[at] == '#' || kBlanks.find(data[at]) != kBlanks.npos))
+    at = data[at] == '#' ? std::min(data.find('\n', at), data.size()) : at + 1;
+  uint32_t value = 0;
+  for (; at < data.size() && data[at] >= '0' && data[at] <= '9'; ++at)
+    value = value < 1U << 26 ? value * 10 + static_cast<uint32_t>(data[at] - '0') : 1U << 30;
+  return Dimension(value);
+}
+
+/// "P6 # comment 640 320 255", one blank, and rows of 3 (P5: 1) samples of 1 or 2 bytes.
+ImageHeader ReadPnm(std::string_view data) {
+  size_t at = 2;
+  ImageHeader header;
+  header.width_px = TakePnmNumber(data, at);
+  header.height_px = TakePnmNumber(data, at);
+  const int largest = TakePnmNumber(data, at);
+  const size_t pixel_bytes = (data[1] == '6' ? 3U : 1U) * (largest > 255 ? 2U : 1U);
+  const size_t pixels =
+      static_cast<size_t>(header.width_px) * static_cast<size_t>(header.height_px);
+  header.complete = at < data.size() && pixels <= (data.size() - at - 1) / pixel_bytes;
+  return header;
 }
 
 ImageHeader ReadWebp(std::string_view data) {
@@ -125,24 +167,43 @@ ImageHeader ReadWebp(std::string_view data) {
   return header;
 }
 
-absl::StatusOr<ImageHeader> ReadByMagic(std::string_view data) {
-  using namespace std::string_view_literals;
-  if (data.empty()) return absl::InvalidArgumentError("the file is empty");
-  if (data.starts_with("\xFF\xD8\xFF"sv)) return ReadJpeg(data);
-  if (data.starts_with("\x89PNG\r\n\x1A\n"sv)) return ReadPng(data);
-  if (data.starts_with("II*\0"sv)) return ReadTiff(data, Endian::kLittle);
-  if (data.starts_with("MM\0*"sv)) return ReadTiff(data, Endian::kBig);
-  if (data.starts_with("BM"sv)) return ReadBmp(data);
-  if (data.starts_with("RIFF"sv) && data.size() > 16 && data.substr(8, 4) == "WEBP") {
-    return ReadWebp(data);
+absl::StatusOr<ImageHeader> ReadByKind(std::string_view data) {
+  switch (IdentifyImage(data)) {
+    case ImageKind::kJpeg:
+      return ReadJpeg(data);
+    case ImageKind::kPng:
+      return ReadPng(data);
+    case ImageKind::kTiff:
+      return ReadTiff(data, data.front() == 'I' ? Endian::kLittle : Endian::kBig);
+    case ImageKind::kBmp:
+      return ReadBmp(data);
+    case ImageKind::kWebp:
+      return ReadWebp(data);
+    case ImageKind::kPnm:
+      return ReadPnm(data);
+    case ImageKind::kUnknown:
+      break;
   }
-  return absl::InvalidArgumentError("neither JPEG, PNG, TIFF, BMP nor WebP");
+  if (data.empty()) return absl::InvalidArgumentError("the file is empty");
+  return absl::InvalidArgumentError("neither JPEG, PNG, TIFF, BMP, WebP nor binary PPM or PGM");
 }
 
 }  // namespace
 
+ImageKind IdentifyImage(std::string_view encoded) {
+  using namespace std::string_view_literals;
+  if (encoded.starts_with("\xFF\xD8\xFF"sv)) return ImageKind::kJpeg;
+  if (encoded.starts_with("\x89PNG\r\n\x1A\n"sv)) return ImageKind::kPng;
+  if (encoded.starts_with("II*\0"sv) || encoded.starts_with("MM\0*"sv)) return ImageKind::kTiff;
+  if (encoded.starts_with("BM"sv)) return ImageKind::kBmp;
+  if (encoded.starts_with("RIFF"sv) && encoded.size() > 16 && encoded.substr(8, 4) == "WEBP"sv)
+    return ImageKind::kWebp;
+  if (encoded.starts_with("P5"sv) || encoded.starts_with("P6"sv)) return ImageKind::kPnm;
+  return ImageKind::kUnknown;
+}
+
 absl::StatusOr<ImageHeader> ReadImageHeader(std::string_view encoded) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageHeader header, ReadByMagic(encoded));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageHeader header, ReadByKind(encoded));
   if (header.width_px <= 0 || header.height_px <= 0) {
     return absl::InvalidArgumentError("the header names no width and height");
   }

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+#include "absl/status/statusor.h"
+
+namespace orbweave {
+
+/// The kinds of encoded images that a job takes.
+enum class ImageKind { kUnknown, kJpeg, kPng, kTiff, kBmp, kWebp, kPnm };
+
+/// What an encoded image says of itself before a single pixel is decoded.
+struct ImageHeader {
+  int width_px = 0;
+  int height_px = 0;
+  /// False when the file ends before the image does (JPEG's EOI, PNG's IEND; BMP, WebP and PNM by
+  /// their lengths): decoders paint the rest grey without a word. True for TIFF, which does not
+  /// tell.
+  bool complete = true;
+};
+
+/// The kind by the first bytes, whatever the file is called. PNM is binary PPM or PGM (P6, P5).
+[[nodiscard]] ImageKind IdentifyImage(std::string_view encoded);
+
+/// Reads the header of a file of a known kind. InvalidArgument when the bytes are of none or end
+/// within the header.
+[[nodiscard]] absl::StatusOr<ImageHeader> ReadImageHeader(std::string_view encoded);
+
+}  // namespace orbweave
