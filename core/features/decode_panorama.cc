@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/features/check_jpeg_data.h"
 #include "core/scene/image_header.h"
 
 namespace orbweave {
@@ -25,6 +26,7 @@ absl::StatusOr<cv::Mat> Decode(std::string_view encoded, int flags) {
   if (!header.complete) return absl::InvalidArgumentError("the file is truncated");
   if (!std::in_range<int>(encoded.size()))
     return absl::InvalidArgumentError("the file is larger than 2 GiB");
+  if (IdentifyImage(encoded) == ImageKind::kJpeg) ORBWEAVE_RETURN_IF_ERROR(CheckJpegData(encoded));
   cv::Mat image;
   try {
     const cv::Mat bytes(1,

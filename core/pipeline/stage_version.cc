@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersions = {{
     {"ingest_images", "1"},
-    {"extract_features", "1"},
+    {"extract_features", "2"},
     {"select_image_pairs", "2"},
     {"match_images", "3"},
     {"verify_matches", "3"},
