@@ -3,6 +3,7 @@
 
 #include "core/io/image_metadata.h"
 
+#include <cctype>
 #include <cmath>
 #include <exiv2/exiv2.hpp>
 #include <memory>
@@ -11,6 +12,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/io/plausible.h"
+#include "core/io/printable_text.h"
 #include "core/io/text_fields.h"
 #include "core/scene/image_header.h"
 
@@ -19,13 +22,20 @@ namespace {
 
 constexpr int kMaxSidePx = 1 << 20;
 
-/// Rational number `i` of an EXIF value; nullopt when absent, 0/0 or not finite.
-std::optional<double> Rational(const Exiv2::ExifData& exif, const char* key, long i = 0) {
+/// Rational number `i` of an EXIF value, signed or unsigned as its type says; nullopt when absent,
+/// of another type or 0/0.
+std::optional<double> Rational(const Exiv2::ExifData& exif, const char* key, size_t i = 0) {
   const auto datum = exif.findKey(Exiv2::ExifKey(key));
-  if (datum == exif.end() || datum->count() <= i) return std::nullopt;
-  const Exiv2::Rational value = datum->toRational(i);
-  if (value.second == 0) return std::nullopt;
-  return static_cast<double>(value.first) / static_cast<double>(value.second);
+  if (datum == exif.end()) return std::nullopt;
+  const auto quotient = [i](const auto* rationals) -> std::optional<double> {
+    if (rationals == nullptr || i >= rationals->value_.size() || rationals->value_[i].second == 0)
+      return std::nullopt;
+    const auto [numerator, denominator] = rationals->value_[i];
+    return static_cast<double>(numerator) / static_cast<double>(denominator);
+  };
+  const Exiv2::Value& value = datum->value();
+  const auto number = quotient(dynamic_cast<const Exiv2::URationalValue*>(&value));
+  return number ? number : quotient(dynamic_cast<const Exiv2::RationalValue*>(&value));
 }
 
 std::string Text(const Exiv2::ExifData& exif, const char* key) {
@@ -40,37 +50,84 @@ std::optional<double> XmpNumber(const Exiv2::XmpData& xmp, const char* key) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-/// Degrees, minutes and seconds with a reference letter ("S" and "W" are negative).
-std::optional<double> Degrees(const Exiv2::ExifData& exif,
-                              const char* key,
-                              const char* reference_key) {
+/// Degrees, minutes and seconds of a latitude or longitude, and the letter of its hemisphere.
+struct WrittenAngle {
+  const char* name = "";
+  double parts[3] = {};
+  std::string reference{};
+  double sign = 1.0;  ///< of the letter
+
+  [[nodiscard]] double Degrees() const {
+    return sign * (parts[0] + parts[1] / 60.0 + parts[2] / 3600.0);
+  }
+};
+
+std::optional<WrittenAngle> ReadAngle(const Exiv2::ExifData& exif,
+                                      const char* name,
+                                      const char* key,
+                                      char negative) {
+  WrittenAngle angle{.name = name};
   const std::optional<double> degrees = Rational(exif, key, 0);
   if (!degrees) return std::nullopt;
-  const double minutes = Rational(exif, key, 1).value_or(0.0);
-  const double seconds = Rational(exif, key, 2).value_or(0.0);
-  const double value = *degrees + minutes / 60.0 + seconds / 3600.0;
-  const std::string reference = Text(exif, reference_key);
-  const bool negative = reference.starts_with('S') || reference.starts_with('W');
-  return negative ? -value : value;
+  angle.parts[0] = *degrees;
+  for (size_t i = 1; i < 3; ++i) angle.parts[i] = Rational(exif, key, i).value_or(0.0);
+  angle.reference = TrimmedText(Text(exif, absl::StrCat(key, "Ref").c_str()));
+  for (char& c : angle.reference) c = static_cast<char>(std::toupper(static_cast<uint8_t>(c)));
+  if (angle.reference == std::string(1, negative)) angle.sign = -1.0;
+  return angle;
+}
+
+/// What is wrong with it apart from its size; empty when nothing is. 60 seconds come of rounding.
+std::string ProblemOf(const WrittenAngle& angle, std::string_view letters) {
+  if (angle.reference.size() != 1 || letters.find(angle.reference[0]) == letters.npos) {
+    return absl::StrCat("the reference of its ",
+                        angle.name,
+                        " is '",
+                        Utf8Text(angle.reference.substr(0, 8)),
+                        "', neither ",
+                        std::string(1, letters[0]),
+                        " nor ",
+                        std::string(1, letters[1]));
+  }
+  for (const double part : angle.parts) {
+    if (part < 0.0) return absl::StrCat("its ", angle.name, " has a part below zero");
+  }
+  for (const double part : {angle.parts[1], angle.parts[2]}) {
+    if (part > 60.0) return absl::StrCat("its ", angle.name, " has ", part, " minutes or seconds");
+  }
+  return "";
+}
+
+void ReadAltitude(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
+  const std::optional<double> altitude = Rational(exif, "Exif.GPSInfo.GPSAltitude");
+  if (!altitude) return;
+  // 0 and 1: above and below the sea; 2 and 3: above and below the ellipsoid.
+  const std::string reference = Text(exif, "Exif.GPSInfo.GPSAltitudeRef");
+  const bool below = reference.starts_with('1') || reference.starts_with('3');
+  if (!IsPlausibleHeight(*altitude)) return;
+  metadata.position->altitude_m = below ? -*altitude : *altitude;
+  metadata.altitude_known = true;
 }
 
 void ReadPosition(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
-  const auto latitude = Degrees(exif, "Exif.GPSInfo.GPSLatitude", "Exif.GPSInfo.GPSLatitudeRef");
-  const auto longitude = Degrees(exif, "Exif.GPSInfo.GPSLongitude", "Exif.GPSInfo.GPSLongitudeRef");
-  if (!latitude || !longitude || (*latitude == 0.0 && *longitude == 0.0)) return;
-  if (std::abs(*latitude) > 90.0 || std::abs(*longitude) > 180.0) {
-    metadata.position_problem =
-        absl::StrCat("latitude ", *latitude, ", longitude ", *longitude, " is nowhere on Earth");
-    return;
+  const auto latitude = ReadAngle(exif, "latitude", "Exif.GPSInfo.GPSLatitude", 'S');
+  const auto longitude = ReadAngle(exif, "longitude", "Exif.GPSInfo.GPSLongitude", 'W');
+  if (!latitude || !longitude) return;
+  const double latitude_deg = latitude->Degrees();
+  const double longitude_deg = longitude->Degrees();
+  if (latitude_deg == 0.0 && longitude_deg == 0.0) return;
+  std::string& problem = metadata.position_problem;
+  if (std::abs(latitude_deg) > 90.0 || std::abs(longitude_deg) > 180.0) {
+    problem = absl::StrCat(
+        "latitude ", latitude_deg, ", longitude ", longitude_deg, " is nowhere on Earth");
   }
-  metadata.position = GeodeticPosition{*latitude, *longitude, 0.0};
-  if (const auto altitude = Rational(exif, "Exif.GPSInfo.GPSAltitude")) {
-    const bool below = Text(exif, "Exif.GPSInfo.GPSAltitudeRef").starts_with('1');
-    metadata.position->altitude_m = below ? -*altitude : *altitude;
-    metadata.altitude_known = true;
-  }
+  if (problem.empty()) problem = ProblemOf(*latitude, "NS");
+  if (problem.empty()) problem = ProblemOf(*longitude, "EW");
+  if (!problem.empty()) return;
+  metadata.position = GeodeticPosition{latitude_deg, longitude_deg, 0.0};
+  ReadAltitude(exif, metadata);
   const auto error_m = Rational(exif, "Exif.GPSInfo.GPSHPositioningError");
-  if (error_m && *error_m > 0.0) metadata.position_error_m = error_m;
+  if (error_m && IsPlausibleSigma(*error_m)) metadata.position_error_m = error_m;
 }
 
 void ReadOrientation(const Exiv2::ExifData& exif,
@@ -83,6 +140,12 @@ void ReadOrientation(const Exiv2::ExifData& exif,
   if (!metadata.heading_deg && !Text(exif, "Exif.GPSInfo.GPSImgDirectionRef").starts_with('M')) {
     metadata.heading_deg = Rational(exif, "Exif.GPSInfo.GPSImgDirection");
   }
+  const auto keep = [](std::optional<double>& angle_deg, bool (*is_plausible)(double)) {
+    if (angle_deg && !is_plausible(*angle_deg)) angle_deg.reset();
+  };
+  keep(metadata.heading_deg, IsPlausibleHeading);
+  keep(metadata.pitch_deg, IsPlausiblePitch);
+  keep(metadata.roll_deg, IsPlausibleRoll);
 }
 
 void ReadTime(const Exiv2::ExifData& exif, ImageMetadata& metadata) {

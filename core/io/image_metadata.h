@@ -15,14 +15,14 @@ namespace orbweave {
 struct ImageMetadata {
   int width_px = 0;
   int height_px = 0;
-  /// EXIF GPS, WGS84. Altitude as written there: above sea level or ellipsoid, cameras differ; 0
-  /// unless `altitude_known`.
+  /// EXIF GPS, WGS84, where latitude and longitude name their hemisphere. Altitude as written
+  /// there: above sea level or ellipsoid, cameras differ; 0 unless `altitude_known`.
   std::optional<GeodeticPosition> position{};
   bool altitude_known = false;
   /// Why a position that is written there was left out; empty where nothing was. For whoever read
   /// the header: not passed on.
   std::string position_problem{};
-  /// EXIF GPSHPositioningError, metres.
+  /// EXIF GPSHPositioningError, metres; left out below a millimetre and above 10 km.
   std::optional<double> position_error_m{};
   /// Direction of the image centre in degrees: XMP-GPano PoseHeadingDegrees, else EXIF
   /// GPSImgDirection (clockwise from north); pitch up positive; roll clockwise positive.
@@ -35,9 +35,9 @@ struct ImageMetadata {
 };
 
 /// Reads the header, EXIF and XMP of an encoded image (JPEG, PNG, TIFF, BMP, WebP, PPM/PGM). Absurd
-/// values (latitude beyond 90 degrees, 0/0, NaN) are left out. InvalidArgument: no image of a known
-/// kind, a header that gives no dimensions, or data that end before the image does ("truncated").
-/// Thread-safe.
+/// values (latitude beyond 90 degrees, minutes beyond 60, 0/0, NaN) are left out. InvalidArgument:
+/// no image of a known kind, a header that gives no dimensions, or data that end before the image
+/// does ("truncated"). Thread-safe.
 [[nodiscard]] absl::StatusOr<ImageMetadata> ReadImageMetadata(std::string_view encoded);
 
 }  // namespace orbweave

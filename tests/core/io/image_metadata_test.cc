@@ -3,6 +3,8 @@
 
 #include "core/io/image_metadata.h"
 
+#include <gmock/gmock.h>
+
 #include <tuple>
 
 #include "tests/core/io/io_test_support.h"
@@ -59,6 +61,18 @@ TEST(ReadImageMetadata, LeavesOutAPositionThatIsNoneInSilence) {
   }
 }
 
+/// A small image with a position as text.
+std::string AtPosition(const std::string& latitude,
+                       const std::string& latitude_letter,
+                       const std::string& longitude,
+                       const std::string& longitude_letter) {
+  return Tagged(EncodedImage(64, 32, ".jpg"),
+                {{"Exif.GPSInfo.GPSLatitude", latitude},
+                 {"Exif.GPSInfo.GPSLatitudeRef", latitude_letter},
+                 {"Exif.GPSInfo.GPSLongitude", longitude},
+                 {"Exif.GPSInfo.GPSLongitudeRef", longitude_letter}});
+}
+
 TEST(ReadImageMetadata, LeavesOutAPositionThatIsNowhereAndSaysSo) {
   for (const auto& [latitude, longitude, problem] :
        {std::tuple("95/1 0/1 0/1", "10/1 0/1 0/1", "latitude 95, longitude 10"),
@@ -66,13 +80,60 @@ TEST(ReadImageMetadata, LeavesOutAPositionThatIsNowhereAndSaysSo) {
         std::tuple("-90/1 -6/1 0/1", "10/1 0/1 0/1", "latitude -90.1, longitude 10"),
         std::tuple("10/1 0/1 0/1", "181/1 0/1 0/1", "latitude 10, longitude 181"),
         std::tuple("10/1 0/1 0/1", "-181/1 0/1 0/1", "latitude 10, longitude -181")}) {
-    const std::string bytes =
-        Tagged(EncodedImage(64, 32, ".jpg"),
-               {{"Exif.GPSInfo.GPSLatitude", latitude}, {"Exif.GPSInfo.GPSLongitude", longitude}});
-    const ImageMetadata metadata = ReadImageMetadata(bytes).value();
+    const ImageMetadata metadata =
+        ReadImageMetadata(AtPosition(latitude, "N", longitude, "E")).value();
     EXPECT_FALSE(metadata.position) << latitude;
     EXPECT_EQ(metadata.position_problem, std::string(problem) + " is nowhere on Earth");
   }
+}
+
+TEST(ReadImageMetadata, ReadsSecondsOfManyDecimals) {
+  // 4294967295 is the largest number that EXIF can hold; as signed it is -1.
+  const ImageMetadata metadata =
+      ReadImageMetadata(
+          AtPosition("47/1 36/1 2147483648/100000000", "N", "8/1 30/1 4294967295/100000000", "W"))
+          .value();
+  ASSERT_TRUE(metadata.position) << metadata.position_problem;
+  EXPECT_NEAR(metadata.position->latitude_deg, 47.6 + 21.47483648 / 3600.0, 1e-12);
+  EXPECT_NEAR(metadata.position->longitude_deg, -(8.5 + 42.94967295 / 3600.0), 1e-12);
+}
+
+TEST(ReadImageMetadata, TakesTheLettersOfHemispheresInEitherCase) {
+  const ImageMetadata metadata =
+      ReadImageMetadata(AtPosition("33/1 30/1 0/1", "s", "151/1 0/1 0/1", "w")).value();
+  ASSERT_TRUE(metadata.position) << metadata.position_problem;
+  EXPECT_EQ(metadata.position->latitude_deg, -33.5);
+  EXPECT_EQ(metadata.position->longitude_deg, -151.0);
+}
+
+TEST(ReadImageMetadata, LeavesOutAPositionThatContradictsItselfAndSaysSo) {
+  for (const auto& [latitude, letter, problem] :
+       {std::tuple("47/1 99/1 0/1", "N", "has 99 minutes or seconds"),
+        std::tuple("47/1 0/1 61/1", "N", "has 61 minutes or seconds"),
+        std::tuple("-47/1 30/1 0/1", "N", "has a part below zero"),
+        std::tuple("47/1 30/1 0/1", "X", "latitude is 'X', neither N nor S"),
+        std::tuple("47/1 30/1 0/1", "E", "latitude is 'E', neither N nor S"),
+        std::tuple("47/1 30/1 0/1", "", "latitude is '', neither N nor S")}) {
+    const ImageMetadata metadata =
+        ReadImageMetadata(AtPosition(latitude, letter, "8/1 0/1 0/1", "E")).value();
+    EXPECT_FALSE(metadata.position) << latitude << letter;
+    EXPECT_THAT(metadata.position_problem, ::testing::HasSubstr(problem));
+  }
+  EXPECT_TRUE(ReadImageMetadata(AtPosition("47/1 59/1 60/1", "N", "8/1 0/1 0/1", "E"))->position);
+}
+
+TEST(ReadImageMetadata, LeavesOutAnglesHeightsAndAccuraciesThatCannotBe) {
+  const std::string bytes = Tagged(AtPosition("47/1 0/1 0/1", "N", "8/1 0/1 0/1", "E"),
+                                   {{"Exif.GPSInfo.GPSAltitude", "4294967295/1"},
+                                    {"Exif.GPSInfo.GPSHPositioningError", "1/4294967295"}},
+                                   {{"Xmp.GPano.PoseHeadingDegrees", "1e30"},
+                                    {"Xmp.GPano.PosePitchDegrees", "91"},
+                                    {"Xmp.GPano.PoseRollDegrees", "-181"}});
+  const ImageMetadata metadata = ReadImageMetadata(bytes).value();
+  EXPECT_TRUE(metadata.position);
+  EXPECT_FALSE(metadata.altitude_known);
+  EXPECT_FALSE(metadata.position_error_m);
+  EXPECT_FALSE(metadata.heading_deg || metadata.pitch_deg || metadata.roll_deg);
 }
 
 TEST(ReadImageMetadata, RefusesEveryTruncation) {

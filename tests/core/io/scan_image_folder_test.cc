@@ -72,7 +72,9 @@ TEST(ScanImageFolder, SaysWhichPositionsAreNotUsedAndWhy) {
     folder.Write(std::to_string(i) + ".jpg",
                  Tagged(EncodedImage(64, 32, ".jpg"),
                         {{"Exif.GPSInfo.GPSLatitude", latitude},
-                         {"Exif.GPSInfo.GPSLongitude", "10/1 0/1 0/1"}}));
+                         {"Exif.GPSInfo.GPSLatitudeRef", "N"},
+                         {"Exif.GPSInfo.GPSLongitude", "10/1 0/1 0/1"},
+                         {"Exif.GPSInfo.GPSLongitudeRef", "E"}}));
   }
   const ImageSources sources = ScanImageFolder({.image_folder = folder.path()}, {}).value();
   EXPECT_TRUE(sources.images[1].metadata.position);
