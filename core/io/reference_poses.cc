@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "core/base/status.h"
+#include "core/io/text_fields.h"
 
 namespace orbweave {
 namespace {
@@ -48,7 +49,8 @@ absl::StatusOr<std::map<std::string, Rigid3>> ParseReferencePoses(std::string_vi
     ++line_number;
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (line.empty()) continue;
-    const std::vector<std::string> cells = absl::StrSplit(line, ',');
+    const std::vector<std::string> cells =
+        SplitFields(std::string_view(line.data(), line.size()), ',');
     if (line_number == 1) {
       ORBWEAVE_ASSIGN_OR_RETURN(columns, FindColumns(cells, source));
       continue;

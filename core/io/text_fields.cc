@@ -67,6 +67,15 @@ std::optional<double> TakeOffset(std::string_view& text) {
   return (west ? -1.0 : 1.0) * (*hours * 3600.0 + *minutes * 60.0);
 }
 
+/// Whether a spreadsheet would compute `text`, or would but for apostrophes before it.
+bool IsFormula(std::string_view text) {
+  const size_t first = text.find_first_not_of('\'');
+  return first != std::string_view::npos &&
+         std::string_view("=+-@\t\r").find(text[first]) != std::string_view::npos;
+}
+
+bool IsDefused(std::string_view text) { return text.starts_with('\'') && IsFormula(text); }
+
 }  // namespace
 
 std::string_view TrimmedText(std::string_view text) {
@@ -110,7 +119,10 @@ std::vector<std::string> SplitFields(std::string_view line, char separator) {
       fields.back() += c;
     }
   }
-  for (std::string& field : fields) field = std::string(TrimmedText(field));
+  for (std::string& field : fields) {
+    field = std::string(TrimmedText(field));
+    if (IsDefused(field)) field.erase(0, 1);
+  }
   return fields;
 }
 
@@ -154,9 +166,10 @@ std::optional<double> TimeFromText(std::string_view text) {
 }
 
 std::string CsvField(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  const std::string field = (IsFormula(text) ? "'" : "") + std::string(text);
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : field) {
     if (c == '"') quoted += '"';
     quoted += c;
   }

@@ -14,9 +14,20 @@ TEST(SplitFields, UnderstandsQuotes) {
 }
 
 TEST(CsvField, IsReadBackBySplitFields) {
-  for (const std::string name : {"plain", "a,b", "say \"x\"", "a\tb"}) {
+  for (const std::string name :
+       {"plain", "a,b", "say \"x\"", "a\tb", "=1+1", "'=1+1", "''@x", "-a,b", "'quoted'", "'"}) {
     EXPECT_EQ(SplitFields(CsvField(name) + ",1", ',').front(), name);
   }
+}
+
+TEST(CsvField, DefusesFormulas) {
+  for (const std::string formula :
+       {"=HYPERLINK(\"http://x\")", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1"}) {
+    const std::string field = CsvField(formula);
+    EXPECT_EQ(field.substr(field[0] == '"' ? 1 : 0, 2), "'" + formula.substr(0, 1));
+  }
+  EXPECT_EQ(CsvField("a=1.jpg"), "a=1.jpg");
+  EXPECT_EQ(CsvField("'a'"), "'a'");
 }
 
 TEST(SplitLines, TakesAllLineEndsAndSkipsTheMark) {
