@@ -9,6 +9,7 @@
 #include "core/io/colmap_database.h"
 #include "core/io/file.h"
 #include "core/io/printable_text.h"
+#include "core/io/text_file.h"
 #include "core/pipeline/job_plan.h"
 #include "core/stages/ingest_images.h"
 #include "core/stages/plan_recipes.h"
@@ -102,8 +103,8 @@ absl::StatusOr<Digest> PutClusters(CoordinatorApi& coordinator,
     for (const SourceImage& image : sources.images) {
       if (image.problem.empty()) names.push_back(image.name);
     }
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(cluster_table));
-    ORBWEAVE_ASSIGN_OR_RETURN(clusters, ReadClusterTable(Utf8Text(text), cluster_table, names));
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(cluster_table));
+    ORBWEAVE_ASSIGN_OR_RETURN(clusters, ReadClusterTable(text, cluster_table, names));
   }
   return coordinator.Put(EncodeClusterNames(clusters));
 }

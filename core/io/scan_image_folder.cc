@@ -16,6 +16,7 @@
 #include "core/io/list_files.h"
 #include "core/io/printable_text.h"
 #include "core/io/text_fields.h"
+#include "core/io/text_file.h"
 
 namespace orbweave {
 namespace {
@@ -155,8 +156,7 @@ void AssignNamesAndMasks(const std::vector<std::string>& names,
 }  // namespace
 
 absl::Status ReadGnssFile(const std::string& path, ImageSources& sources) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
-  sources.gnss_text = Utf8Text(text);
+  ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, ReadTextFile(path));
   sources.gnss_name = Utf8Text(fs::path(path).filename().string());
   return absl::OkStatus();
 }

@@ -28,8 +28,7 @@ struct ScanRequest {
 [[nodiscard]] absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
                                                            const StageContext& context);
 
-/// Reads the GNSS table at `path` into `sources`; bytes that are no UTF-8 become U+FFFD. Codes of
-/// ReadFile.
+/// Reads the GNSS table at `path` into `sources`. Codes of ReadTextFile.
 [[nodiscard]] absl::Status ReadGnssFile(const std::string& path, ImageSources& sources);
 
 }  // namespace orbweave

@@ -98,6 +98,19 @@ TEST(ScanImageFolder, LeavesOutNamesAndBytesThatNoMessageTakes) {
   EXPECT_THAT(sources.gnss_text, HasSubstr("\nb\xef\xbf\xbd.jpg,47,8\na.jpg,47,8\n"));
 }
 
+TEST(ReadGnssFile, SaysWhatToDoWithUtf16) {
+  const TemporaryFolder folder;
+  folder.Write("little.csv", std::string("\xff\xfen\0a\0", 6));
+  folder.Write("big.csv", std::string("\xfe\xff\0n\0a", 6));
+  folder.Write("unmarked.csv", std::string("n\0a\0m\0e\0", 8));
+  for (const char* name : {"little.csv", "big.csv", "unmarked.csv"}) {
+    ImageSources sources;
+    const absl::Status status = ReadGnssFile(folder / name, sources);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << name;
+    EXPECT_THAT(status.message(), HasSubstr("save it as UTF-8")) << name;
+  }
+}
+
 TEST(ScanImageFolder, FindsMasksByEveryConvention) {
   const TemporaryFolder folder;
   for (const char* name : {"a.jpg", "sub/b.jpg", "c.jpg", "d.jpg"})

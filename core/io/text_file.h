@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "absl/status/statusor.h"
+
+namespace orbweave {
+
+/// The content of a text file as UTF-8; bytes that are none become U+FFFD. InvalidArgument: the
+/// file is UTF-16, as spreadsheets save "Unicode text" (it begins with that mark, or has zero
+/// bytes), with what to do. Codes of ReadFile.
+[[nodiscard]] absl::StatusOr<std::string> ReadTextFile(const std::string& path);
+
+}  // namespace orbweave
