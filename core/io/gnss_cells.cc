@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/status.h"
 #include "core/io/text_fields.h"
 
 namespace orbweave {
@@ -17,7 +18,7 @@ namespace {
 constexpr std::string_view kPosTxtMark = "#F=";
 
 /// Accepted headers per column, in lower case, best first.
-constexpr std::array<std::array<std::string_view, 6>, kNumGnssColumns> kAliases = {{
+constexpr std::array<std::array<std::string_view, 10>, kNumGnssColumns> kAliases = {{
     {"name", "sourcefile", "file", "filename", "image", "image_name"},
     {"latitude", "lat", "gpslatitude"},
     {"longitude", "lon", "lng", "long", "gpslongitude"},
@@ -25,12 +26,32 @@ constexpr std::array<std::array<std::string_view, 6>, kNumGnssColumns> kAliases 
     {"x"},
     {"y"},
     {"z"},
-    {"accuracy", "horizontal_accuracy", "sigma", "gpshpositioningerror"},
+    {"accuracy",
+     "horizontal_accuracy",
+     "accuracy_m",
+     "sigma",
+     "sigma_horizontal",
+     "hacc",
+     "gpshpositioningerror"},
     {"heading", "yaw", "poseheadingdegrees", "gpsimgdirection"},
     {"pitch", "posepitchdegrees"},
     {"roll", "poserolldegrees"},
-    {"time", "capture_time", "timestamp", "datetimeoriginal"},
+    {"time",
+     "capture_time",
+     "timestamp",
+     "datetime",
+     "date_time",
+     "time_s",
+     "capture_time_s",
+     "gpsdatetime",
+     "subsecdatetimeoriginal",
+     "datetimeoriginal"},
     {"drive", "sequence"},
+    {"vertical_accuracy", "vertical_accuracy_m", "sigma_vertical", "sigma_up", "vacc"},
+    {"fix", "fix_type", "fixtype", "gnss_fix", "gps_fix", "fix_quality", "gps_quality", "quality"},
+    {"heading_accuracy", "heading_sigma", "yaw_accuracy", "yaw_sigma"},
+    {"pitch_accuracy", "pitch_sigma"},
+    {"roll_accuracy", "roll_sigma"},
 }};
 
 /// Where each column stands in the file; -1: nowhere.
@@ -74,12 +95,51 @@ bool HasAll(const ColumnPlaces& places, std::initializer_list<GnssColumn> column
       columns.begin(), columns.end(), [&](GnssColumn column) { return places[column] >= 0; });
 }
 
+/// "it has 5 cells where the header names 3 ..." or nothing; empty cells at the end do not count.
+std::string TooManyCells(const std::vector<std::string>& cells, size_t columns) {
+  size_t used = cells.size();
+  while (used > columns && cells[used - 1].empty()) --used;
+  if (used <= columns) return "";
+  return absl::StrCat("it has ",
+                      used,
+                      " cells where the header names ",
+                      columns,
+                      " (commas in numbers or names? write decimal points, quote names)");
+}
+
+/// Whether `text` is a number but for its decimal comma: "-122,32".
+bool HasDecimalComma(std::string_view text) {
+  const size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return false;
+  std::string with_point(text);
+  with_point[comma] = '.';
+  return NumberFromText(with_point).has_value();
+}
+
+/// An error that shows the first number with a decimal comma.
+absl::Status CheckNoDecimalCommas(const std::vector<GnssCells>& rows, std::string_view source) {
+  for (const GnssCells& row : rows) {
+    for (size_t column = 0; column < kNumGnssColumns; ++column) {
+      if (column == kName || column == kDrive || !HasDecimalComma(row.cells[column])) continue;
+      return absl::InvalidArgumentError(absl::StrCat(std::string(source),
+                                                     " line ",
+                                                     row.line,
+                                                     ": the number '",
+                                                     row.cells[column],
+                                                     "' has a decimal comma; write the table with "
+                                                     "decimal points"));
+    }
+  }
+  return absl::OkStatus();
+}
+
 /// Rows of a table with a header line. Rows without the needed cells keep them empty.
 absl::StatusOr<std::vector<GnssCells>> ReadCsv(const std::vector<std::string_view>& lines,
                                                size_t header_line,
                                                std::string_view source) {
   const char separator = SeparatorOf(lines[header_line]);
-  const ColumnPlaces places = PlacesFromHeader(Cells(lines[header_line], separator));
+  const std::vector<std::string> header = Cells(lines[header_line], separator);
+  const ColumnPlaces places = PlacesFromHeader(header);
   if (!HasAll(places, {kName, kLatitude, kLongitude}) && !HasAll(places, {kName, kX, kY, kZ})) {
     return absl::InvalidArgumentError(
         absl::StrCat(std::string(source),
@@ -96,12 +156,15 @@ absl::StatusOr<std::vector<GnssCells>> ReadCsv(const std::vector<std::string_vie
     const std::vector<std::string> cells = Cells(lines[i], separator);
     GnssCells& row = rows.emplace_back();
     row.line = static_cast<int>(i) + 1;
+    // Between blanks a time of two words is one cell more.
+    if (separator != ' ') row.problem = TooManyCells(cells, header.size());
     for (size_t column = 0; column < kNumGnssColumns; ++column) {
       const int place = places[column];
       if (place >= 0 && place < static_cast<int>(cells.size()))
         row.cells[column] = cells[static_cast<size_t>(place)];
     }
   }
+  ORBWEAVE_RETURN_IF_ERROR(CheckNoDecimalCommas(rows, source));
   return rows;
 }
 

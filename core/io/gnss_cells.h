@@ -26,18 +26,25 @@ enum GnssColumn {
   kRoll,
   kTime,
   kDrive,
+  kVerticalAccuracy,
+  kFix,
+  kHeadingAccuracy,
+  kPitchAccuracy,
+  kRollAccuracy,
   kNumGnssColumns
 };
 
 /// A row cut into cells, as text: `cells[column]` is empty where the table has no such column.
 struct GnssCells {
   int line = 0;  ///< in the file, from 1
+  /// Why nothing in it can be trusted: it has more cells than the header. Empty otherwise.
+  std::string problem{};
   std::array<std::string, kNumGnssColumns> cells{};
 };
 
 /// Cuts a table into rows of cells: CSV with a header of known names, or POS.txt (see
-/// gnss_table.h). InvalidArgument: the table is empty, or its first line does not name the needed
-/// columns.
+/// gnss_table.h). InvalidArgument: the table is empty, its first line does not name the needed
+/// columns, or its numbers have decimal commas.
 [[nodiscard]] absl::StatusOr<std::vector<GnssCells>> ReadGnssCells(std::string_view text,
                                                                    std::string_view source);
 

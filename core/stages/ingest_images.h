@@ -13,6 +13,8 @@ namespace orbweave {
 struct IngestOptions {
   double gnss_sigma_m = 5.0;
   double gnss_vertical_factor = 2.0;
+  double heading_sigma_deg = 10.0;
+  double tilt_sigma_deg = 3.0;
   double drive_gap_s = 600.0;
 
   template <typename Self, typename Visitor>
@@ -25,6 +27,14 @@ struct IngestOptions {
           self.gnss_vertical_factor,
           "vertical over horizontal standard deviation",
           Range{0.1, 100});
+    visit("heading_sigma_deg",
+          self.heading_sigma_deg,
+          "standard deviation of headings that state none",
+          Range{0.001, 180});
+    visit("tilt_sigma_deg",
+          self.tilt_sigma_deg,
+          "standard deviation of pitch and roll that state none",
+          Range{0.001, 180});
     visit("drive_gap_s",
           self.drive_gap_s,
           "a longer pause between two images begins a new drive",
@@ -36,9 +46,10 @@ struct IngestOptions {
 /// that are not 2:1 (within a pixel) and byte-for-byte duplicates, each with its reason; numbers
 /// the rest in natural name order; joins GNSS rows by full name, else base name, else stem (where
 /// unique), else EXIF; puts the origin of the east-north-up frame at the rounded median position.
-/// Mixed sizes are allowed. Drives change with the table's drive column or a pause. GNSS rows
+/// Mixed sizes are allowed. For times and drives see assign_drives.h. GNSS rows
 /// without an image, images without a position, and masks of other proportions than their
-/// image (then not used) become warnings. InvalidArgument: nothing is left (with the first
+/// image (then not used) become warnings; so does a direction that nobody measured
+/// (DropSharedAngles). InvalidArgument: nothing is left (with the first
 /// reasons), or the table is wrong.
 [[nodiscard]] absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
                                                          const IngestOptions& options,

@@ -50,6 +50,7 @@ std::vector<IngestCandidate> JoinGnssRows(const std::vector<const SourceImage*>&
                                           const std::string& table_name,
                                           ImageManifest& manifest) {
   WarnOfRejectedRows(table, manifest);
+  manifest.warnings.insert(manifest.warnings.end(), table.warnings.begin(), table.warnings.end());
   std::vector<std::string> image_names;
   std::vector<std::string> row_names;
   for (const SourceImage* image : images) image_names.push_back(image->name);

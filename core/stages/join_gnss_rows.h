@@ -17,8 +17,8 @@ void WarnOfNames(const std::vector<std::string>& names,
                  const char* many,
                  ImageManifest& manifest);
 
-/// Gives each image its row (MatchNames). Rows that could not be read and rows that mean no image
-/// become warnings.
+/// Gives each image its row (MatchNames). Rows and cells that could not be read and rows that mean
+/// no image become warnings.
 [[nodiscard]] std::vector<IngestCandidate> JoinGnssRows(
     const std::vector<const SourceImage*>& images,
     const GnssTable& table,

@@ -14,8 +14,9 @@ namespace orbweave {
 [[nodiscard]] bool PositionsAreLocal(std::span<const IngestCandidate> candidates,
                                      const GnssTable& table);
 
-/// What is known of an image's position and attitude: the table's row, else the image's header. An
-/// altitude that nobody knows is NaN, with a large sigma.
+/// What is known of an image's position and attitude: the table's row, else the image's header,
+/// each with the accuracy stated there, else that of its fix type, else the options'. An altitude
+/// that nobody knows is NaN, with a large sigma.
 [[nodiscard]] PosePrior PriorOf(const IngestCandidate& candidate,
                                 bool local,
                                 const IngestOptions& options);
