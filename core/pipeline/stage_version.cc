@@ -10,7 +10,7 @@ namespace orbweave {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersions = {{
-    {"ingest_images", "1"},
+    {"ingest_images", "2"},
     {"extract_features", "2"},
     {"select_image_pairs", "2"},
     {"match_images", "3"},

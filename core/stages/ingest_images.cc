@@ -10,6 +10,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/io/natural_order.h"
+#include "core/stages/assign_drives.h"
+#include "core/stages/drop_shared_angles.h"
 #include "core/stages/join_gnss_rows.h"
 #include "core/stages/place_in_local_frame.h"
 #include "core/stages/position_priors.h"
@@ -105,31 +107,6 @@ ImageRecord RecordOf(const SourceImage& source, uint32_t index, ImageManifest& m
   return record;
 }
 
-/// Numbers drives: one per label of the table, and for images without label a new one after each
-/// long pause.
-void AssignDrives(const std::vector<IngestCandidate>& candidates,
-                  const IngestOptions& options,
-                  ImageManifest& manifest) {
-  uint32_t next_drive = 0;
-  std::map<std::string, uint32_t> drive_of_label;
-  std::optional<uint32_t> unlabelled;
-  std::optional<double> last_time_s;
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    ImageRecord& image = manifest.images[i];
-    if (candidates[i].row != nullptr && candidates[i].row->drive) {
-      const auto [drive, is_new] = drive_of_label.emplace(*candidates[i].row->drive, next_drive);
-      if (is_new) ++next_drive;
-      image.drive = drive->second;
-      continue;
-    }
-    const bool paused = image.capture_time_s && last_time_s &&
-                        std::abs(*image.capture_time_s - *last_time_s) > options.drive_gap_s;
-    if (!unlabelled || paused) unlabelled = next_drive++;
-    if (image.capture_time_s) last_time_s = image.capture_time_s;
-    image.drive = *unlabelled;
-  }
-}
-
 /// What the person who gave a table or masks will want to know of images that have none.
 void WarnOfGaps(const std::vector<IngestCandidate>& candidates,
                 const GnssTable& table,
@@ -175,12 +152,12 @@ absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
     ImageRecord& record = manifest.images.emplace_back(
         RecordOf(*candidate.source, static_cast<uint32_t>(manifest.images.size()), manifest));
     record.prior = PriorOf(candidate, local, options);
-    record.capture_time_s =
-        candidate.Either(&GnssRow::capture_time_s, &ImageMetadata::capture_time_s);
     context.Report(manifest.images.size(), candidates.size(), "images");
   }
   PlaceInLocalFrame(manifest);
-  AssignDrives(candidates, options, manifest);
+  DropSharedAngles(candidates, manifest);
+  SetCaptureTimes(candidates, manifest);
+  AssignDrives(candidates, options.drive_gap_s, manifest);
   WarnOfGaps(candidates, table, sources.gnss_name, manifest);
   return manifest;
 }

@@ -182,6 +182,124 @@ TEST(IngestImages, BeginsADriveAfterALongPause) {
   EXPECT_THAT(drives, ElementsAre(0, 0, 1, 2, 2));
 }
 
+std::vector<uint32_t> DrivesOf(const ImageManifest& manifest) {
+  std::vector<uint32_t> drives;
+  for (const ImageRecord& image : manifest.images) drives.push_back(image.drive);
+  return drives;
+}
+
+TEST(IngestImages, FindsDrivesByTimeWhereNamesAreInAnotherOrder) {
+  // Two drives a day apart, whose pictures are named by chance.
+  ImageSources sources = GoodSources(6);
+  const double times_s[6] = {0.0, 86400.0, 20.0, 86420.0, 10.0, 86410.0};
+  for (size_t i = 0; i < 6; ++i) sources.images[i].metadata.capture_time_s = times_s[i];
+  EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 1, 0, 1, 0, 1));
+}
+
+TEST(IngestImages, KeepsApartFoldersOfTwoCamerasThatWereOnTheWayAtOnce) {
+  ImageSources sources = GoodSources(6);
+  for (size_t i = 0; i < 6; ++i) {
+    sources.images[i].name = (i < 3 ? "a/" : "b/") + sources.images[i].name;
+    sources.images[i].metadata.capture_time_s = 10.0 * static_cast<double>(i % 3);
+  }
+  EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 0, 0, 1, 1, 1));
+  // One after the other they are two folders of one drive.
+  for (size_t i = 3; i < 6; ++i) *sources.images[i].metadata.capture_time_s += 20.0;
+  EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 0, 0, 0, 0, 0));
+}
+
+TEST(IngestImages, DoesNotMixTheClocksOfTableAndExif) {
+  ImageSources sources = GoodSources(3);
+  for (size_t i = 0; i < 3; ++i)
+    sources.images[i].metadata.capture_time_s = 7200.0 + static_cast<double>(i);  // local time
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,latitude,longitude,time\nimg0.jpg,47,8,0\nimg1.jpg,47,8,1\n";
+  EXPECT_EQ(Ingest(sources).images[0].capture_time_s, 7200.0);
+  sources.gnss_text += "img2.jpg,47,8,2\n";
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(Ingest(sources).images[i].capture_time_s, static_cast<double>(i));
+}
+
+TEST(IngestImages, TakesAccuraciesAsStatedElseByFixTypeElseByOption) {
+  ImageSources sources = GoodSources(5);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text =
+      "name,latitude,longitude,altitude,accuracy,vertical_accuracy,fix\n"
+      "img0.jpg,47,8,400,0.25,0.75,float\nimg1.jpg,47,8,400,,,fixed\nimg2.jpg,47,8,400,,7,1\n"
+      "img3.jpg,47,8,400,0.25,,\nimg4.jpg,47,8,400,0.01,,none\n";
+  const ImageManifest manifest = Ingest(sources);
+  const auto expect_sigmas = [&](size_t i, double horizontal_m, double vertical_m) {
+    EXPECT_TRUE(manifest.images[i].prior.position_in_enu) << i;
+    EXPECT_DOUBLE_EQ(manifest.images[i].prior.horizontal_sigma_m, horizontal_m) << i;
+    EXPECT_DOUBLE_EQ(manifest.images[i].prior.vertical_sigma_m, vertical_m) << i;
+  };
+  expect_sigmas(0, 0.25, 0.75);
+  expect_sigmas(1, 0.05, 0.1);
+  expect_sigmas(2, 5.0, 7.0);
+  expect_sigmas(3, 0.25, 0.5);
+  EXPECT_FALSE(manifest.images[4].prior.position_in_enu || manifest.images[4].prior.geodetic);
+  EXPECT_THAT(manifest.warnings,
+              ElementsAre("1 row of gnss.csv has no fix: its position is not used: line 6 "
+                          "('none')"));
+}
+
+TEST(IngestImages, DoesNotTakeThePositionOfExifWhereTheTableHasNoFix) {
+  ImageSources sources = GoodSources(2);
+  sources.images[1].metadata.position = GeodeticPosition{47.0, 8.0, 400.0};
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,x,y,z,fix\nimg1.jpg,1,2,3,none\nimg0.jpg,1,2,3,4\n";
+  const ImageManifest manifest = Ingest(sources);
+  EXPECT_TRUE(manifest.images[0].prior.position_in_enu);
+  EXPECT_FALSE(manifest.images[1].prior.position_in_enu || manifest.images[1].prior.geodetic);
+}
+
+TEST(IngestImages, GivesDirectionsTheirAccuracies) {
+  ImageSources sources = GoodSources(3);
+  for (size_t i = 0; i < 3; ++i) {
+    sources.images[i].metadata.heading_deg = 10.0 * static_cast<double>(i);
+    sources.images[i].metadata.pitch_deg = 0.5 * static_cast<double>(i);
+    sources.images[i].metadata.roll_deg = -0.5 * static_cast<double>(i);
+  }
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text =
+      "name,latitude,longitude,heading,heading_accuracy,pitch,pitch_accuracy,roll_accuracy\n"
+      "img0.jpg,47,8,91,0.25,2,0.125,0.5\nimg1.jpg,47,8,,0.25,,0.125,\n";
+  IngestOptions options;
+  options.heading_sigma_deg = 20.0;
+  const ImageManifest manifest = Ingest(sources, options);
+  const PosePrior& of_table = manifest.images[0].prior;
+  EXPECT_EQ(of_table.heading_deg, 91.0);
+  EXPECT_EQ(of_table.heading_sigma_deg, 0.25);
+  EXPECT_EQ(of_table.pitch_deg, 2.0);
+  EXPECT_EQ(of_table.tilt_sigma_deg, 0.5);
+  for (size_t i = 1; i < 3; ++i) {  // the table's accuracies are not those of EXIF's angles
+    const PosePrior& of_exif = manifest.images[i].prior;
+    EXPECT_EQ(of_exif.heading_deg, 10.0 * static_cast<double>(i));
+    EXPECT_EQ(of_exif.roll_deg, -0.5 * static_cast<double>(i));
+    EXPECT_EQ(of_exif.heading_sigma_deg, 20.0);
+    EXPECT_EQ(of_exif.tilt_sigma_deg, 3.0);
+  }
+}
+
+TEST(IngestImages, DoesNotTakeForMeasuredWhatEveryImageSays) {
+  ImageSources sources = GoodSources(4);
+  for (size_t i = 0; i < 3; ++i) {
+    sources.images[i].metadata.heading_deg = 180.0;
+    sources.images[i].metadata.pitch_deg = 0.1 * static_cast<double>(i);
+    sources.images[i].metadata.roll_deg = 12.0;  // leans: stated by nobody who does not know
+  }
+  ImageManifest manifest = Ingest(sources);
+  EXPECT_FALSE(manifest.images[0].prior.heading_deg);
+  EXPECT_EQ(manifest.images[1].prior.pitch_deg, 0.1);
+  EXPECT_EQ(manifest.images[2].prior.roll_deg, 12.0);
+  EXPECT_THAT(manifest.warnings, ElementsAre(HasSubstr("state a heading state exactly 180")));
+  // Who states an accuracy means it.
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,latitude,longitude,heading_accuracy\nimg0.jpg,47,8,1\n";
+  manifest = Ingest(sources);
+  EXPECT_EQ(manifest.images[0].prior.heading_deg, 180.0);
+}
+
 TEST(IngestImages, FollowsTheTablesDrives) {
   ImageSources sources = GoodSources(4);
   sources.gnss_name = "gnss.csv";
