@@ -10,6 +10,7 @@
 #include "core/graph/select_image_pairs.h"
 #include "core/stages/ingest_images.h"
 #include "core/stages/match_image_pair.h"
+#include "core/stages/pair_seed.h"
 #include "core/stages/plan_recipes.h"
 #include "proto/codec/features_codec.h"
 #include "proto/codec/manifest_codec.h"
@@ -66,8 +67,7 @@ absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<Feat
 /// Seeded by the two images' content: the same pair gives the same answer in any task.
 StageContext PairContext(const StageContext& context, const LoadedImage& a, const LoadedImage& b) {
   StageContext pair_context = context;
-  pair_context.seed =
-      DigestBuilder().AddField(a.digest.ToHex()).AddField(b.digest.ToHex()).Finish().ToSeed();
+  pair_context.seed = PairSeed(a.digest, b.digest);
   return pair_context;
 }
 
