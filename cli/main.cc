@@ -15,6 +15,7 @@
 #include "cli/export_command.h"
 #include "cli/forget_command.h"
 #include "cli/gc_command.h"
+#include "cli/inspect_command.h"
 #include "cli/jobs_command.h"
 #include "cli/keys_command.h"
 #include "cli/options_command.h"
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   orbweave::AddReconstructCommand(app, selected);
   orbweave::AddEvaluateCommand(app, selected);
   orbweave::AddExportCommand(app, selected);
+  orbweave::AddInspectCommand(app, selected);
   orbweave::AddBenchCommand(app, selected);
   orbweave::AddOptionsCommand(app, selected);
   orbweave::AddSynthCommand(app, selected);

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/pipeline/coordinator_api.h"
+#include "core/scene/two_view_geometry.h"
+#include "core/stages/recipes.h"
+
+namespace orbweave {
+
+/// Pairs of a job: those that were to be tried, with matches that came from outside, and those of
+/// them that have a geometry; both sorted.
+struct JobPairs {
+  std::vector<MatchRecipe::Pair> tried{};
+  std::vector<TwoViewGeometry> verified{};
+};
+
+/// The pairs of which `wanted` is true; one blob is open at a time. Without results of the stages
+/// that choose and match pairs: none.
+[[nodiscard]] absl::StatusOr<JobPairs> FetchPairs(
+    CoordinatorApi& coordinator,
+    const JobSpec& job,
+    const std::vector<TaskOutcome>& outcomes,
+    const std::function<bool(const ImagePair&)>& wanted);
+
+}  // namespace orbweave
