@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worker/model_stages.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/graph/build_view_graph.h"
+#include "core/graph/drop_edges_against_chain.h"
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/partition_view_graph.h"
 #include "core/merging/review_seams.h"
@@ -98,9 +101,11 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
                             FetchInput(spec, 2, blobs, DecodeCollection));
   ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(collected.edges, manifest);
+  EdgesByChain by_chain = DropEdgesAgainstChain(by_gnss.kept, manifest);
   const FilteredViewGraph filtered = BuildViewGraph(
-      static_cast<uint32_t>(manifest.images.size()), std::move(by_gnss.kept), options.view_graph);
+      static_cast<uint32_t>(manifest.images.size()), std::move(by_chain.kept), options.view_graph);
   DividedViewGraph divided{.dropped = std::move(by_gnss.dropped)};
+  std::ranges::move(by_chain.dropped, std::back_inserter(divided.dropped));
   divided.dropped.insert(divided.dropped.end(), filtered.dropped.begin(), filtered.dropped.end());
   ORBWEAVE_ASSIGN_OR_RETURN(
       divided.partition, DivideOrWiden(spec, filtered.graph, manifest, options.partition, blobs));

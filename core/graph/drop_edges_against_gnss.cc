@@ -88,18 +88,46 @@ std::vector<Opinion> FormOpinions(const std::vector<ViewEdge>& edges,
   return opinions;
 }
 
-/// Per image: whether GNSS disagrees with half of its edges or less.
+/// Neighbours in the sequence of one drive.
+constexpr uint32_t kSequenceSteps = 5;
+
+bool IsInSequence(const ImagePair& pair, const ImageManifest& manifest) {
+  return pair.b.value - pair.a.value <= kSequenceSteps &&
+         manifest.At(pair.a).drive == manifest.At(pair.b).drive;
+}
+
+/// Edges that GNSS disagrees with count against the others.
+struct Balance {
+  int votes = 0;
+  int balance = 0;
+
+  void Add(Opinion opinion) {
+    ++votes;
+    balance += opinion == Opinion::kDisagrees ? -1 : 1;
+  }
+};
+
+/// Per image: whether GNSS disagrees with half or less of its edges to neighbours in the sequence,
+/// where there are two or more, else of all its edges. Look-alikes may be many; neighbours they are
+/// not.
 std::vector<uint8_t> FindTrusted(const std::vector<ViewEdge>& edges,
                                  const std::vector<Opinion>& opinions,
-                                 size_t num_images) {
-  std::vector<int> balance(num_images, 0);
+                                 const ImageManifest& manifest) {
+  std::vector<Balance> all(manifest.images.size());
+  std::vector<Balance> in_sequence(manifest.images.size());
   for (size_t e = 0; e < edges.size(); ++e) {
-    const int vote = opinions[e] == Opinion::kDisagrees ? -1 : 1;
-    balance[edges[e].pair.a.value] += vote;
-    balance[edges[e].pair.b.value] += vote;
+    if (edges[e].kind == TwoViewKind::kNone) continue;
+    const bool is_in_sequence = IsInSequence(edges[e].pair, manifest);
+    for (const ImageId image : {edges[e].pair.a, edges[e].pair.b}) {
+      all[image.value].Add(opinions[e]);
+      if (is_in_sequence) in_sequence[image.value].Add(opinions[e]);
+    }
   }
-  std::vector<uint8_t> trusted(num_images, 0);
-  for (size_t i = 0; i < num_images; ++i) trusted[i] = balance[i] >= 0 ? 1 : 0;
+  std::vector<uint8_t> trusted(manifest.images.size(), 0);
+  for (size_t i = 0; i < trusted.size(); ++i) {
+    const Balance& balance = in_sequence[i].votes >= 2 ? in_sequence[i] : all[i];
+    trusted[i] = balance.balance >= 0 ? 1 : 0;
+  }
   return trusted;
 }
 
@@ -108,7 +136,7 @@ std::vector<uint8_t> FindTrusted(const std::vector<ViewEdge>& edges,
 EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest) {
   const std::vector<Opinion> opinions = FormOpinions(edges, manifest);
-  const std::vector<uint8_t> trusted = FindTrusted(edges, opinions, manifest.images.size());
+  const std::vector<uint8_t> trusted = FindTrusted(edges, opinions, manifest);
   DisjointSets joined(static_cast<uint32_t>(manifest.images.size()));
   for (size_t e = 0; e < edges.size(); ++e) {
     if (opinions[e] == Opinion::kAgrees) joined.Unite(edges[e].pair.a.value, edges[e].pair.b.value);

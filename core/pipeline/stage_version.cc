@@ -15,7 +15,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"select_image_pairs", "2"},
     {"match_images", "3"},
     {"verify_matches", "3"},
-    {"partition_view_graph", "5"},
+    {"partition_view_graph", "6"},
     {"reconstruct_cluster", "3"},
     {"list_seams", "1"},
     {"fit_seams", "1"},

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "core/base/random.h"
 #include "core/graph/build_view_graph.h"
+#include "core/graph/drop_edges_against_chain.h"
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/partition_view_graph.h"
 #include "core/merging/merge_submodels.h"
@@ -90,9 +92,11 @@ inline Orientated Orientate(const Corridor& corridor, const PartitionOptions& op
   std::vector<ViewEdge> edges;
   for (const TwoViewGeometry& geometry : geometries) edges.push_back(ViewEdgeOf(geometry));
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(edges, corridor.manifest);
+  EdgesByChain by_chain = DropEdgesAgainstChain(by_gnss.kept, corridor.manifest);
   Orientated result{.dropped_edges = std::move(by_gnss.dropped)};
+  std::ranges::move(by_chain.dropped, std::back_inserter(result.dropped_edges));
   const ViewGraph graph =
-      BuildViewGraph(static_cast<uint32_t>(corridor.features.size()), std::move(by_gnss.kept), {})
+      BuildViewGraph(static_cast<uint32_t>(corridor.features.size()), std::move(by_chain.kept), {})
           .graph;
   const Partition partition = PartitionViewGraph(graph, options).value();
   std::vector<Submodel> submodels;
