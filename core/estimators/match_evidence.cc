@@ -13,6 +13,7 @@
 
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
+#include "core/robust/false_alarms.h"
 
 namespace orbweave {
 namespace {
@@ -73,19 +74,6 @@ class IndependentMatches {
   std::map<Cell, std::vector<size_t>> cells_{};
   std::vector<std::pair<Vector3d, Vector3d>> kept_{};
 };
-
-double LogChoose(size_t n, size_t k) {
-  const auto log_factorial = [](size_t m) { return std::lgamma(static_cast<double>(m) + 1.0); };
-  return log_factorial(n) - log_factorial(k) - log_factorial(n - k);
-}
-
-double Log10FalseAlarms(size_t n, size_t k, size_t sample, double chance) {
-  if (k <= sample) return 0.0;
-  const double log_tests = std::log(static_cast<double>(kNumErrors * (n - sample))) +
-                           LogChoose(n, k) + LogChoose(k, sample);
-  const double log_chance = static_cast<double>(k - sample) * std::log(chance);
-  return (log_tests + log_chance) / std::numbers::ln10;
-}
 
 /// How many of some matches lie within each of the errors.
 struct Counts {
@@ -159,7 +147,7 @@ MatchEvidence EvidenceOf(const BearingPairs& pairs, const Rigid3& b_from_a, doub
     const double chance =
         static_cast<double>(exchanged.within[e] + 1) / static_cast<double>(exchanged.all + 1);
     const double log10_nfa =
-        Log10FalseAlarms(matches.size(), found.within[e], test.Sample(), chance);
+        Log10FalseAlarms(matches.size(), found.within[e], test.Sample(), chance, kNumErrors);
     if (e > 0 && log10_nfa >= evidence.log10_false_alarms) continue;
     evidence.log10_false_alarms = log10_nfa;
     evidence.max_error_rad = test.Error(e);
@@ -174,7 +162,8 @@ double SmallestTellingShare(size_t num_matches,
                             double max_log10_false_alarms) {
   const double chance = 0.5 * std::sin(max_error_rad / std::exp2(kNumErrors - 1));
   for (size_t k = kPoseSample + 1; k < num_matches; ++k) {
-    if (Log10FalseAlarms(num_matches, k, kPoseSample, chance) <= max_log10_false_alarms) {
+    if (Log10FalseAlarms(num_matches, k, kPoseSample, chance, kNumErrors) <=
+        max_log10_false_alarms) {
       return static_cast<double>(k) / static_cast<double>(num_matches);
     }
   }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/robust/false_alarms.h"
+
 namespace orbweave {
 namespace {
 
@@ -63,20 +65,6 @@ std::vector<FeatureMatch> Without(std::vector<FeatureMatch> matches,
 size_t CountNearest(const std::vector<RankedMatch>& ranked) {
   return static_cast<size_t>(
       std::ranges::count_if(ranked, [](const RankedMatch& each) { return each.slack <= 1.0; }));
-}
-
-/// log10 P(X >= count) for X ~ Poisson(mean).
-double Log10PoissonTail(size_t count, double mean) {
-  if (static_cast<double>(count) <= mean) return 0.0;
-  const auto first = static_cast<double>(count);
-  const double log_first = first * std::log(mean) - mean - std::lgamma(first + 1.0);
-  double sum = 1.0;  // of the terms over the first
-  double term = 1.0;
-  for (double n = first + 1.0; term > 1e-12 * sum; n += 1.0) {
-    term *= mean / n;
-    sum += term;
-  }
-  return (log_first + std::log(sum)) / std::numbers::ln10;
 }
 
 /// The longest list of which wrong_share is wrong at most.

@@ -31,10 +31,7 @@ void AddSequencePairs(const ImageManifest& manifest, size_t window, Pairs& pairs
   }
 }
 
-void AddGnssPairs(const ImageManifest& manifest,
-                  double radius_m,
-                  size_t max_neighbours,
-                  Pairs& pairs) {
+void AddGnssPairs(const ImageManifest& manifest, const PairOptions& options, Pairs& pairs) {
   std::vector<ImageId> ids;
   std::vector<Eigen::Vector2d> positions;
   for (const ImageRecord& image : manifest.images) {
@@ -42,10 +39,14 @@ void AddGnssPairs(const ImageManifest& manifest,
     ids.push_back(image.id);
     positions.push_back(image.prior.position_in_enu->head<2>());
   }
-  const auto near = FindNearPositions(positions, radius_m, max_neighbours);
-  for (size_t i = 0; i < near.size(); ++i) {
-    for (const uint32_t j : near[i]) pairs.push_back(MakePair(ids[i], ids[j]));
-  }
+  const auto add = [&](double radius_m, int max_neighbours) {
+    const auto near = FindNearPositions(positions, radius_m, static_cast<size_t>(max_neighbours));
+    for (size_t i = 0; i < near.size(); ++i) {
+      for (const uint32_t j : near[i]) pairs.push_back(MakePair(ids[i], ids[j]));
+    }
+  };
+  add(options.gnss_radius_m, options.gnss_max_neighbours);
+  add(std::max(options.gnss_radius_m, options.similar_gate_m), options.gnss_min_neighbours);
 }
 
 // False where GNSS says that the two images are too far apart to see the same.
@@ -82,8 +83,7 @@ std::vector<ImagePair> SelectImagePairs(const ImageManifest& manifest,
     return pairs;
   }
   AddSequencePairs(manifest, static_cast<size_t>(options.sequence_window), pairs);
-  AddGnssPairs(
-      manifest, options.gnss_radius_m, static_cast<size_t>(options.gnss_max_neighbours), pairs);
+  AddGnssPairs(manifest, options, pairs);
   AddSimilarPairs(manifest, similar, options, pairs);
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -13,6 +13,7 @@ struct PairOptions {
   int sequence_window = 10;
   double gnss_radius_m = 20.0;
   int gnss_max_neighbours = 20;
+  int gnss_min_neighbours = 6;
   int exhaustive_below = 40;
   double similar_gate_m = 50.0;
   double similar_gate_sigmas = 3.0;
@@ -31,6 +32,10 @@ struct PairOptions {
           self.gnss_max_neighbours,
           "nearest GNSS neighbours at most",
           Range{0, 10000});
+    visit("gnss_min_neighbours",
+          self.gnss_min_neighbours,
+          "nearest GNSS neighbours where fewer are within the radius, up to similar_gate_m",
+          Range{0, 10000});
     visit("exhaustive_below",
           self.exhaustive_below,
           "jobs of fewer images pair every two",
@@ -48,7 +53,8 @@ struct PairOptions {
 
 /// Which two panoramas may see the same. The union of
 ///   - a window along the sequence of each drive (SequenceOfDrives),
-///   - each image's nearest GNSS neighbours within a radius, by horizontal distance,
+///   - each image's nearest GNSS neighbours within a radius, by horizontal distance, and where the
+///     street is thinly covered the nearest few beyond it, as far as look-alikes are believed,
 ///   - `similar` (per image the most similar others, best first; may be empty), without those whose
 ///     horizontal GNSS distance exceeds max(similar_gate_m, similar_gate_sigmas (sigma_a +
 ///     sigma_b)) where both images have a position;

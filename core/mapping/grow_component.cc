@@ -64,7 +64,7 @@ class Growth {
   /// Points each image must see to be tried now.
   std::vector<uint32_t> MinVisible() const {
     const uint32_t base = effort_ == Effort::kRelaxed
-                              ? static_cast<uint32_t>(Limits().min_inliers)
+                              ? 0U  // pairs may hold an image that sees no point
                               : static_cast<uint32_t>(ScheduleOf(options_).min_visible);
     std::vector<uint32_t> min_visible(log_.size(), base);
     for (ImageSlot image = 0; image < log_.size(); ++image) {
@@ -101,7 +101,7 @@ class Growth {
     record.visible_at_failure = attempt.registered ? 0 : attempt.num_visible;
     record.best_visible = std::max(record.best_visible, attempt.num_visible);
     record.best_inliers = std::max(record.best_inliers, attempt.num_inliers);
-    record.needed_inliers = static_cast<uint32_t>(Limits().min_inliers);
+    record.needed_inliers = NeededInliers(Limits(), attempt.num_visible);
   }
 
   /// Few new images are in the hands of local adjustments, whose windows overlap.

@@ -4,20 +4,38 @@
 #include "core/mapping/pose_from_pairs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
-#include "core/estimators/estimate_absolute_pose.h"
+#include "core/bundle/adjust_bundle.h"
+#include "core/estimators/refine_between_views.h"
+#include "core/geometry/epipolar.h"
+#include "core/geometry/rotation.h"
+#include "core/robust/false_alarms.h"
 
 namespace orbweave {
 namespace {
+
+using Eigen::Vector3d;
 
 constexpr size_t kMaxPairs = 5;
 /// Relative poses are less exact than adjusted ones: hypotheses are judged at this many thresholds.
 constexpr double kSlack = 3.0;
 constexpr double kMinSine = 0.02;
+constexpr size_t kMaxLengths = 100;  ///< per pair that are tried
+constexpr int kRefinementSteps = 20;
+constexpr size_t kMaxExchanges = 64;
+/// The matches of a pair that agrees. Wrong matches agree with a pose by 1 in 100 only.
+constexpr double kAgreeingShare = 0.5;
+/// One image in 10,000 would be placed by chance, as for pairs (two_view.max_log10_false_alarms).
+constexpr double kMaxLog10FalseAlarms = -4.0;
+constexpr uint32_t kFewestPoints = 4;
+/// Directions are good to a degree: the centre is then good to a tenth of the baseline.
+constexpr double kMinCrossingRad = 10.0 * std::numbers::pi / 180.0;
 
 /// Pairs of `image` with registered images, strongest first.
-std::vector<uint32_t> StrongestPairs(const MappingState& state, ImageSlot image) {
+std::vector<uint32_t> PairsByStrength(const MappingState& state, ImageSlot image) {
   std::vector<uint32_t> pairs;
   for (const uint32_t p : state.Graph().pairs_of_image[image]) {
     const LinkedPair& pair = state.Graph().pairs[p];
@@ -29,15 +47,27 @@ std::vector<uint32_t> StrongestPairs(const MappingState& state, ImageSlot image)
   std::sort(pairs.begin(), pairs.end(), [&](uint32_t x, uint32_t y) {
     return std::tuple(matches(y), x) < std::tuple(matches(x), y);
   });
-  if (pairs.size() > kMaxPairs) pairs.resize(kMaxPairs);
   return pairs;
+}
+
+ViewMatches MatchesOf(const MappingState& state, ImageSlot image, const LinkedPair& pair) {
+  const CorrespondenceGraph& graph = state.Graph();
+  const ImageSlot view = pair.a == image ? pair.b : pair.a;
+  ViewMatches matches{.view_from_world = state.CamFromWorld(view)};
+  for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
+    const Vector3d& a = graph.bearing_of_node[graph.node_of_feature[pair.a][match.a]];
+    const Vector3d& b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
+    matches.in_view.push_back(pair.a == image ? b : a);
+    matches.in_image.push_back(pair.a == image ? a : b);
+  }
+  return matches;
 }
 
 /// Where a pair says the image is: rotation, and the centre on a ray from the neighbour's.
 struct PairHypothesis {
   Eigen::Quaterniond cam_from_world = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d neighbour_centre = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit; zero for a pure rotation
+  Vector3d neighbour_centre = Vector3d::Zero();
+  Vector3d direction = Vector3d::Zero();  ///< unit; zero for a pure rotation
 };
 
 PairHypothesis HypothesisOf(const MappingState& state, ImageSlot image, const LinkedPair& pair) {
@@ -56,50 +86,186 @@ PairHypothesis HypothesisOf(const MappingState& state, ImageSlot image, const Li
   return hypothesis;
 }
 
-/// Poses that the hypothesis and one correspondence each determine.
-std::vector<Rigid3> CandidatesOf(const PairHypothesis& hypothesis,
-                                 const SceneCorrespondences& correspondences) {
+/// Poses that the hypothesis and one scene point each determine.
+void AddPosesOfPoints(const PairHypothesis& hypothesis,
+                      const SceneCorrespondences& correspondences,
+                      std::vector<Rigid3>& poses) {
   const Eigen::Quaterniond& R = hypothesis.cam_from_world;
-  if (hypothesis.direction.isZero()) return {Rigid3::FromCentre(R, hypothesis.neighbour_centre)};
-  std::vector<Rigid3> candidates;
-  for (size_t i = 0; i < correspondences.size(); ++i) {
-    const Eigen::Vector3d v = R.conjugate() * correspondences.bearings[i];
-    const Eigen::Vector3d d_cross_v = hypothesis.direction.cross(v);
+  if (hypothesis.direction.isZero()) {
+    poses.push_back(Rigid3::FromCentre(R, hypothesis.neighbour_centre));
+    return;
+  }
+  const size_t stride = std::max<size_t>(1, correspondences.size() / kMaxLengths);
+  for (size_t i = 0; i < correspondences.size(); i += stride) {
+    const Vector3d v = R.conjugate() * correspondences.bearings[i];
+    const Vector3d d_cross_v = hypothesis.direction.cross(v);
     if (d_cross_v.norm() < kMinSine) continue;
-    const Eigen::Vector3d to_point = correspondences.positions[i] - hypothesis.neighbour_centre;
+    const Vector3d to_point = correspondences.positions[i] - hypothesis.neighbour_centre;
     const double s = to_point.cross(v).dot(d_cross_v) / d_cross_v.squaredNorm();
     if (s <= 0.0) continue;
-    candidates.push_back(
-        Rigid3::FromCentre(R, hypothesis.neighbour_centre + s * hypothesis.direction));
+    poses.push_back(Rigid3::FromCentre(R, hypothesis.neighbour_centre + s * hypothesis.direction));
   }
-  return candidates;
+}
+
+/// The pose with the first one's rotation, its centre on that one's ray, nearest to the other's.
+void AddPoseOfCrossing(const PairHypothesis& first,
+                       const PairHypothesis& second,
+                       std::vector<Rigid3>& poses) {
+  const Vector3d normal = first.direction.cross(second.direction);
+  if (normal.norm() < std::sin(kMinCrossingRad)) return;
+  const Vector3d between = second.neighbour_centre - first.neighbour_centre;
+  const double s = between.cross(second.direction).dot(normal) / normal.squaredNorm();
+  const double t = between.cross(first.direction).dot(normal) / normal.squaredNorm();
+  if (s <= 0.0 || t <= 0.0) return;
+  poses.push_back(
+      Rigid3::FromCentre(first.cam_from_world, first.neighbour_centre + s * first.direction));
+}
+
+std::vector<Rigid3> CandidatesOf(const std::vector<PairHypothesis>& hypotheses,
+                                 const SceneCorrespondences& correspondences) {
+  std::vector<Rigid3> poses;
+  for (const PairHypothesis& first : hypotheses) {
+    AddPosesOfPoints(first, correspondences, poses);
+    for (const PairHypothesis& second : hypotheses) AddPoseOfCrossing(first, second, poses);
+  }
+  return poses;
+}
+
+uint32_t CountAgreeing(const Rigid3& cam_from_world,
+                       const ViewMatches& matches,
+                       double max_error_rad) {
+  Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
+  if (!(cam_from_view.translation.norm() > 0.0)) return 0;
+  cam_from_view.translation.normalize();
+  const double min_cos_far = std::cos(2.0 * max_error_rad);
+  uint32_t count = 0;
+  for (size_t i = 0; i < matches.in_view.size(); ++i) {
+    const Vector3d& a = matches.in_view[i];
+    const Vector3d& b = matches.in_image[i];
+    if (!(SymmetricEpipolarAngle(cam_from_view, a, b) <= max_error_rad)) continue;
+    const bool is_far = b.dot(cam_from_view.rotation * a) > min_cos_far;
+    count += is_far || IsInFrontOfBoth(cam_from_view, a, b) ? 1U : 0U;
+  }
+  return count;
+}
+
+uint32_t CountAgreeing(const Rigid3& cam_from_world,
+                       const std::vector<ViewMatches>& views,
+                       double max_error_rad) {
+  uint32_t count = 0;
+  for (const ViewMatches& view : views) count += CountAgreeing(cam_from_world, view, max_error_rad);
+  return count;
+}
+
+std::optional<Rigid3> BestCandidate(const std::vector<Rigid3>& candidates,
+                                    const SceneCorrespondences& correspondences,
+                                    const std::vector<ViewMatches>& views,
+                                    double max_error_rad) {
+  std::optional<Rigid3> best;
+  uint32_t most = 0;
+  for (const Rigid3& candidate : candidates) {
+    const uint32_t agreeing = SupportOf(candidate, correspondences, max_error_rad).count +
+                              CountAgreeing(candidate, views, max_error_rad);
+    if (agreeing <= most) continue;
+    most = agreeing;
+    best = candidate;
+  }
+  return best;
+}
+
+Rigid3 Refine(const Rigid3& pose,
+              const SceneCorrespondences& correspondences,
+              const std::vector<ViewMatches>& views,
+              double max_error_rad) {
+  const PoseSupport near = SupportOf(pose, correspondences, kSlack * max_error_rad);
+  std::vector<Vector3d> bearings;
+  std::vector<Vector3d> positions;
+  for (size_t i = 0; i < correspondences.size(); ++i) {
+    if (near.is_inlier[i] == 0) continue;
+    bearings.push_back(correspondences.bearings[i]);
+    positions.push_back(correspondences.positions[i]);
+  }
+  return MinimiseBetweenViews(
+      pose, views, bearings, positions, 0.5 * max_error_rad, kRefinementSteps);
+}
+
+/// Share of exchanged correspondences, the ray of one and the point of another, that agree.
+double ChanceShare(const Rigid3& cam_from_world,
+                   const SceneCorrespondences& correspondences,
+                   double max_error_rad) {
+  const size_t n = correspondences.size();
+  const size_t num_shifts = n == 0 ? 0 : std::min(n - 1, kMaxExchanges);
+  size_t agreeing = 0;
+  for (size_t shift = 1; shift <= num_shifts; ++shift) {
+    for (size_t i = 0; i < n; ++i) {
+      const Vector3d& position = correspondences.positions[(i + shift) % n];
+      agreeing +=
+          BearingError(cam_from_world, position, correspondences.bearings[i]) <= max_error_rad ? 1U
+                                                                                               : 0U;
+    }
+  }
+  return static_cast<double>(agreeing + 1) / static_cast<double>(num_shifts * n + 1);
+}
+
+double CrossingAngle(const Rigid3& cam_from_world,
+                     const std::vector<ViewMatches>& views,
+                     double max_error_rad) {
+  std::vector<Vector3d> directions;
+  for (const ViewMatches& view : views) {
+    const uint32_t agreeing = CountAgreeing(cam_from_world, view, max_error_rad);
+    if (agreeing < kAgreeingShare * static_cast<double>(view.in_view.size())) continue;
+    const Vector3d baseline = cam_from_world.Centre() - view.view_from_world.Centre();
+    if (baseline.norm() > 0.0) directions.push_back(baseline.normalized());
+  }
+  double largest = 0.0;
+  for (const Vector3d& first : directions) {
+    for (const Vector3d& second : directions) {
+      largest = std::max(largest, std::asin(std::min(1.0, first.cross(second).norm())));
+    }
+  }
+  return largest;
 }
 
 }  // namespace
 
-std::optional<Rigid3> EstimatePoseFromPairs(const MappingState& state,
-                                            ImageSlot image,
-                                            const SceneCorrespondences& correspondences,
-                                            double max_error_rad) {
-  std::optional<Rigid3> best;
-  PoseSupport best_support;
-  for (const uint32_t p : StrongestPairs(state, image)) {
-    const PairHypothesis hypothesis = HypothesisOf(state, image, state.Graph().pairs[p]);
-    for (const Rigid3& candidate : CandidatesOf(hypothesis, correspondences)) {
-      PoseSupport support = SupportOf(candidate, correspondences, kSlack * max_error_rad);
-      if (support.count > best_support.count) {
-        best = candidate;
-        best_support = std::move(support);
-      }
-    }
+std::optional<PoseFromPairs> EstimatePoseFromPairs(const MappingState& state,
+                                                   ImageSlot image,
+                                                   const SceneCorrespondences& correspondences,
+                                                   double max_error_rad) {
+  std::vector<ViewMatches> views;
+  std::vector<PairHypothesis> hypotheses;
+  for (const uint32_t p : PairsByStrength(state, image)) {
+    const LinkedPair& pair = state.Graph().pairs[p];
+    if (state.Problem().pairs[pair.index].kind != TwoViewKind::kPureRotation)
+      views.push_back(MatchesOf(state, image, pair));  // others have no planes
+    if (hypotheses.size() < kMaxPairs) hypotheses.push_back(HypothesisOf(state, image, pair));
   }
-  constexpr uint32_t kMinimal = 4;
-  if (!best || best_support.count < kMinimal) return std::nullopt;
-  return RefineAbsolutePose(*best,
-                            correspondences.bearings,
-                            correspondences.positions,
-                            best_support.is_inlier,
-                            max_error_rad);
+  const std::optional<Rigid3> best = BestCandidate(
+      CandidatesOf(hypotheses, correspondences), correspondences, views, kSlack * max_error_rad);
+  if (!best) return std::nullopt;
+  PoseFromPairs found{.cam_from_world = Refine(*best, correspondences, views, max_error_rad)};
+  found.points = SupportOf(found.cam_from_world, correspondences, max_error_rad);
+  for (const ViewMatches& view : views)
+    found.num_matches += static_cast<uint32_t>(view.in_view.size());
+  found.agreeing_matches = CountAgreeing(found.cam_from_world, views, max_error_rad);
+  found.crossing_angle_rad = CrossingAngle(found.cam_from_world, views, max_error_rad);
+  if (found.points.count >= kFewestPoints) {
+    found.log10_false_alarms =
+        Log10FalseAlarms(correspondences.size(),
+                         found.points.count,
+                         1,
+                         ChanceShare(found.cam_from_world, correspondences, max_error_rad));
+  }
+  return found;
+}
+
+bool IsHeldByPairs(const PoseFromPairs& pose, uint32_t min_matches) {
+  if (pose.agreeing_matches < min_matches ||
+      pose.agreeing_matches < kAgreeingShare * pose.num_matches) {
+    return false;
+  }
+  return pose.log10_false_alarms <= kMaxLog10FalseAlarms ||
+         pose.crossing_angle_rad >= kMinCrossingRad;
 }
 
 }  // namespace orbweave

@@ -4,20 +4,39 @@
 
 #include <optional>
 
+#include "core/mapping/mapping_state.h"
 #include "core/mapping/scene_correspondences.h"
 
 namespace orbweave {
 
-/// A pose where few scene points are seen: a verified pair with a registered image gives the
-/// rotation and the direction of the baseline, so that one correspondence is enough for its length
-/// s. With C = C_n + s d and the ray v of a point P in the world, (C - P) x v = 0 gives s = ((P -
-/// C_n) x v) . (d x v) / |d x v|^2. Every correspondence of every such pair (the strongest five) is
-/// tried, a pure rotation with s = 0; the best pose is refined on its inliers. nullopt: no pair
-/// with a registered image, or no agreement.
-[[nodiscard]] std::optional<Rigid3> EstimatePoseFromPairs(
+/// A pose that verified pairs with registered images propose, and what speaks for it.
+struct PoseFromPairs {
+  Rigid3 cam_from_world{};
+  PoseSupport points{};           ///< scene points that agree
+  uint32_t num_matches = 0;       ///< of pairs with registered images
+  uint32_t agreeing_matches = 0;  ///< of those, near their epipolar planes and in front of both
+  /// Evidence for the length of the baseline: log10 of how many lengths as many points would agree
+  /// with by chance.
+  double log10_false_alarms = 0.0;
+  /// Largest angle between the directions to two registered images with which half of the matches
+  /// agree, at most 90 degrees; where it is not small the directions alone fix the centre.
+  double crossing_angle_rad = 0.0;
+};
+
+/// A pose where few scene points are seen, from 2D-2D and 2D-3D matches together. A verified pair
+/// with a registered image gives the rotation and the direction d of the baseline; its length s
+/// comes from one scene point P seen along v, (C_n + s d - P) x v = 0, or from a second pair, whose
+/// ray crosses. All such poses of the strongest five pairs are tried; that with which most rays
+/// agree, to points and to images, is refined on all of them (MinimiseBetweenViews). nullopt: no
+/// pair with a registered image, or no agreement.
+[[nodiscard]] std::optional<PoseFromPairs> EstimatePoseFromPairs(
     const MappingState& state,
     ImageSlot image,
     const SceneCorrespondences& correspondences,
     double max_error_rad);
+
+/// Whether the pairs hold the pose: half of the matches agree with it, `min_matches` at least, and
+/// either points give the length of the baseline with evidence, or two directions cross.
+[[nodiscard]] bool IsHeldByPairs(const PoseFromPairs& pose, uint32_t min_matches);
 
 }  // namespace orbweave

@@ -19,6 +19,9 @@ constexpr int kMaxGrownModels = 3;
 constexpr double kGoodShare = 0.5;
 /// The same for a model begun with all images at once, as seeds may do better.
 constexpr double kNearlyAll = 0.9;
+/// A model from seeds that leaves out a larger share of what its matches reach has a competitor
+/// that begins with all images at once.
+constexpr double kLeftOut = 0.02;
 
 /// Number of available images that matches connect with `start`.
 uint32_t CountReachable(const CorrespondenceGraph& graph,
@@ -140,6 +143,43 @@ absl::StatusOr<bool> GrowGlobally(const ClusterProblem& problem,
 
 }  // namespace
 
+namespace {
+
+/// Whether the model lacks images that its matches reach.
+bool LeavesImagesOut(const CorrespondenceGraph& graph,
+                     std::span<const uint8_t> available,
+                     const MappingState& state) {
+  const auto size = static_cast<double>(state.Registered().size());
+  const uint32_t reachable = CountReachable(graph, available, state.Registered().front());
+  return size < (1.0 - kLeftOut) * reachable;
+}
+
+/// Where seeds leave images out: all at once, if that is sound and holds more.
+absl::Status CompeteGlobally(const ClusterProblem& problem,
+                             const CorrespondenceGraph& graph,
+                             std::span<const uint8_t> available,
+                             const MappingOptions& options,
+                             RegistrationLog& log,
+                             const StageContext& context,
+                             ComponentResult& result) {
+  RegistrationLog own_log = log;
+  ResetAttempts(own_log);
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      GlobalModel model, ReconstructGlobally(problem, graph, available, options, own_log, context));
+  result.growth.num_local_adjustments += model.growth.num_local_adjustments;
+  result.growth.num_global_adjustments += model.growth.num_global_adjustments;
+  const size_t size = result.state ? result.state->Registered().size() : 0;
+  if (!model.state || !model.fault.empty() || model.state->Registered().size() <= size) {
+    return absl::OkStatus();
+  }
+  result.state.emplace(std::move(*model.state));
+  result.started_globally = true;
+  log = std::move(own_log);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
 absl::StatusOr<ComponentResult> ReconstructComponent(const ClusterProblem& problem,
                                                      const CorrespondenceGraph& graph,
                                                      std::span<const uint8_t> available,
@@ -154,6 +194,12 @@ absl::StatusOr<ComponentResult> ReconstructComponent(const ClusterProblem& probl
     if (is_settled) return result;
   }
   ORBWEAVE_RETURN_IF_ERROR(GrowFromSeeds(problem, graph, available, options, log, context, result));
+  const bool may_compete = ScheduleOf(options).start == MappingStart::kIncremental &&
+                           ScheduleOf(options).relaxes_registration;
+  if (may_compete && (!result.state || LeavesImagesOut(graph, available, *result.state))) {
+    ORBWEAVE_RETURN_IF_ERROR(
+        CompeteGlobally(problem, graph, available, options, log, context, result));
+  }
   return result;
 }
 

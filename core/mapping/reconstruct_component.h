@@ -25,7 +25,8 @@ struct ComponentResult {
 ///
 /// Else from the best seed pairs (FindSeedPairs), options.max_seeds at most; starts again elsewhere
 /// when a seed does not hold or its model stays small against what its matches reach. Takes no
-/// image twice as a failed seed.
+/// image twice as a failed seed. Where that leaves out images that matches reach, a model begun
+/// with all of them is tried and taken when it is sound and larger.
 [[nodiscard]] absl::StatusOr<ComponentResult> ReconstructComponent(
     const ClusterProblem& problem,
     const CorrespondenceGraph& graph,

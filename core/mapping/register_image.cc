@@ -57,9 +57,14 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                  ContextOf(context, problem_image.id)));
   attempt.registered = pose && accept(pose->cam_from_world);
   if (!attempt.registered && limits.propose_from_pairs) {
-    const std::optional<Rigid3> proposed =
+    const std::optional<PoseFromPairs> proposed =
         EstimatePoseFromPairs(state, image, correspondences, max_error_rad);
-    attempt.registered = proposed && accept(*proposed);
+    attempt.registered = proposed && accept(proposed->cam_from_world);
+    if (proposed && !attempt.registered &&
+        IsHeldByPairs(*proposed, static_cast<uint32_t>(limits.min_inliers))) {
+      state.Register(image, proposed->cam_from_world);
+      attempt.registered = true;
+    }
   }
   return attempt;
 }

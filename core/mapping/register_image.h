@@ -23,7 +23,8 @@ struct RegistrationAttempt {
 };
 
 /// Absolute orientation of an unregistered image (paper 3.4): P3P with RANSAC over its scene
-/// correspondences, refined. Registers it when enough points agree. Cancelled when asked to stop.
+/// correspondences, refined. Registers it when enough points agree; with limits.propose_from_pairs
+/// also when pairs with registered images hold it (IsHeldByPairs). Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                                 ImageSlot image,
                                                                 const RegistrationLimits& limits,

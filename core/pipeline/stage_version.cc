@@ -12,11 +12,11 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersions = {{
     {"ingest_images", "2"},
     {"extract_features", "2"},
-    {"select_image_pairs", "2"},
+    {"select_image_pairs", "3"},
     {"match_images", "3"},
     {"verify_matches", "3"},
     {"partition_view_graph", "6"},
-    {"reconstruct_cluster", "3"},
+    {"reconstruct_cluster", "4"},
     {"list_seams", "1"},
     {"fit_seams", "1"},
     {"align_submodels", "4"},

@@ -10,9 +10,12 @@
 namespace orbweave {
 namespace {
 
-/// Geometries as good as this one are found in a pair of images of different places, a hundred at a
-/// time: no prediction could make up for it.
-constexpr double kNoEvidence = 2.0;
+/// Ten pairs of images of different places have one geometry as good as this: worth a second look.
+constexpr double kWorthALook = -1.0;
+/// Streets that look alike fill wrong planes better than decoys do. Of 780 pairs of a town whose
+/// distances are known the wrong ones came to -5 with what they predict, the right ones to -6 to
+/// -12.
+constexpr double kDoubtOfPredictions = 2.0;
 
 /// Equation (8) for a pair: the coarser of the two panoramas sets the angle.
 double MaxErrorRad(const PairSide& a, const PairSide& b, double max_error_px) {
@@ -45,7 +48,7 @@ struct PairMatcher {
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> Climb(
       const std::vector<FeatureMatch>& matches) const {
     TwoViewOptions any = two_view_options;
-    any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kNoEvidence);
+    any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kWorthALook);
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry best, Verify(matches, any));
     best.rung = MatchRung::kDescriptors;
     if (IsEvident(best) || any.solver != TwoViewSolver::kFivePoint) return best;
@@ -73,8 +76,11 @@ struct PairMatcher {
                                                           match_options);
     TwoViewGeometry confirmed = geometry;
     confirmed.log10_false_alarms += predicted.log10_chance;
-    if (!IsEvident(confirmed)) return nothing;
-    if (!IsEvident(geometry)) confirmed.rung = MatchRung::kGuided;
+    if (!IsEvident(geometry)) {
+      confirmed.rung = MatchRung::kGuided;
+      confirmed.log10_false_alarms += kDoubtOfPredictions;
+      if (!IsEvident(confirmed)) return nothing;
+    }
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry grown,
                               Verify(predicted.matches, two_view_options));
     if (grown.inliers.size() <= confirmed.inliers.size()) return confirmed;

@@ -34,8 +34,8 @@ TEST(EstimatePoseFromPairs, NeedsAHandfulOfPoints) {
   const auto pose = EstimatePoseFromPairs(state, 3, few, kMaxErrorRad);
   ASSERT_TRUE(pose.has_value());
   const Rigid3& truth = street.world.cams_from_world[3];
-  EXPECT_LT((pose->Centre() - truth.Centre()).norm(), 0.05);
-  EXPECT_LT(RotationAngle(pose->rotation * truth.rotation.conjugate()), 5e-3);
+  EXPECT_LT((pose->cam_from_world.Centre() - truth.Centre()).norm(), 0.05);
+  EXPECT_LT(RotationAngle(pose->cam_from_world.rotation * truth.rotation.conjugate()), 5e-3);
 }
 
 TEST(EstimatePoseFromPairs, KeepsTheCentreUnderPureRotation) {
@@ -45,7 +45,46 @@ TEST(EstimatePoseFromPairs, KeepsTheCentreUnderPureRotation) {
   const MappingState state = street.TriangulatedStateWith({0, 1, 2});
   const auto pose = EstimatePoseFromPairs(state, 3, Thinned(state, 3, 10), kMaxErrorRad);
   ASSERT_TRUE(pose.has_value());
-  EXPECT_LT((pose->Centre() - centres.back()).norm(), 0.05);
+  EXPECT_LT((pose->cam_from_world.Centre() - centres.back()).norm(), 0.05);
+}
+
+TEST(EstimatePoseFromPairs, NeedsNoPointWhereTwoDirectionsCross) {
+  const StreetFixture street({.centres = {{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {2.0, 3.0, 0.0}},
+                              .noise_px = 0.2,
+                              .random_rotations = true});
+  const MappingState state = street.StateWith({0, 1});
+  const auto pose = EstimatePoseFromPairs(state, 2, {}, kMaxErrorRad);
+  ASSERT_TRUE(pose.has_value());
+  EXPECT_TRUE(IsHeldByPairs(*pose, 20));
+  EXPECT_GT(pose->crossing_angle_rad, 0.5);
+  EXPECT_EQ(pose->points.count, 0U);
+  const Rigid3& truth = street.world.cams_from_world[2];
+  EXPECT_LT((pose->cam_from_world.Centre() - truth.Centre()).norm(), 0.05);
+}
+
+TEST(IsHeldByPairs, AsksForTheLengthOfTheBaseline) {
+  // On a straight street all directions are parallel: without points nothing says how far.
+  const StreetFixture street(
+      {.centres = StraightWalk(4, 3.0), .noise_px = 0.2, .random_rotations = true});
+  const MappingState state = street.TriangulatedStateWith({0, 1, 2});
+  const auto held = EstimatePoseFromPairs(state, 3, Thinned(state, 3, 20), kMaxErrorRad);
+  ASSERT_TRUE(held.has_value());
+  EXPECT_TRUE(IsHeldByPairs(*held, 20));
+  EXPECT_LT(held->log10_false_alarms, -4.0);
+  SceneCorrespondences two = Thinned(state, 3, 20);
+  for (auto* values : {&two.bearings, &two.positions}) values->resize(2);
+  two.nodes.resize(2);
+  two.points.resize(2);
+  const auto open = EstimatePoseFromPairs(state, 3, two, kMaxErrorRad);
+  EXPECT_FALSE(open.has_value() && IsHeldByPairs(*open, 20));
+}
+
+TEST(IsHeldByPairs, RefusesAPoseThatMostMatchesContradict) {
+  PoseFromPairs pose{.num_matches = 200, .agreeing_matches = 99, .log10_false_alarms = -20.0};
+  EXPECT_FALSE(IsHeldByPairs(pose, 20));
+  pose.agreeing_matches = 101;
+  EXPECT_TRUE(IsHeldByPairs(pose, 20));
+  EXPECT_FALSE(IsHeldByPairs(pose, 102));
 }
 
 TEST(EstimatePoseFromPairs, HasNoAnswerWithoutARegisteredNeighbour) {
