@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "core/geometry/epipolar.h"
+#include "core/geometry/place_pairs.h"
 #include "core/geometry/rotation.h"
 #include "core/robust/false_alarms.h"
 
@@ -23,57 +22,16 @@ using Eigen::Vector3d;
 constexpr size_t kPoseSample = 5;
 constexpr size_t kRotationSample = 2;
 constexpr size_t kNumErrors = 4;
-/// A window of a facade 10 m away. Features of one thing that is taken for another move together
-/// over about this much; over more, two things that only look alike part.
-constexpr double kSamePlaceRad = 2.0 * std::numbers::pi / 180.0;
 /// Exchanged matches per match at most: with 256 the share of chance is known to a tenth where it
 /// is a hundredth.
 constexpr size_t kMaxExchanges = 256;
 
-/// Matches that are not next to another one in both panoramas.
-class IndependentMatches {
- public:
-  explicit IndependentMatches(const BearingPairs& pairs) {
-    for (size_t i = 0; i < pairs.Size(); ++i) Add(pairs.A(i), pairs.B(i));
-  }
-
-  [[nodiscard]] const std::vector<std::pair<Vector3d, Vector3d>>& All() const { return kept_; }
-
- private:
-  using Cell = std::array<int, 3>;
-
-  static Cell CellOf(const Vector3d& bearing) {
-    const Vector3d scaled = bearing / kSamePlaceRad;
-    return {static_cast<int>(std::floor(scaled.x())),
-            static_cast<int>(std::floor(scaled.y())),
-            static_cast<int>(std::floor(scaled.z()))};
-  }
-
-  void Add(const Vector3d& a, const Vector3d& b) {
-    const Cell cell = CellOf(a);
-    for (int x = -1; x <= 1; ++x) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int z = -1; z <= 1; ++z) {
-          if (IsTaken({cell[0] + x, cell[1] + y, cell[2] + z}, a, b)) return;
-        }
-      }
-    }
-    cells_[cell].push_back(kept_.size());
-    kept_.emplace_back(a, b);
-  }
-
-  [[nodiscard]] bool IsTaken(const Cell& cell, const Vector3d& a, const Vector3d& b) const {
-    const auto found = cells_.find(cell);
-    if (found == cells_.end()) return false;
-    return std::ranges::any_of(found->second, [&](size_t i) {
-      return (kept_[i].first - a).norm() < kSamePlaceRad &&
-             (kept_[i].second - b).norm() < kSamePlaceRad;
-    });
-  }
-
-  std::map<Cell, std::vector<size_t>> cells_{};
-  std::vector<std::pair<Vector3d, Vector3d>> kept_{};
-};
+/// The matches that speak for themselves.
+std::vector<PlacePairs::Match> IndependentMatches(const BearingPairs& pairs) {
+  PlacePairs places;
+  for (size_t i = 0; i < pairs.Size(); ++i) places.Add(pairs.A(i), pairs.B(i));
+  return places.Counted();
+}
 
 /// How many of some matches lie within each of the errors.
 struct Counts {
@@ -117,14 +75,13 @@ class PoseTest {
 
 /// Exchanged matches: the i-th of one panorama with the (i + shift)-th of the other. A match whose
 /// place in b is the right one's is no wrong match.
-Counts CountExchanged(const std::vector<std::pair<Vector3d, Vector3d>>& matches,
-                      const PoseTest& test) {
+Counts CountExchanged(const std::vector<PlacePairs::Match>& matches, const PoseTest& test) {
   const size_t n = matches.size();
   const size_t num_shifts = std::min(n - 1, kMaxExchanges);
   Counts counts;
   for (size_t shift = 1; shift <= num_shifts; ++shift) {
     for (size_t i = 0; i < n; ++i) {
-      test.Count(matches[i].first, matches[(i + shift) % n].second, counts);
+      test.Count(matches[i].a, matches[(i + shift) % n].b, counts);
     }
   }
   return counts;
@@ -133,14 +90,13 @@ Counts CountExchanged(const std::vector<std::pair<Vector3d, Vector3d>>& matches,
 }  // namespace
 
 MatchEvidence EvidenceOf(const BearingPairs& pairs, const Rigid3& b_from_a, double max_error_rad) {
-  const IndependentMatches independent(pairs);
-  const auto& matches = independent.All();
+  const std::vector<PlacePairs::Match> matches = IndependentMatches(pairs);
   MatchEvidence evidence{.max_error_rad = max_error_rad,
                          .num_matches = static_cast<uint32_t>(matches.size())};
   const PoseTest test(b_from_a, max_error_rad);
   if (matches.size() <= test.Sample()) return evidence;
   Counts found;
-  for (const auto& [a, b] : matches) test.Count(a, b, found);
+  for (const PlacePairs::Match& match : matches) test.Count(match.a, match.b, found);
   const Counts exchanged = CountExchanged(matches, test);
   for (size_t e = 0; e < kNumErrors; ++e) {
     // One more than was seen: what was not seen may still happen.

@@ -25,9 +25,9 @@ struct MatchEvidence {
 ///   NFA = E (n - 5) C(n, k) C(k, 5) p^(k - 5),
 /// least over E = 4 errors e = max_error_rad, 1/2, 1/4 and 1/8 of it. p(e) is counted, not assumed:
 /// it is the share of exchanged matches (a of one, b of another) that the pose explains, so that
-/// features in a band along the horizon, or all in one place, get no credit for lying there.
-/// Matches closer than two degrees to another in both panoramas say the same and count once; which
-/// one counts does not depend on the pose. Degenerate: five matches or fewer have 0.
+/// features in a band along the horizon get no credit for lying there. Matches of one thing that
+/// may move by itself, such as a car that follows, count as three (PlacePairs); which ones count
+/// does not depend on the pose. Degenerate: five matches or fewer have 0.
 /// |b_from_a.translation| = 1, or 0 for a pure rotation, whose error is the angle between the rays
 /// and whose sample are two matches. The cost grows with n^2 up to 256 matches, linearly beyond.
 [[nodiscard]] MatchEvidence EvidenceOf(const BearingPairs& pairs,

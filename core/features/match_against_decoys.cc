@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/place_pairs.h"
 #include "core/robust/false_alarms.h"
 
 namespace orbweave {
@@ -62,9 +63,17 @@ std::vector<FeatureMatch> Without(std::vector<FeatureMatch> matches,
   return matches;
 }
 
-size_t CountNearest(const std::vector<RankedMatch>& ranked) {
-  return static_cast<size_t>(
-      std::ranges::count_if(ranked, [](const RankedMatch& each) { return each.slack <= 1.0; }));
+/// How many of the matches that are nearest in the whole image speak for themselves, beside those
+/// that are known.
+size_t CountTelling(const Features& a,
+                    const Features& b,
+                    const std::vector<RankedMatch>& ranked,
+                    std::span<const FeatureMatch> known) {
+  PlacePairs places;
+  for (const FeatureMatch& match : known) places.Add(a.Bearing(match.a), b.Bearing(match.b));
+  return static_cast<size_t>(std::ranges::count_if(ranked, [&](const RankedMatch& each) {
+    return each.slack <= 1.0 && places.Add(a.Bearing(each.match.a), b.Bearing(each.match.b));
+  }));
 }
 
 /// The longest list of which wrong_share is wrong at most.
@@ -103,9 +112,9 @@ PredictedMatches MatchAgainstDecoys(const Features& a,
     const std::vector<FeatureMatch> wrong =
         Without(MatchGuided(a, b, decoy, max_error_rad, options), found);
     decoys.push_back(Rank(a, b, wrong, nearest));
-    most_by_chance = std::max(most_by_chance, CountNearest(decoys.back()));
+    most_by_chance = std::max(most_by_chance, CountTelling(a, b, decoys.back(), known));
   }
-  const size_t new_ones = CountNearest(Rank(a, b, Without(found, known), nearest));
+  const size_t new_ones = CountTelling(a, b, Rank(a, b, Without(found, known), nearest), known);
   PredictedMatches predicted{
       .log10_chance = Log10PoissonTail(new_ones, static_cast<double>(most_by_chance + 1))};
   const size_t trusted = LongestTrusted(target, decoys, options.guided_max_wrong_share);

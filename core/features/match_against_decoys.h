@@ -29,8 +29,8 @@ struct PredictedMatches {
 /// there is none. A match that decoys and target share is no decoy's.
 ///
 /// `known`: matches that led to the geometry, sorted. For log10_chance the others alone count,
-/// those that are nearest in the whole image, as the tail of a Poisson distribution whose mean is
-/// that of the decoy that finds most, and one more.
+/// those that are nearest in the whole image and speak for themselves (PlacePairs), as the tail of
+/// a Poisson distribution whose mean is that of the decoy that finds most, and one more.
 [[nodiscard]] PredictedMatches MatchAgainstDecoys(const Features& a,
                                                   const Features& b,
                                                   const Rigid3& b_from_a,
