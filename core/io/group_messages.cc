@@ -48,6 +48,21 @@ std::string KindOf(std::string_view message) {
   return kind;
 }
 
+std::vector<MessageGroup> GroupReasons(std::span<const Exclusion> images) {
+  std::vector<std::string> reasons;
+  for (const Exclusion& image : images) reasons.push_back(image.reason);
+  return GroupByKind(reasons);
+}
+
+std::string LineOf(const MessageGroup& group, std::span<const Exclusion> images) {
+  const Exclusion& first = images[group.members.front()];
+  if (group.members.size() == 1) return absl::StrCat(first.name, ": ", first.reason);
+  const std::string count = CountText(group.members.size());
+  if (!group.same_words)
+    return absl::StrCat(count, " images, such as ", first.name, ": ", first.reason);
+  return absl::StrCat(count, " images: ", first.reason, ", first ", first.name);
+}
+
 }  // namespace
 
 std::vector<MessageGroup> GroupByKind(std::span<const std::string> messages) {
@@ -74,18 +89,16 @@ std::vector<std::string> CountedLines(std::span<const std::string> messages) {
 }
 
 std::vector<std::string> CountedLines(std::span<const Exclusion> images) {
-  std::vector<std::string> reasons;
-  for (const Exclusion& image : images) reasons.push_back(image.reason);
   std::vector<std::string> lines;
-  for (const MessageGroup& group : GroupByKind(reasons)) {
-    const Exclusion& first = images[group.members.front()];
-    const std::string count = CountText(group.members.size());
-    lines.push_back(group.members.size() == 1 ? absl::StrCat(first.name, ": ", first.reason)
-                    : group.same_words
-                        ? absl::StrCat(count, " images: ", first.reason, ", first ", first.name)
-                        : absl::StrCat(count, " images, such as ", first.name, ": ", first.reason));
-  }
+  for (const MessageGroup& group : GroupReasons(images)) lines.push_back(LineOf(group, images));
   return lines;
+}
+
+std::string CommonestLine(std::span<const Exclusion> images) {
+  const std::vector<MessageGroup> groups = GroupReasons(images);
+  const auto commonest = std::ranges::max_element(
+      groups, {}, [](const MessageGroup& group) { return group.members.size(); });
+  return commonest == groups.end() ? "" : LineOf(*commonest, images);
 }
 
 }  // namespace orbweave

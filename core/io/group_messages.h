@@ -28,4 +28,7 @@ struct MessageGroup {
 /// a.jpg"; where the reasons differ in numbers "30 images, such as a.jpg: 3 of 20 points agree".
 [[nodiscard]] std::vector<std::string> CountedLines(std::span<const Exclusion> images);
 
+/// The line of the reason that most of them share; empty without images.
+[[nodiscard]] std::string CommonestLine(std::span<const Exclusion> images);
+
 }  // namespace orbweave

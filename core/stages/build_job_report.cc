@@ -220,9 +220,25 @@ void PlaceMissingByGnss(const ImageManifest& manifest, JobReport& report) {
   }
 }
 
+/// The checks that a model was adjusted with. Which model it is is said where there are several,
+/// and one that holds less than one registered image in twenty does not make the job bad: as many
+/// may be missing from a good one.
+std::vector<CrossCheck> ChecksOfModel(const JobResults& results,
+                                      const JobReport& report,
+                                      size_t number) {
+  std::vector<CrossCheck> checks = results.models[number].report.checks;
+  const bool is_small = 20 * report.each_model[number].images < report.registered;
+  for (CrossCheck& check : checks) {
+    if (is_small) check.level = std::min(check.level, CheckLevel::kDoubtful);
+    if (results.models.size() > 1 && !check.sentence.starts_with("model "))
+      check.sentence = "model " + std::to_string(number) + ": " + check.sentence;
+  }
+  return checks;
+}
+
 void Judge(const JobResults& results, JobReport& report) {
-  for (const AdjustedModel& model : results.models)
-    std::ranges::copy(model.report.checks, std::back_inserter(report.checks));
+  for (size_t number = 0; number < results.models.size(); ++number)
+    std::ranges::copy(ChecksOfModel(results, report, number), std::back_inserter(report.checks));
   std::ranges::copy(CheckResidualPatterns(results), std::back_inserter(report.checks));
   const bool has_pairs = std::ranges::any_of(
       report.checks, [](const CrossCheck& check) { return check.name == "pairs_contradicted"; });

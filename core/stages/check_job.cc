@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
+#include "core/io/group_messages.h"
 #include "core/merging/quantile.h"
 
 namespace orbweave {
@@ -54,7 +55,8 @@ CrossCheck CheckRegistered(const JobReport& report) {
                                 none ? CheckLevel::kBad : LevelOfShare(report.registered, total));
   check.sentence = none ? "no panorama could be registered"
                         : CountOf(report.registered, total, "panoramas are registered");
-  if (check.level != CheckLevel::kGood) check.sentence += "; the reasons are with those left out";
+  if (check.level != CheckLevel::kGood && !report.not_registered.empty())
+    check.sentence += "; left out: " + CommonestLine(report.not_registered);
   return check;
 }
 
@@ -64,10 +66,12 @@ std::optional<CrossCheck> CheckFrames(const JobReport& report) {
   size_t on_earth = 0;
   size_t largest = 0;
   size_t frames = 0;
+  size_t models_on_earth = 0;
   for (const ReportModel& model : report.each_model) {
     if (model.gnss.used) {
       frames += on_earth == 0 ? 1 : 0;
       on_earth += model.images;
+      ++models_on_earth;
     } else {
       largest = std::max<size_t>(largest, model.images);
       ++frames;
@@ -78,6 +82,8 @@ std::optional<CrossCheck> CheckFrames(const JobReport& report) {
       "images_in_one_frame", largest, report.registered, LevelOfShare(largest, report.registered));
   check.sentence =
       absl::StrCat(CountOf(largest, report.registered, "registered panoramas lie in one frame"));
+  if (models_on_earth > 1)
+    absl::StrAppend(&check.sentence, ", ", models_on_earth, " models joined by GNSS alone");
   if (check.level != CheckLevel::kGood) {
     absl::StrAppend(&check.sentence,
                     ", the others in ",

@@ -40,6 +40,13 @@ TEST(CountedLines, NameTheFirstImageOfAReason) {
                           "2 images, such as d.jpg: 3 of 20 points agree"));
 }
 
+TEST(CommonestLine, IsThatOfTheLargestGroup) {
+  EXPECT_EQ(CommonestLine(std::vector<Exclusion>{
+                {"b.jpg", "truncated"}, {"a.jpg", "no pair"}, {"c.jpg", "no pair"}}),
+            "2 images: no pair, first a.jpg");
+  EXPECT_EQ(CommonestLine(std::vector<Exclusion>{}), "");
+}
+
 TEST(GroupByKind, LosesNobody) {
   const std::vector<std::string> messages = {"x 1", "y 1", "x 2", "x 1", "y 1"};
   size_t members = 0;

@@ -112,6 +112,8 @@ TEST(JudgeModel, ModelsThatGnssPutsIntoOneFrameAreOneMapButAPartThatFellApartIsT
   JobResults results = Street(40, {{0, 20}, {20, 40}}, true);
   const JobReport apart = BuildJobReport(results);
   EXPECT_EQ(LevelOf(apart, "images_in_one_frame"), CheckLevel::kGood);
+  EXPECT_THAT(Find(apart.checks, "images_in_one_frame")->sentence,
+              HasSubstr("2 models joined by GNSS alone"));
   EXPECT_EQ(LevelOf(apart, "connected_in_one_model"), CheckLevel::kDoubtful);
   // Two streets that no pair joins are two models by right.
   std::erase_if(results.view_graph.edges,
@@ -198,19 +200,43 @@ TEST(JudgeModel, ASeamThatLoopsContradictIsDoubted) {
             CheckLevel::kDoubtful);
 }
 
-TEST(JudgeModel, TakesTheWorstCheckOfAnyModelAndGivesReasonsWorstFirst) {
-  JobResults results = Street(40, {{0, 39}, {39, 40}});
+/// Two models on earth of a street in two parts, with a check each.
+JobResults TwoParts(uint32_t first) {
+  JobResults results = Street(60, {{0, first}, {first, 60}}, true);
+  std::erase_if(results.view_graph.edges,
+                [&](const ImagePair& pair) { return pair.b == ImageId(first); });
   results.models[0].report.checks = {
       {"steps", 9.0, 3.0, "m", CheckLevel::kDoubtful, "the step to pano_7.jpg is 9 m"},
       {"fine", 1.0, 3.0, "m", CheckLevel::kGood, "fine"}};
   results.models[1].report.checks = {
       {"clock", 2.0, 0.3, "s", CheckLevel::kBad, "the clock is 2 s late"},
       {"steps", 8.0, 3.0, "m", CheckLevel::kDoubtful, "the step to pano_39.jpg is 8 m"}};
-  const Verdict verdict = BuildJobReport(results).verdict;
+  return results;
+}
+
+TEST(JudgeModel, TakesTheWorstCheckOfAnyModelAndGivesReasonsWorstFirst) {
+  const Verdict verdict = BuildJobReport(TwoParts(40)).verdict;
   EXPECT_EQ(verdict.level, CheckLevel::kBad);
   ASSERT_EQ(verdict.reasons.size(), 2U);
-  EXPECT_EQ(verdict.reasons[0], "the clock is 2 s late");
-  EXPECT_EQ(verdict.reasons[1], "the step to pano_7.jpg is 9 m (and 1 more of this kind)");
+  EXPECT_EQ(verdict.reasons[0], "model 1: the clock is 2 s late");
+  EXPECT_EQ(verdict.reasons[1], "model 0: the step to pano_7.jpg is 9 m (and 1 more of this kind)");
+}
+
+TEST(JudgeModel, AModelOfAHandfulOfImagesMakesAJobDoubtfulAtMost) {
+  const Verdict verdict = BuildJobReport(TwoParts(58)).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(verdict.reasons[1], HasSubstr("the clock"));
+}
+
+TEST(JudgeModel, SaysWhyMostImagesAreLeftOut) {
+  JobResults results = Street(30, {});
+  results.clusters = {{}};
+  results.view_graph.partition.clusters = {{}};
+  for (uint32_t i = 0; i < 30; ++i)
+    results.clusters[0].not_registered.push_back({ImageId(i), "the camera never moved"});
+  const Verdict verdict = BuildJobReport(results).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kBad);
+  EXPECT_THAT(verdict.reasons[0], HasSubstr("30 images: the camera never moved, first pano_0.jpg"));
 }
 
 TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
