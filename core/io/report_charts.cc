@@ -229,7 +229,12 @@ std::string TracksPerImage(const JobReport& report,
   for (double i = 0.0; i < static_cast<double>(report.images.size()); i += std::max(step, 1.0)) {
     ticks.push_back({i / static_cast<double>(group), CountText(static_cast<uint64_t>(i))});
   }
-  return BarChart(classes, width, bars, ticks, "image, in order; colour: cluster");
+  return BarChart(
+      classes,
+      width,
+      bars,
+      ticks,
+      report.clusters.size() > 1 ? "image, in order; colour: cluster" : "image, in order");
 }
 
 }  // namespace

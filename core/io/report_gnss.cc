@@ -77,8 +77,10 @@ std::vector<const ReportImage*> ContradictedPositions(const JobReport& report) {
 }
 
 std::string GnssHtml(const JobReport& report) {
-  if (report.gnss.num_priors == 0) return "";
-  return Section("GNSS", SummaryOf(report.gnss), ContradictedHtml(report));
+  const std::string contradicted = ContradictedHtml(report);
+  if (report.gnss.num_priors == 0 && contradicted.empty()) return "";
+  const char* model = report.models > 1 ? "Model 0: " : "";
+  return Section("GNSS", model + SummaryOf(report.gnss), contradicted);
 }
 
 }  // namespace orbweave

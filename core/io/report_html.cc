@@ -23,6 +23,12 @@ namespace {
 
 constexpr size_t kMaxMaps = 4;
 
+/// Empty for a job whose results were all found finished.
+std::string WorkersText(size_t workers) {
+  if (workers == 0) return "";
+  return absl::StrCat(" on ", workers, workers == 1 ? " worker" : " workers");
+}
+
 std::string Header(const JobReport& report) {
   return absl::StrCat("<header><h1>",
                       EscapeHtml(report.title.empty() ? "Reconstruction" : report.title),
@@ -30,9 +36,7 @@ std::string Header(const JobReport& report) {
                       EscapeHtml(report.version),
                       " · ",
                       DurationText(report.elapsed_s),
-                      " on ",
-                      report.workers.size(),
-                      report.workers.size() == 1 ? " worker" : " workers",
+                      WorkersText(report.workers.size()),
                       "</p></header>\n");
 }
 
@@ -56,6 +60,7 @@ std::string Cards(const JobReport& report) {
                    Card(CountText(report.clusters.size()),
                         "",
                         report.clusters.size() == 1 ? "cluster" : "clusters"));
+  const std::string of_model = report.models > 1 ? " in model 0" : "";
   if (report.models > 1) cards += Card(CountText(report.models), "", "separate models");
   if (report.gnss.used) {
     cards += Card(DecimalText(report.gnss.residual_median_m, 2),
@@ -64,15 +69,16 @@ std::string Cards(const JobReport& report) {
                                CountText(report.gnss.num_inliers),
                                " of ",
                                CountText(report.gnss.num_priors),
-                               " agree"));
+                               " agree",
+                               of_model));
   }
   if (report.uncertainty.known) {
     const std::string relative = RelativePrecisionText(report);
-    cards +=
-        Card(SigmaText(report.uncertainty.position_median),
-             report.gnss.used ? "m" : "units",
-             (relative.empty() ? "median position sigma" : "median position sigma: " + relative) +
-                 "; " + SigmaText(report.uncertainty.rotation_median_deg) + "° of rotation");
+    cards += Card(
+        SigmaText(report.uncertainty.position_median),
+        report.gnss.used ? "m" : "units",
+        (relative.empty() ? "median position sigma" : "median position sigma: " + relative) + "; " +
+            SigmaText(report.uncertainty.rotation_median_deg) + "° of rotation" + of_model);
   }
   return "<div class=\"cards\">" + cards + "</div>\n";
 }

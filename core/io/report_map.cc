@@ -80,11 +80,12 @@ std::string PairText(const Eigen::Vector2d& p) {
   return DecimalText(p.x(), 1) + "," + DecimalText(p.y(), 1);
 }
 
-/// A thin line per model and drive through its images.
+/// A thin line per model and drive through its registered images.
 std::string DriveLines(const MapImages& images, const MapView& view) {
   std::map<std::pair<uint32_t, uint32_t>, std::string> points;
   std::map<std::pair<uint32_t, uint32_t>, Eigen::Vector2d> last;
   for (const ReportImage* image : images) {
+    if (image->loose) continue;
     const Eigen::Vector2d p = view.Page(image->centre_in_world);
     const std::pair line(image->model, image->drive);
     const auto [previous, is_first] = last.emplace(line, p);
@@ -281,9 +282,31 @@ std::string ScaleBar(const MapView& view, bool metric) {
                       "</text>");
 }
 
-std::string NorthArrow() {
-  return "<g transform=\"translate(966,44)\"><path class=\"north\" d=\"M0,-24l7,22l-7,-5l-7,5z\"/>"
-         "<text text-anchor=\"middle\" y=\"16\">N</text></g>";
+/// In the upper corner that the trajectory leaves freer.
+std::string NorthArrow(const MapImages& images, const MapView& view) {
+  constexpr double kFromEdge = 34.0;
+  constexpr double kFromTop = 44.0;
+  double best_distance = -1.0;
+  double best_x = 0.0;
+  for (const double x : {kMapWidth - kFromEdge, kFromEdge}) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const ReportImage* image : images) {
+      nearest = std::min(
+          nearest,
+          (view.Page(image->centre_in_world) - Eigen::Vector2d(x, kFromTop)).squaredNorm());
+    }
+    if (nearest <= best_distance) continue;
+    best_distance = nearest;
+    best_x = x;
+    constexpr double kFree = 80.0;
+    if (nearest > kFree * kFree) break;  // the right one, where readers look first
+  }
+  return absl::StrCat("<g transform=\"translate(",
+                      DecimalText(best_x, 1),
+                      ",",
+                      DecimalText(kFromTop, 1),
+                      ")\"><path class=\"north\" d=\"M0,-24l7,22l-7,-5l-7,5z\"/>"
+                      "<text text-anchor=\"middle\" y=\"16\">N</text></g>");
 }
 
 std::string ColorEntry(int color, const std::string& text) {
@@ -371,7 +394,7 @@ std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame) {
                       Dots(report, images, MapColors(report, frame), view),
                       Seams(report, images, view),
                       images.size() > 1 ? ScaleBar(view, frame.georeferenced) : "",
-                      frame.georeferenced && report.origin ? NorthArrow() : "",
+                      frame.georeferenced && report.origin ? NorthArrow(images, view) : "",
                       "</svg>");
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "core/io/html_page.h"
 #include "core/io/html_text.h"
 #include "core/io/level_text.h"
@@ -51,12 +52,17 @@ std::string LimitText(const CrossCheck& check) {
                       MeasureText(check.limit, check.unit));
 }
 
+/// A name that may be broken at its underscores.
+std::string NameHtml(const std::string& name) {
+  return absl::StrReplaceAll(EscapeHtml(name), {{"_", "_<wbr/>"}});
+}
+
 std::string Row(const CrossCheck& check) {
   return absl::StrCat("<tr><td class=\"text\">",
                       LevelIcon(check.level),
                       LevelText(check.level),
                       "</td><td class=\"text\">",
-                      EscapeHtml(check.name),
+                      NameHtml(check.name),
                       "</td><td>",
                       MeasureText(check.value, check.unit),
                       "</td><td>",

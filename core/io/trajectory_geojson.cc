@@ -56,7 +56,7 @@ absl::StatusOr<std::string> TrajectoryGeoJson(const JobReport& report) {
   for (const ReportImage& image : report.images) {
     if (!report.IsGeoreferenced(image)) continue;
     Json position = PositionOf(image.cam_from_world, *report.origin);
-    lines[{image.model, image.drive}].push_back(position);
+    if (!image.loose) lines[{image.model, image.drive}].push_back(position);
     points.push_back(Feature("Point", std::move(position), PropertiesOf(image)));
   }
   Json features = Json::array();

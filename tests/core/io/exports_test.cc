@@ -136,6 +136,7 @@ TEST(TrajectoryGeoJson, HasALinePerModelAndDriveAndAPointPerImageOnEarth) {
   // Images 0 to 7 but 1, of two drives.
   ASSERT_EQ(json["features"].size(), 2 + 7U);
   EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
+  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"].size(), 4U) << "of 0 to 5 not 1 and 3";
   EXPECT_EQ(json["features"][1]["properties"]["drive"], 1);
   const auto& point = json["features"][2];
   EXPECT_EQ(point["properties"]["name"], "street/img0.jpg");

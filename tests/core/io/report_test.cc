@@ -199,6 +199,8 @@ TEST(TrajectoryMap, KeepsEveryMarkWithinItsFrameHoweverFarOffGnssIs) {
 TEST(TrajectoryMap, PutsGeoreferencedModelsIntoOneFrameAndOthersIntoTheirOwn) {
   JobReport report = MadeUpReport(60, 3);
   report.models = 3;
+  report.gnss.num_inliers = 38;
+  report.gnss.num_priors = 40;
   const ReportModel first = report.each_model.front();
   report.each_model = {first, {.images = 15}, first};
   report.each_model[0].images = 35;
@@ -214,6 +216,7 @@ TEST(TrajectoryMap, PutsGeoreferencedModelsIntoOneFrameAndOthersIntoTheirOwn) {
   EXPECT_THAT(MapKeyHtml(report, frames[0], together), HasSubstr("model 2 (10)"));
   EXPECT_TRUE(IsBalanced(ReportHtml(report)));
   EXPECT_THAT(ReportHtml(report), HasSubstr("2 models that GNSS puts into one frame"));
+  EXPECT_THAT(ReportHtml(report), HasSubstr("38 of 40 agree in model 0"));
 }
 
 TEST(MapKey, ListsWhatIsShownAndNothingElse) {
@@ -318,7 +321,7 @@ TEST(ReportHtml, SaysTheVerdictFirstThenWarningsThenFigures) {
   EXPECT_LT(warnings, html.find("class=\"cards\""));
   EXPECT_THAT(html, HasSubstr("<li>the GNSS clock is &lt;late&gt; by 0.8 s</li>"));
   // The doubtful check is above the good one, each with what it is held to.
-  EXPECT_LT(html.find("gnss_clock"), html.find("images_registered"));
+  EXPECT_LT(html.find("gnss_<wbr/>clock"), html.find("images_<wbr/>registered"));
   EXPECT_THAT(html, HasSubstr("<td>0.83 s</td><td>≤ 0.2 s</td>"));
   EXPECT_THAT(html, HasSubstr("<td>100 %</td><td>≥ 95 %</td>"));
   report.verdict = {};
