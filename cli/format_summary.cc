@@ -18,7 +18,8 @@ namespace {
 
 constexpr size_t kLinesShown = 12;  ///< of a kind; report.html has all
 
-std::string GnssLine(const ReportGnss& gnss) {
+std::string GnssLine(const JobReport& report) {
+  const ReportGnss& gnss = report.gnss;
   if (!gnss.used) return gnss.reason.empty() ? "none" : "not used: " + PrintableText(gnss.reason);
   std::string line = absl::StrFormat("%u of %u positions agree, %.2f m RMS",
                                      gnss.num_inliers,
@@ -26,6 +27,7 @@ std::string GnssLine(const ReportGnss& gnss) {
                                      gnss.residual_rms_inliers_m);
   if (!gnss.outliers.empty())
     absl::StrAppend(&line, "; ", gnss.outliers.size(), " contradicted, see report.html");
+  if (report.models > 1) line += " (model 0)";
   if (gnss.bend_m == 0.0) return line;
   return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.bend_m);
 }
@@ -115,7 +117,7 @@ std::string FormatSummary(const JobReport& report, const std::string& output) {
                         report.residual_px_mean,
                         report.residual_px_rms);
   absl::StrAppend(&text, "  clusters    ", SeamsLine(report), "\n");
-  absl::StrAppend(&text, "  GNSS        ", GnssLine(report.gnss), "\n");
+  absl::StrAppend(&text, "  GNSS        ", GnssLine(report), "\n");
   absl::StrAppend(&text, "  sigma       ", SigmaLine(report), "\n");
   text += Lines("left out", CountedLines(report.not_registered), "reasons");
   text += Lines("warning", CountedLines(report.warnings), "warnings");
