@@ -3,7 +3,6 @@
 
 #include "cli/fail_on_argument.h"
 
-#include <map>
 #include <string>
 
 #include "cli/exit_code.h"
@@ -12,15 +11,20 @@
 namespace orbweave {
 
 CLI::Option* AddFailOnArgument(CLI::App& command, FailOn& fail_on) {
-  static const std::map<std::string, CheckLevel> kLevels = {{"doubtful", CheckLevel::kDoubtful},
-                                                            {"bad", CheckLevel::kBad}};
+  // CLI11's own list of values also takes the numbers behind them.
+  const auto problem = [](const std::string& level) -> std::string {
+    return level == "doubtful" || level == "bad" ? ""
+                                                 : "'" + level + "' is neither doubtful nor bad";
+  };
   return command
-      .add_option_function<CheckLevel>(
+      .add_option_function<std::string>(
           "--fail-on",
-          [&fail_on](const CheckLevel& level) { fail_on = level; },
+          [&fail_on](const std::string& level) {
+            fail_on = level == "bad" ? CheckLevel::kBad : CheckLevel::kDoubtful;
+          },
           "End with exit code 4 when the model is judged so, or worse; results are written all the "
           "same")
-      ->transform(CLI::CheckedTransformer(kLevels))
+      ->check(CLI::Validator([problem](std::string& level) { return problem(level); }, "", "level"))
       ->type_name("doubtful|bad");
 }
 

@@ -29,6 +29,7 @@ TEST(FailOn, TurnsVerdictsThatBadIntoAnExitCodeOfTheirOwn) {
   EXPECT_EQ(ExitCodeOfJob(CheckLevel::kDoubtful, "--fail-on bad"), kExitOk);
   EXPECT_EQ(ExitCodeOfJob(CheckLevel::kBad, "--fail-on bad"), kExitVerdict);
   EXPECT_THROW(ExitCodeOfJob(CheckLevel::kBad, "--fail-on good"), CLI::ParseError);
+  EXPECT_THROW(ExitCodeOfJob(CheckLevel::kBad, "--fail-on 1"), CLI::ParseError);
 }
 
 TEST(FailOn, IsToldFromOtherErrors) {
