@@ -8,10 +8,9 @@
 namespace orbweave {
 namespace {
 
-// What repeats matters where it is no longer small beside what does not. With a pattern of half the
-// noise every panorama's direction to half of its points is off by as much as four observations of
-// a point leave open, however many there are: beyond it more observations no longer help, and the
-// sigmas, which shrink with them, are too small.
+// The mean of n residuals scatters by their noise over sqrt(n). A pattern of half the noise is thus
+// more than the mean of four observations leaves open: from then on more of them no longer make a
+// pose better, while its sigma, which knows nothing of patterns, goes on shrinking.
 constexpr double kShareOfNoise = 0.5;
 
 CrossCheck CheckModel(size_t number, const GlobalAdjustReport& model) {
