@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/graph/set_aside_far_pairs.h"
 #include "core/io/cluster_table.h"
 #include "core/io/colmap_database.h"
 #include "core/io/file.h"
@@ -148,8 +149,9 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters,
                             PutClusters(coordinator, sources, cluster_table));
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+  ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest,
                             IngestImages(sources, options.ingest, context));
+  SetAsideFarPairs(options.pairs, manifest, database.pairs);
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features,
                             PutFeatures(coordinator, std::move(database.images)));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> recipes,

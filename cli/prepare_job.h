@@ -20,8 +20,8 @@ namespace orbweave {
                                                       const PipelineOptions& options,
                                                       const StageContext& context);
 
-/// The same for keypoints and matches from a COLMAP database. `gnss_table` and
-/// `cluster_table`: paths, or empty.
+/// The same for keypoints and matches from a COLMAP database, without pairs that GNSS says are far
+/// apart (SetAsideFarPairs). `gnss_table` and `cluster_table`: paths, or empty.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
                                                          const std::string& database,
                                                          const std::string& gnss_table,

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/graph/find_near_positions.h"
+#include "core/graph/near_by_gnss.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -47,14 +48,6 @@ void AddGnssPairs(const ImageManifest& manifest, const PairOptions& options, Pai
   };
   add(options.gnss_radius_m, options.gnss_max_neighbours);
   add(std::max(options.gnss_radius_m, options.similar_gate_m), options.gnss_min_neighbours);
-}
-
-// False where GNSS says that the two images are too far apart to see the same.
-bool MayBeNear(const PosePrior& a, const PosePrior& b, const PairOptions& options) {
-  if (!a.position_in_enu || !b.position_in_enu) return true;
-  const double distance_m = (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
-  const double sigma_m = a.horizontal_sigma_m + b.horizontal_sigma_m;
-  return distance_m <= std::max(options.similar_gate_m, options.similar_gate_sigmas * sigma_m);
 }
 
 void AddSimilarPairs(const ImageManifest& manifest,

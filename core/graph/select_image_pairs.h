@@ -42,7 +42,7 @@ struct PairOptions {
           Range{0, 10000});
     visit("similar_gate_m",
           self.similar_gate_m,
-          "look-alikes further apart by GNSS are not paired",
+          "look-alikes, and pairs of a database, further apart by GNSS are not used",
           Range{0, 10000000});
     visit("similar_gate_sigmas",
           self.similar_gate_sigmas,
@@ -55,9 +55,8 @@ struct PairOptions {
 ///   - a window along the sequence of each drive (SequenceOfDrives),
 ///   - each image's nearest GNSS neighbours within a radius, by horizontal distance, and where the
 ///     street is thinly covered the nearest few beyond it, as far as look-alikes are believed,
-///   - `similar` (per image the most similar others, best first; may be empty), without those whose
-///     horizontal GNSS distance exceeds max(similar_gate_m, similar_gate_sigmas (sigma_a +
-///     sigma_b)) where both images have a position;
+///   - `similar` (per image the most similar others, best first; may be empty), without those that
+///     GNSS puts too far apart (MayBeNear);
 /// or every two images of a small job. A wrong GNSS position adds pairs and takes look-alikes away;
 /// sequence pairs it leaves alone. Sorted, without repetition.
 [[nodiscard]] std::vector<ImagePair> SelectImagePairs(
