@@ -3,6 +3,7 @@
 #include "cli/prepare_job.h"
 
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "core/graph/set_aside_far_pairs.h"
@@ -12,6 +13,7 @@
 #include "core/io/printable_text.h"
 #include "core/io/text_file.h"
 #include "core/pipeline/job_plan.h"
+#include "core/stages/check_options_together.h"
 #include "core/stages/ingest_images.h"
 #include "core/stages/plan_recipes.h"
 #include "proto/codec/features_codec.h"
@@ -94,20 +96,29 @@ absl::StatusOr<std::vector<Digest>> PutMatches(CoordinatorApi& coordinator,
   return recipes;
 }
 
-/// The blob of clusters by hand for the usable images; empty where no table is given.
-absl::StatusOr<Digest> PutClusters(CoordinatorApi& coordinator,
-                                   const ImageSources& sources,
-                                   const std::string& cluster_table) {
-  ClusterNames clusters;
-  if (!cluster_table.empty()) {
-    std::vector<std::string> names;
-    for (const SourceImage& image : sources.images) {
-      if (image.problem.empty()) names.push_back(image.name);
-    }
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(cluster_table));
-    ORBWEAVE_ASSIGN_OR_RETURN(clusters, ReadClusterTable(text, cluster_table, names));
+/// The names of images that may take part.
+std::vector<std::string> UsableNames(const ImageSources& sources) {
+  std::vector<std::string> names;
+  for (const SourceImage& image : sources.images) {
+    if (image.problem.empty()) names.push_back(image.name);
   }
-  return coordinator.Put(EncodeClusterNames(clusters));
+  return names;
+}
+
+/// Clusters by hand for the usable images; empty where no table is given.
+absl::StatusOr<ClusterNames> ReadClusters(const ImageSources& sources,
+                                          const std::string& cluster_table) {
+  if (cluster_table.empty()) return ClusterNames{};
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(cluster_table));
+  return ReadClusterTable(text, cluster_table, UsableNames(sources));
+}
+
+JobShape ShapeOf(const ImageSources& sources, const ClusterNames& clusters, bool has_matches) {
+  std::set<std::string> by_hand;
+  for (const auto& [image, cluster] : clusters) by_hand.insert(cluster);
+  return {.num_images = UsableNames(sources).size(),
+          .num_clusters_by_hand = by_hand.size(),
+          .has_matches = has_matches};
 }
 
 /// The folder's name, or that of the folder above where it is just called "images".
@@ -126,8 +137,9 @@ absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
                                         const PipelineOptions& options,
                                         const StageContext& context) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImageFolder(request, context));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters,
-                            PutClusters(coordinator, sources, cluster_table));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterNames by_hand, ReadClusters(sources, cluster_table));
+  ORBWEAVE_RETURN_IF_ERROR(CheckOptionsTogether(options, ShapeOf(sources, by_hand, false)));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters, coordinator.Put(EncodeClusterNames(by_hand)));
   ORBWEAVE_RETURN_IF_ERROR(OfferFiles(coordinator, sources, context));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest blob, coordinator.Put(EncodeImageSources(sources)));
   return JobSpec{.kind = "sparse",
@@ -147,10 +159,10 @@ absl::StatusOr<JobSpec> PrepareDatabaseJob(CoordinatorApi& coordinator,
   if (!gnss_table.empty()) {
     ORBWEAVE_RETURN_IF_ERROR(ReadGnssFile(gnss_table, sources));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters,
-                            PutClusters(coordinator, sources, cluster_table));
-  ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest,
-                            IngestImages(sources, options.ingest, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const ClusterNames by_hand, ReadClusters(sources, cluster_table));
+  ORBWEAVE_RETURN_IF_ERROR(CheckOptionsTogether(options, ShapeOf(sources, by_hand, true)));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters, coordinator.Put(EncodeClusterNames(by_hand)));
+  ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest, IngestImages(sources, options.ingest, context));
   SetAsideFarPairs(options.pairs, manifest, database.pairs);
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> features,
                             PutFeatures(coordinator, std::move(database.images)));

@@ -14,6 +14,7 @@ namespace orbweave {
 /// Makes everything a job on a folder of panoramas reads known to the coordinator: files are linked
 /// where the coordinator can read them itself and uploaded where it cannot. The job is not
 /// submitted. `cluster_table`: path of clusters by hand (ReadClusterTable), or empty.
+/// InvalidArgument where options cannot work together (CheckOptionsTogether).
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareImageJob(CoordinatorApi& coordinator,
                                                       const ScanRequest& request,
                                                       const std::string& cluster_table,
