@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "cli/option_arguments.h"
 #include "core/io/scan_image_folder.h"
 
 namespace orbweave {
@@ -16,8 +17,9 @@ inline void AddImageArguments(CLI::App& command, ScanRequest& request) {
       ->required();
   command.add_option("--gnss",
                      request.gnss_table,
-                     "Positions: CSV with "
-                     "name,latitude,longitude,altitude[,accuracy,heading,pitch,roll], or POS.txt");
+                     "Positions: CSV with name,latitude,longitude,altitude[,accuracy,"
+                     "vertical_accuracy,fix,time,drive,heading,pitch,roll,heading_accuracy,"
+                     "pitch_accuracy,roll_accuracy], or POS.txt");
   command.add_option("--masks", request.mask_folder, "Folder of masks, named like the images");
   command
       .add_option("--mask-ignores",
@@ -27,6 +29,21 @@ inline void AddImageArguments(CLI::App& command, ScanRequest& request) {
           CLI::CheckedTransformer(std::map<std::string, bool>{{"white", true}, {"black", false}}))
       ->type_name("white|black")
       ->default_str("white");
+}
+
+/// What altitudes are counted from, as one more option of the job.
+inline void AddHeightArgument(CLI::App& command, OptionArguments& options) {
+  command
+      .add_option_function<std::string>(
+          "--height",
+          [&options](const std::string& datum) {
+            options.sets.push_back("ingest.height=" + datum);
+          },
+          "What altitudes are counted from (egm96, egm2008: above the sea; needs a geoid of "
+          "GeographicLib)")
+      ->check(CLI::IsMember({"ellipsoid", "egm96", "egm2008"}))
+      ->type_name("ellipsoid|egm96|egm2008")
+      ->default_str("ellipsoid");
 }
 
 /// Clusters by hand.

@@ -54,6 +54,7 @@ void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
       ->required();
   command->add_option(
       "--gnss", arguments->gnss, "Positions, instead of the database's pose priors");
+  AddHeightArgument(*command, arguments->options);
   AddClustersArgument(*command, arguments->clusters);
   command->add_flag("--single", arguments->single, "One cluster: do not divide")
       ->excludes("--clusters");

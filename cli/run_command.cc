@@ -42,6 +42,7 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
       app.add_subcommand("run", "Reconstruct a folder of panoramas on this machine");
   const auto arguments = std::make_shared<RunArguments>();
   AddImageArguments(*command, arguments->scan);
+  AddHeightArgument(*command, arguments->options);
   AddClustersArgument(*command, arguments->clusters);
   command
       ->add_option(

@@ -80,6 +80,7 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
                   "Where a root of the coordinator is on this machine: images beneath it are not "
                   "sent, the coordinator reads them itself (repeatable)");
   AddImageArguments(*command, arguments->scan);
+  AddHeightArgument(*command, arguments->options);
   AddClustersArgument(*command, arguments->clusters);
   CLI::Option* output = command->add_option(
       "--output",

@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/io/natural_order.h"
 #include "core/stages/assign_drives.h"
+#include "core/stages/count_from_ellipsoid.h"
 #include "core/stages/drop_shared_angles.h"
 #include "core/stages/join_gnss_rows.h"
 #include "core/stages/place_in_local_frame.h"
@@ -154,6 +155,7 @@ absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
     record.prior = PriorOf(candidate, local, options);
     context.Report(manifest.images.size(), candidates.size(), "images");
   }
+  ORBWEAVE_RETURN_IF_ERROR(CountFromEllipsoid(options.height, manifest));
   PlaceInLocalFrame(manifest);
   DropSharedAngles(candidates, manifest);
   SetCaptureTimes(candidates, manifest);

@@ -5,10 +5,19 @@
 #include "absl/status/statusor.h"
 #include "core/base/options.h"
 #include "core/base/stage_context.h"
+#include "core/io/geoid_heights.h"
 #include "core/io/image_sources.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {
+
+template <>
+struct EnumNames<HeightDatum> {
+  static constexpr std::array<std::pair<HeightDatum, std::string_view>, 3> kNames = {
+      {{HeightDatum::kEllipsoid, "ellipsoid"},
+       {HeightDatum::kEgm96, "egm96"},
+       {HeightDatum::kEgm2008, "egm2008"}}};
+};
 
 struct IngestOptions {
   double gnss_sigma_m = 5.0;
@@ -16,6 +25,7 @@ struct IngestOptions {
   double heading_sigma_deg = 10.0;
   double tilt_sigma_deg = 3.0;
   double drive_gap_s = 600.0;
+  HeightDatum height = HeightDatum::kEllipsoid;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -39,6 +49,7 @@ struct IngestOptions {
           self.drive_gap_s,
           "a longer pause between two images begins a new drive",
           Range{0.001, 1e9});
+    visit("height", self.height, "what altitudes are counted from: the ellipsoid, or a geoid");
   }
 };
 
@@ -50,7 +61,8 @@ struct IngestOptions {
 /// without an image, images without a position, and masks of other proportions than their
 /// image (then not used) become warnings; so does a direction that nobody measured
 /// (DropSharedAngles). InvalidArgument: nothing is left (with the first
-/// reasons), or the table is wrong.
+/// reasons), or the table is wrong. FailedPrecondition: altitudes are counted from a geoid whose
+/// grid is not installed.
 [[nodiscard]] absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
                                                          const IngestOptions& options,
                                                          const StageContext& context);

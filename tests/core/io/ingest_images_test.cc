@@ -5,8 +5,13 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstdlib>
+
 #include "core/io/scan_image_folder.h"
 #include "core/scene/local_frame.h"
+#include "core/stages/count_from_ellipsoid.h"
+#include "tests/core/io/geoid_grid.h"
 #include "tests/core/io/io_test_support.h"
 
 namespace orbweave {
@@ -279,6 +284,41 @@ TEST(IngestImages, GivesDirectionsTheirAccuracies) {
     EXPECT_EQ(of_exif.heading_sigma_deg, 20.0);
     EXPECT_EQ(of_exif.tilt_sigma_deg, 3.0);
   }
+}
+
+TEST(CountFromEllipsoid, TurnsTheAltitudesThatAreKnown) {
+  const TemporaryFolder folder;
+  folder.Write("egm2008-5.pgm", GeoidGrid(47.25));
+  ImageManifest manifest;
+  manifest.images.resize(3);
+  manifest.images[0].prior.geodetic = GeodeticPosition{47.0, 8.0, 400.0};
+  manifest.images[1].prior.geodetic = GeodeticPosition{47.0, 8.0, std::nan("")};
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, manifest, folder.path()).ok());
+  EXPECT_NEAR(manifest.images[0].prior.geodetic->altitude_m, 447.25, 1e-9);
+  EXPECT_TRUE(std::isnan(manifest.images[1].prior.geodetic->altitude_m));
+  EXPECT_THAT(manifest.warnings, IsEmpty());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEllipsoid, manifest, folder.path()).ok());
+  EXPECT_NEAR(manifest.images[0].prior.geodetic->altitude_m, 447.25, 1e-9);
+  manifest.images.resize(0);
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, manifest, folder.path()).ok());
+  EXPECT_THAT(manifest.warnings, ElementsAre(HasSubstr("changes nothing")));
+}
+
+TEST(IngestImages, CountsAltitudesFromTheGeoidThatIsAskedFor) {
+  ImageSources sources = GoodSources(2);
+  for (SourceImage& image : sources.images) {
+    image.metadata.position = GeodeticPosition{47.0, 8.0, 400.0};
+    image.metadata.altitude_known = true;
+  }
+  const TemporaryFolder folder;
+  ASSERT_EQ(::setenv("GEOGRAPHICLIB_GEOID_PATH", folder.path().c_str(), 1), 0);
+  IngestOptions options;
+  options.height = HeightDatum::kEgm96;
+  EXPECT_EQ(IngestImages(sources, options, {}).status().code(),
+            absl::StatusCode::kFailedPrecondition);
+  folder.Write("egm96-5.pgm", GeoidGrid(-20.5));
+  EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 379.5, 1e-9);
+  ASSERT_EQ(::unsetenv("GEOGRAPHICLIB_GEOID_PATH"), 0);
 }
 
 TEST(IngestImages, DoesNotTakeForMeasuredWhatEveryImageSays) {
