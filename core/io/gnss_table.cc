@@ -116,6 +116,7 @@ std::string ReadLocal(const GnssCells& raw, GnssRow& row) {
     const std::string& cell = raw.cells[static_cast<size_t>(kX + axis)];
     const std::optional<double> value = FiniteNumber(cell);
     if (!value) return absl::StrCat("coordinate '", cell, "' is not a number");
+    if (!IsPlausibleCoordinate(*value)) return absl::StrCat("coordinate ", cell, " is nowhere");
     position[axis] = *value;
   }
   row.position_in_local = position;
@@ -124,8 +125,19 @@ std::string ReadLocal(const GnssCells& raw, GnssRow& row) {
 
 /// Accuracies, and the fix type that stands in for them.
 void ReadQuality(const GnssCells& raw, GnssRow& row, Doubts& doubts) {
-  row.accuracy_m = BelievedSigma(raw, kAccuracy, IsPlausibleSigma, doubts);
-  row.vertical_accuracy_m = BelievedSigma(raw, kVerticalAccuracy, IsPlausibleSigma, doubts);
+  if (FiniteNumber(raw.cells[kAccuracy]).value_or(0.0) > kLargestSigma_m) {
+    row.geodetic.reset();
+    row.position_in_local.reset();
+    doubts.Add(
+        "an accuracy beyond 10 km: its position is not used", raw.line, raw.cells[kAccuracy]);
+  } else {
+    row.accuracy_m = BelievedSigma(raw, kAccuracy, IsPlausibleSigma, doubts);
+  }
+  if (FiniteNumber(raw.cells[kVerticalAccuracy]).value_or(0.0) > kLargestSigma_m) {
+    row.vertical_accuracy_m = kLargestSigma_m;
+  } else {
+    row.vertical_accuracy_m = BelievedSigma(raw, kVerticalAccuracy, IsPlausibleSigma, doubts);
+  }
   row.fix = GnssFixFromText(raw.cells[kFix]);
   if (!row.fix && !raw.cells[kFix].empty())
     doubts.Add("a fix type that nobody knows", raw.line, raw.cells[kFix]);

@@ -15,8 +15,8 @@
 
 namespace orbweave {
 
-/// One usable row: where an image was taken, and how it was turned. A row of a position without a
-/// fix has none.
+/// One usable row: where an image was taken, and how it was turned. A position without a fix, or
+/// worse than 10 km, is left out of it.
 struct GnssRow {
   std::string name{};  ///< of the image, as written
   int line = 0;        ///< in the file, from 1
@@ -59,9 +59,9 @@ struct GnssTable {
 /// `source` names the table in messages. A row that cannot be read, has more cells than the header,
 /// names an image again, or has an absurd position (|latitude| > 90, |longitude| > 180, not a
 /// number, exactly 0/0) goes to `rejected`. A cell that cannot be (plausible.h), or a position
-/// whose fix type is none, is left out with a warning. InvalidArgument: no header or a needed
-/// column is missing, no usable row, decimal commas, or latitude and longitude are swapped (at
-/// least half of the rows fit only the other way round).
+/// that is worse than 10 km or whose fix type is none, is left out with a warning. InvalidArgument:
+/// no header or a needed column is missing, no usable row, decimal commas, or latitude and
+/// longitude are swapped (at least half of the rows fit only the other way round).
 [[nodiscard]] absl::StatusOr<GnssTable> ParseGnssTable(std::string_view text,
                                                        std::string_view source);
 

@@ -124,9 +124,13 @@ void ReadPosition(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
   if (problem.empty()) problem = ProblemOf(*latitude, "NS");
   if (problem.empty()) problem = ProblemOf(*longitude, "EW");
   if (!problem.empty()) return;
+  const auto error_m = Rational(exif, "Exif.GPSInfo.GPSHPositioningError");
+  if (error_m && *error_m > kLargestSigma_m) {
+    problem = absl::StrCat("it is good to ", *error_m / 1000.0, " km");
+    return;
+  }
   metadata.position = GeodeticPosition{latitude_deg, longitude_deg, 0.0};
   ReadAltitude(exif, metadata);
-  const auto error_m = Rational(exif, "Exif.GPSInfo.GPSHPositioningError");
   if (error_m && IsPlausibleSigma(*error_m)) metadata.position_error_m = error_m;
 }
 

@@ -22,7 +22,8 @@ struct ImageMetadata {
   /// Why a position that is written there was left out; empty where nothing was. For whoever read
   /// the header: not passed on.
   std::string position_problem{};
-  /// EXIF GPSHPositioningError, metres; left out below a millimetre and above 10 km.
+  /// EXIF GPSHPositioningError, metres; left out below a millimetre. A position worse than
+  /// 10 km is left out itself.
   std::optional<double> position_error_m{};
   /// Direction of the image centre in degrees: XMP-GPano PoseHeadingDegrees, else EXIF
   /// GPSImgDirection (clockwise from north); pitch up positive; roll clockwise positive.

@@ -14,10 +14,17 @@ namespace orbweave {
   return height_m >= -5000.0 && height_m <= 20000.0;
 }
 
+/// One coordinate of a local or projected frame in metres: map grids reach 1e7, Earth-centred
+/// coordinates 6.4e6.
+[[nodiscard]] inline bool IsPlausibleCoordinate(double coordinate_m) {
+  return std::abs(coordinate_m) <= 1e8;
+}
+
 /// A standard deviation of a position in metres: what the option ingest.gnss_sigma_m may be. No
-/// receiver on a moving mount is better than a millimetre.
+/// receiver on a moving mount is better than a millimetre; what is worse than 10 km is no position.
+inline constexpr double kLargestSigma_m = 1e4;
 [[nodiscard]] inline bool IsPlausibleSigma(double sigma_m) {
-  return sigma_m >= 1e-3 && sigma_m <= 1e4;
+  return sigma_m >= 1e-3 && sigma_m <= kLargestSigma_m;
 }
 
 /// A standard deviation of a direction in degrees. Sensors of a surveying car reach 0.005; beyond

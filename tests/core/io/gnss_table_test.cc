@@ -177,10 +177,10 @@ TEST(ParseGnssTable, LeavesOutCellsThatCannotBeAndCountsThem) {
                               "gnss.csv")
                               .value();
   ASSERT_EQ(table.rows.size(), 3U);
-  for (size_t i = 0; i < 2; ++i) {
-    EXPECT_TRUE(table.rows[i].geodetic) << i;
+  for (size_t i = 0; i < 2; ++i)
     EXPECT_FALSE(table.rows[i].altitude_known || table.rows[i].accuracy_m) << i;
-  }
+  EXPECT_TRUE(table.rows[0].geodetic);
+  EXPECT_FALSE(table.rows[1].geodetic);  // worse than 10 km
   EXPECT_FALSE(table.rows[0].pitch_deg || table.rows[0].heading_deg || table.rows[0].fix ||
                table.rows[0].capture_time_s);
   EXPECT_EQ(table.rows[1].pitch_deg, -1.0);
@@ -192,8 +192,10 @@ TEST(ParseGnssTable, LeavesOutCellsThatCannotBeAndCountsThem) {
                   "2 rows of gnss.csv have a heading, pitch or roll that cannot be and is not "
                   "used: line 2 ('9999'), line 2 ('91')",
                   "1 row of gnss.csv has a time that cannot be read: line 2 ('yesterday')",
-                  "2 rows of gnss.csv have an accuracy that cannot be and is not used: line 2 "
-                  "('1e-300'), line 3 ('1e300')",
+                  "1 row of gnss.csv has an accuracy beyond 10 km: its position is not used: line "
+                  "3 ('1e300')",
+                  "1 row of gnss.csv has an accuracy that cannot be and is not used: line 2 "
+                  "('1e-300')",
                   "2 rows of gnss.csv have an altitude that cannot be and is not used: line 2 "
                   "('1e308'), line 3 ('-9999')"));
 }

@@ -122,6 +122,15 @@ TEST(ReadImageMetadata, LeavesOutAPositionThatContradictsItselfAndSaysSo) {
   EXPECT_TRUE(ReadImageMetadata(AtPosition("47/1 59/1 60/1", "N", "8/1 0/1 0/1", "E"))->position);
 }
 
+TEST(ReadImageMetadata, LeavesOutAPositionThatIsGoodToManyKilometresAndSaysSo) {
+  const ImageMetadata metadata =
+      ReadImageMetadata(Tagged(AtPosition("47/1 0/1 0/1", "N", "8/1 0/1 0/1", "E"),
+                               {{"Exif.GPSInfo.GPSHPositioningError", "20000/1"}}))
+          .value();
+  EXPECT_FALSE(metadata.position);
+  EXPECT_EQ(metadata.position_problem, "it is good to 20 km");
+}
+
 TEST(ReadImageMetadata, LeavesOutAnglesHeightsAndAccuraciesThatCannotBe) {
   const std::string bytes = Tagged(AtPosition("47/1 0/1 0/1", "N", "8/1 0/1 0/1", "E"),
                                    {{"Exif.GPSInfo.GPSAltitude", "4294967295/1"},
