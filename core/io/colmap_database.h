@@ -24,7 +24,7 @@ struct DatabaseImage {
   EquirectangularCamera camera{};
   std::vector<Keypoint> keypoints{};
   /// pose_priors: WGS84 in `geodetic`, Cartesian in `position_in_enu`; sigmas from the covariance
-  /// when given.
+  /// when given. An altitude that cannot be is NaN.
   PosePrior prior{};
   bool prior_sigma_known = false;
 };
@@ -37,14 +37,16 @@ struct ColmapDatabase {
   /// (kNone: it has matches but no pose). When that table is empty, the raw matches stand in
   /// `inliers`.
   std::vector<TwoViewGeometry> pairs{};
-  bool matches_are_verified = true;  ///< false: `inliers` are raw matches
+  bool matches_are_verified = true;     ///< false: `inliers` are raw matches
+  std::vector<std::string> warnings{};  ///< what is left out
 };
 
 /// Reads a database of COLMAP 3.8 to 4.x or SphereSfM: cameras EQUIRECTANGULAR (17: w,h) and SPHERE
 /// (11: f,cx,cy), keypoints of 2, 4 or 6 columns, verified matches, else raw ones, pose priors of
 /// all layouts. NotFound: no such file. InvalidArgument: not a database, another camera model
 /// ("camera 3 is PINHOLE; ..."), an image that is not 2:1, damaged rows, match indices out of
-/// range. FailedPrecondition: no images, or no matches.
+/// range, and what no database should hold (check_colmap_rows.h). Priors that cannot be are left
+/// out with a warning. FailedPrecondition: no images, or no matches.
 [[nodiscard]] absl::StatusOr<ColmapDatabase> ReadColmapDatabase(const std::string& path);
 
 enum class DatabaseCameraModel {

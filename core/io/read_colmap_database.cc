@@ -10,10 +10,12 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/io/byte_stream.h"
+#include "core/io/check_colmap_rows.h"
 #include "core/io/colmap_database.h"
 #include "core/io/natural_order.h"
 #include "core/io/printable_text.h"
 #include "core/io/read_colmap_pairs.h"
+#include "core/io/read_colmap_priors.h"
 #include "core/io/sqlite_connection.h"
 
 namespace orbweave {
@@ -21,9 +23,8 @@ namespace {
 
 constexpr int64_t kEquirectangularId = 17;
 constexpr int64_t kSphereId = 11;
-constexpr int64_t kWgs84 = 0;
-constexpr int64_t kCartesian = 1;
 constexpr int64_t kMaxSidePx = 1 << 20;
+constexpr int64_t kMaxNumImages = 2147483647;  ///< of COLMAP's pair ids
 
 /// COLMAP's names by model id, for messages.
 constexpr std::array<const char*, 18> kCameraModels = {"SIMPLE_PINHOLE",
@@ -82,6 +83,13 @@ absl::StatusOr<std::map<int64_t, EquirectangularCamera>> ReadCameras(
   }
 }
 
+/// An image_id that pair ids can hold.
+absl::StatusOr<uint32_t> ImageIdOf(int64_t id, const std::string& path) {
+  if (id >= 0 && id < kMaxNumImages) return static_cast<uint32_t>(id);
+  return absl::InvalidArgumentError(absl::StrCat(
+      path, ": an image has the number ", id, ", which is not between 0 and ", kMaxNumImages - 1));
+}
+
 /// Images in natural name order.
 absl::Status ReadImages(const SqliteConnection& connection,
                         const std::string& path,
@@ -93,7 +101,7 @@ absl::Status ReadImages(const SqliteConnection& connection,
     ORBWEAVE_ASSIGN_OR_RETURN(const bool more, rows.Step());
     if (!more) break;
     DatabaseImage& image = database.images.emplace_back();
-    image.database_id = static_cast<uint32_t>(rows.Integer(0));
+    ORBWEAVE_ASSIGN_OR_RETURN(image.database_id, ImageIdOf(rows.Integer(0), path));
     image.name = rows.Text(1);
     if (Utf8Text(image.name) != image.name) {
       return absl::InvalidArgumentError(
@@ -112,7 +120,7 @@ absl::Status ReadImages(const SqliteConnection& connection,
       database.images.begin(),
       database.images.end(),
       [](const DatabaseImage& a, const DatabaseImage& b) { return NaturalLess(a.name, b.name); });
-  return absl::OkStatus();
+  return CheckColmapImages(database, path);
 }
 
 /// One keypoint of 2 (x, y), 4 (and scale, orientation) or 6 columns (and an affine shape).
@@ -147,6 +155,9 @@ absl::Status ReadKeypoints(const SqliteConnection& connection,
     if ((count > 0 && !known) || !IsTable(data, count, columns, sizeof(float))) {
       return Damaged(path, "the keypoints row of " + image.name);
     }
+    if (!image.keypoints.empty())
+      return absl::InvalidArgumentError(
+          absl::StrCat(path, ": the keypoints of ", image.name, " are there twice"));
     ByteReader in(data);
     image.keypoints.reserve(static_cast<size_t>(count));
     for (int64_t i = 0; i < count; ++i) {
@@ -156,52 +167,7 @@ absl::Status ReadKeypoints(const SqliteConnection& connection,
         return Damaged(path, "the keypoints row of " + image.name);
       image.keypoints.push_back(KeypointFromColumns(values, columns));
     }
-  }
-}
-
-void SetPrior(const std::array<double, 3>& position,
-              const std::optional<std::array<double, 9>>& covariance,
-              int64_t coordinate_system,
-              DatabaseImage& image) {
-  if (coordinate_system == kWgs84)
-    image.prior.geodetic = GeodeticPosition{position[0], position[1], position[2]};
-  if (coordinate_system == kCartesian)
-    image.prior.position_in_enu = Eigen::Vector3d(position[0], position[1], position[2]);
-  if (!covariance || !((*covariance)[0] > 0.0) || !((*covariance)[4] > 0.0) ||
-      !((*covariance)[8] > 0.0))
-    return;
-  image.prior.horizontal_sigma_m = std::sqrt(0.5 * ((*covariance)[0] + (*covariance)[4]));
-  image.prior.vertical_sigma_m = std::sqrt((*covariance)[8]);
-  image.prior_sigma_known = true;
-}
-
-/// pose_priors came with COLMAP 3.9 (keyed by image_id), got a covariance in 3.11 and in 4.0 its
-/// own key beside the data it belongs to (sensor type 0 is a camera).
-absl::Status ReadPriors(const SqliteConnection& connection, ColmapDatabase& database) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool present, connection.HasTable("pose_priors"));
-  if (!present) return absl::OkStatus();
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool own_key,
-                            connection.HasColumn("pose_priors", "corr_data_id"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool covariance,
-                            connection.HasColumn("pose_priors", "position_covariance"));
-  const std::string sql = absl::StrCat("SELECT ",
-                                       own_key ? "corr_data_id" : "image_id",
-                                       ", position, coordinate_system, ",
-                                       covariance ? "position_covariance" : "NULL",
-                                       " FROM pose_priors",
-                                       own_key ? " WHERE corr_sensor_type = 0" : "");
-  const std::map<int64_t, ImageId> ids = ImageIdsByDatabaseId(database);
-  ORBWEAVE_ASSIGN_OR_RETURN(SqliteStatement rows, connection.Prepare(sql));
-  while (true) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const bool more, rows.Step());
-    if (!more) return absl::OkStatus();
-    const auto id = ids.find(rows.Integer(0));
-    const auto position = NumbersFromBlob<3>(rows.Blob(1));
-    if (id == ids.end() || !position) continue;
-    SetPrior(*position,
-             NumbersFromBlob<9>(rows.Blob(3)),
-             rows.Integer(2),
-             database.images[id->second.value]);
+    ORBWEAVE_RETURN_IF_ERROR(CheckColmapKeypoints(image, path));
   }
 }
 
@@ -212,7 +178,7 @@ absl::StatusOr<ColmapDatabase> ReadColmapDatabase(const std::string& path) {
   ColmapDatabase database;
   ORBWEAVE_RETURN_IF_ERROR(ReadImages(connection, path, database));
   ORBWEAVE_RETURN_IF_ERROR(ReadKeypoints(connection, path, database));
-  ORBWEAVE_RETURN_IF_ERROR(ReadPriors(connection, database));
+  ORBWEAVE_RETURN_IF_ERROR(ReadColmapPriors(connection, database));
   ORBWEAVE_RETURN_IF_ERROR(ReadColmapPairs(connection, path, "two_view_geometries", database));
   if (database.pairs.empty()) {
     database.matches_are_verified = false;
@@ -229,13 +195,15 @@ absl::StatusOr<ColmapDatabase> ReadColmapDatabase(const std::string& path) {
 
 ImageSources SourcesFromDatabase(const ColmapDatabase& database) {
   ImageSources sources;
+  sources.warnings = database.warnings;
   for (const DatabaseImage& image : database.images) {
     SourceImage& source = sources.images.emplace_back();
     source.name = image.name;
     source.metadata.width_px = image.camera.width_px;
     source.metadata.height_px = image.camera.height_px;
     source.metadata.position = image.prior.geodetic;
-    source.metadata.altitude_known = image.prior.geodetic.has_value();
+    source.metadata.altitude_known =
+        image.prior.geodetic && std::isfinite(image.prior.geodetic->altitude_m);
     source.position_in_local = image.prior.position_in_enu;
     if (image.prior_sigma_known) {
       source.position_sigma_m =

@@ -8,9 +8,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/io/check_colmap_rows.h"
 
 namespace orbweave {
 namespace {
+
+constexpr int64_t kMaxNumImages = 2147483647;  ///< of COLMAP's pair ids
 
 /// COLMAP's TwoViewGeometry::ConfigurationType, as far as it comes with a pose.
 enum TwoViewConfig : int64_t { kCalibrated = 2, kPlanar = 4, kPanoramic = 5 };
@@ -71,7 +74,12 @@ absl::StatusOr<TwoViewGeometry> PairFromRow(const SqliteStatement& row,
                                             const std::string& where,
                                             const std::map<int64_t, ImageId>& ids,
                                             const ColmapDatabase& database) {
-  const auto [x, y] = ImageIdsFromPairId(static_cast<uint64_t>(row.Integer(0)));
+  const int64_t pair_id = row.Integer(0);
+  if (pair_id < 0 || pair_id / kMaxNumImages >= kMaxNumImages) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(where, ": the pair id ", pair_id, " names no two images"));
+  }
+  const auto [x, y] = ImageIdsFromPairId(static_cast<uint64_t>(pair_id));
   const auto id_x = ids.find(x);
   const auto id_y = ids.find(y);
   if (id_x == ids.end() || id_y == ids.end() || x == y) {
@@ -134,7 +142,7 @@ absl::Status ReadColmapPairs(const SqliteConnection& connection,
   std::sort(database.pairs.begin(),
             database.pairs.end(),
             [](const TwoViewGeometry& a, const TwoViewGeometry& b) { return a.pair < b.pair; });
-  return absl::OkStatus();
+  return CheckColmapPairs(database, path + ": table " + table);
 }
 
 }  // namespace orbweave

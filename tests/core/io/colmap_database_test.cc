@@ -248,6 +248,132 @@ TEST_F(DatabaseFile, NamesDamagedRows) {
   EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
 }
 
+/// Lets go of the constraints of a table, as a database that somebody made need not have them.
+std::string WithoutConstraints(const std::string& table) {
+  return "CREATE TABLE loose AS SELECT * FROM " + table + "; DROP TABLE " + table +
+         "; ALTER TABLE loose RENAME TO " + table + ";";
+}
+
+TEST_F(DatabaseFile, RefusesImagesOfOneNameOrNumber) {
+  Execute("DROP INDEX index_name;" + WithoutConstraints("images"));
+  Execute("UPDATE images SET name = 'img9.jpg' WHERE image_id = 2");
+  EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("are both called img9.jpg"));
+  Execute("UPDATE images SET name = 'img10.jpg', image_id = 1 WHERE image_id = 2");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("image 1 is there twice"));
+  Execute("UPDATE images SET image_id = -1 WHERE name = 'img10.jpg'");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("an image has the number -1"));
+  Execute("UPDATE images SET image_id = 4294967298 WHERE name = 'img10.jpg'");  // 2 in 32 bits
+  EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(DatabaseFile, RefusesNamesThatAreNone) {
+  Execute("UPDATE images SET name = '' WHERE image_id = 2");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("image 2 has no name"));
+  Execute("UPDATE images SET name = hex(zeroblob(50000)) WHERE image_id = 2");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("the name of image 2 has 100000 bytes"));
+}
+
+TEST_F(DatabaseFile, RefusesAPairThatIsThereTwice) {
+  Execute(WithoutConstraints("two_view_geometries"));
+  EXPECT_TRUE(ReadStatus().ok());
+  Execute("INSERT INTO two_view_geometries SELECT * FROM two_view_geometries WHERE rows = 3");
+  EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(ReadStatus().message(),
+              HasSubstr("two_view_geometries: the pair of img9.jpg and img10.jpg is there twice"));
+}
+
+TEST_F(DatabaseFile, RefusesAPairThatIsThereInBothDirections) {
+  const std::string turned = std::to_string(2147483647LL * 2 + 1);
+  Execute("INSERT INTO two_view_geometries(pair_id, rows, cols, data, config) SELECT " + turned +
+          ", 0, 2, x'', 2 FROM two_view_geometries LIMIT 1");
+  Execute("UPDATE two_view_geometries SET rows = 1, data = zeroblob(8) WHERE rows = 0");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("is there twice"));
+}
+
+TEST_F(DatabaseFile, RefusesPairNumbersThatNameNoImages) {
+  Execute("UPDATE two_view_geometries SET pair_id = -pair_id WHERE rows = 3");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("the pair id -2147483649 names no two images"));
+  // 2^32 + 1 for the first image: 1 in 32 bits.
+  Execute("UPDATE two_view_geometries SET pair_id = 2147483647 * 4294967297 + 2 WHERE rows = 3");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("names no two images"));
+}
+
+TEST_F(DatabaseFile, RefusesKeypointsOutsideOfTheirImage) {
+  ByteWriter far;
+  for (int i = 0; i < 20; ++i) far.Put(i == 7 ? 3e38F : 10.0F).Put(static_cast<float>(i));
+  const std::string blob = far.Take();
+  const auto connection = SqliteConnection::OpenToWrite(path_);
+  SqliteStatement update =
+      connection->Prepare("UPDATE keypoints SET cols = 2, data = ? WHERE image_id = 2").value();
+  update.BindBlob(1, blob);
+  ASSERT_TRUE(update.Run().ok());
+  EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("keypoint 7 of img10.jpg is at (3e+38, 7)"));
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("1024x512"));
+}
+
+TEST_F(DatabaseFile, RefusesKeypointsThatAreAllAtOnePlace) {
+  Execute("UPDATE keypoints SET cols = 2, data = zeroblob(160) WHERE image_id = 3");
+  EXPECT_THAT(ReadStatus().message(),
+              HasSubstr("the 20 keypoints of img11.jpg are all at one place"));
+}
+
+TEST_F(DatabaseFile, RefusesKeypointsThatAreThereTwice) {
+  Execute(WithoutConstraints("keypoints"));
+  Execute("INSERT INTO keypoints SELECT * FROM keypoints");
+  EXPECT_THAT(ReadStatus().message(), HasSubstr("the keypoints of img"));
+}
+
+/// Three doubles as a blob in SQL.
+std::string PositionBlob(double x, double y, double z) {
+  ByteWriter out;
+  out.Put(x).Put(y).Put(z);
+  const std::string bytes = out.Take();
+  std::string text = "x'";
+  for (const char c : bytes) {
+    for (const int nibble : {static_cast<uint8_t>(c) >> 4, c & 15})
+      text += "0123456789abcdef"[nibble];
+  }
+  return text + "'";
+}
+
+TEST_F(DatabaseFile, LeavesOutPriorsThatCannotBeAndSaysSo) {
+  const auto read = [&](const std::string& position, int system) {
+    Execute("UPDATE pose_priors SET position = " + position +
+            ", coordinate_system = " + std::to_string(system) + ", position_covariance = NULL");
+    return ReadColmapDatabase(path_).value();
+  };
+  for (const auto& [position, system] : {std::pair(PositionBlob(0, 0, 0), 0),
+                                         std::pair(PositionBlob(1e308, 0, 0), 0),
+                                         std::pair(PositionBlob(1e308, 0, 0), 1),
+                                         std::pair(PositionBlob(0, 0, 0), 1)}) {
+    const ColmapDatabase database = read(position, system);
+    for (const DatabaseImage& image : database.images)
+      EXPECT_FALSE(image.prior.geodetic || image.prior.position_in_enu) << system;
+    ASSERT_EQ(database.warnings.size(), 1U);
+    EXPECT_THAT(database.warnings[0], HasSubstr("is not used (2 images: img9.jpg, img11.jpg)"));
+  }
+  const ColmapDatabase high = read(PositionBlob(47, 8, 1e308), 0);
+  EXPECT_TRUE(high.images[0].prior.geodetic);
+  EXPECT_FALSE(SourcesFromDatabase(high).images[0].metadata.altitude_known);
+  EXPECT_THAT(SourcesFromDatabase(high).warnings, ElementsAre(HasSubstr("a height")));
+}
+
+TEST_F(DatabaseFile, LeavesOutCovariancesThatCannotBeAndSaysSo) {
+  ByteWriter tiny;
+  for (int i = 0; i < 9; ++i) tiny.Put(i % 4 == 0 ? 1e-300 : 0.0);
+  const std::string blob = tiny.Take();
+  const auto connection = SqliteConnection::OpenToWrite(path_);
+  SqliteStatement update =
+      connection->Prepare("UPDATE pose_priors SET position_covariance = ?").value();
+  update.BindBlob(1, blob);
+  ASSERT_TRUE(update.Run().ok());
+  const ColmapDatabase database = ReadColmapDatabase(path_).value();
+  EXPECT_FALSE(database.images[0].prior_sigma_known);
+  EXPECT_THAT(database.warnings, ElementsAre(HasSubstr("a covariance that cannot be")));
+}
+
 TEST_F(DatabaseFile, RefusesCountsWhoseProductsWrapToTheSizeOfTheBlob) {
   Execute("UPDATE two_view_geometries SET rows = 1 << 61, data = x''");
   EXPECT_EQ(ReadStatus().code(), absl::StatusCode::kInvalidArgument);
