@@ -17,6 +17,8 @@ TexturePoint PointOfWall(double u_m, double v_m, double pixel_m) {
       .u_m = u_m, .v_m = v_m, .width_m = 9.0, .height_m = 12.0, .du_m = pixel_m, .dv_m = pixel_m};
 }
 
+Colour FacadeColour(const TexturePoint& p, uint32_t seed) { return FacadeSurface(p, seed).colour; }
+
 /// Mean of small pixels over the square that one large pixel covers.
 Colour MeanOfSmallPixels(double u_m, double v_m, double pixel_m, uint32_t seed) {
   constexpr int kCount = 12;

@@ -76,6 +76,59 @@ TEST(RenderPanorama, ShowsABallWhereItsCentreProjects) {
   }
 }
 
+/// Where a ball appears of which `view` makes one panorama with and one without.
+Eigen::Vector2d WhereTheBallAppears(const PanoramaView& view, const Eigen::Vector3d& centre) {
+  StreetWorld world = MakeStreetWorld(120.0, 1);
+  const Traffic none({});
+  world.solids.clear();
+  world.grid = SolidGrid();
+  const RenderedPanorama without = RenderPanorama(world, none, view);
+  world.solids = {
+      {.kind = SolidKind::kCrown, .centre = centre, .half = Eigen::Vector3d::Constant(0.8)}};
+  world.grid = SolidGrid(world.solids);
+  return MiddleOfChange(without, RenderPanorama(world, none, view));
+}
+
+TEST(RenderPanorama, RollingShutterShowsABallFromWhereItsRowWasExposed) {
+  PanoramaView view = ViewFrom({1.0, -2.0, 0.3}, 0.3);
+  view.shutter = {.readout_s = 0.2, .velocity_mps = {-14.0, 5.0, 0.0}, .yaw_rate_rad_s = 0.6};
+  const Eigen::Vector3d ball = view.cam_from_street.Centre() + Eigen::Vector3d(4.0, 1.0, 3.0);
+  const Eigen::Vector2d seen = WhereTheBallAppears(view, ball);
+  const auto project_at = [&](double late_s) {
+    const Eigen::Quaterniond turn =
+        RotationFromVector({0.0, 0.0, view.shutter.yaw_rate_rad_s * late_s});
+    const Rigid3 pose =
+        Rigid3::FromCentre(view.cam_from_street.rotation * turn.conjugate(),
+                           view.cam_from_street.Centre() + late_s * view.shutter.velocity_mps);
+    return kCamera.PixelFromBearing(pose * ball);
+  };
+  Eigen::Vector2d expected = project_at(0.0);
+  const Eigen::Vector2d still = expected;
+  for (int k = 0; k < 20; ++k)
+    expected = project_at((expected.y() / kCamera.height_px - 0.5) * view.shutter.readout_s);
+  EXPECT_GT((expected - still).norm(), 3.0);
+  EXPECT_NEAR(std::remainder(seen.x() - expected.x(), kCamera.width_px), 0.0, 0.5);
+  EXPECT_NEAR(seen.y(), expected.y(), 0.5);
+}
+
+TEST(RenderPanorama, LensesShowABallWithTheirParallax) {
+  PanoramaView view = ViewFrom({1.0, -2.0, 0.3}, 0.3);
+  view.lenses.offset_m = 0.5;
+  const Eigen::Vector3d in_cam = Eigen::Vector3d(1.2, -2.0, 3.5);  // seen by the forward lens
+  const Eigen::Vector3d ball = view.cam_from_street.Inverse() * in_cam;
+  const Eigen::Vector2d seen = WhereTheBallAppears(view, ball);
+  // The ray from the lens through the ball meets the sphere on which the pictures are stitched.
+  const Eigen::Vector3d lens(0.0, 0.0, 0.5);
+  const Eigen::Vector3d d = (in_cam - lens).normalized();
+  const double b = lens.dot(d);
+  const double reach =
+      -b + std::sqrt(b * b + std::pow(LensRig::kStitchedAt_m, 2) - lens.squaredNorm());
+  const Eigen::Vector2d expected = kCamera.PixelFromBearing(lens + reach * d);
+  EXPECT_GT((expected - kCamera.PixelFromBearing(in_cam)).norm(), 1.0);
+  EXPECT_NEAR(seen.x(), expected.x(), 0.5);
+  EXPECT_NEAR(seen.y(), expected.y(), 0.5);
+}
+
 TEST(RenderPanorama, TurningTheCameraByWholePixelsShiftsColumns) {
   const StreetWorld world = MakeStreetWorld(120.0, 1);
   const Traffic none({});

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/synthetic/render_street_panorama.h"
 #include "core/synthetic/sample_surface.h"
 
 namespace orbweave {

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <map>
 
+#include "core/synthetic/realistic_street.h"
+
 namespace orbweave {
 namespace {
 
@@ -50,6 +52,41 @@ TEST_F(WriteStreetTest, WritesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_TRUE(one == three);
 }
 
+TEST_F(WriteStreetTest, RealisticStreetsAreTheSameForTheSameSeedOnAnyNumberOfThreads) {
+  std::map<std::string, std::string> files[3];
+  for (const int k : {0, 1, 2}) {
+    const StreetOptions options =
+        RealisticStreet({.panoramas = 7, .width_px = 96, .seed = k == 2 ? 6 : 5});
+    const fs::path output = folder_ / std::to_string(k);
+    ASSERT_TRUE(WriteStreet(options, output.string(), {.num_threads = 1 + 2 * k}).ok());
+    files[k] = FilesBelow(output);
+  }
+  EXPECT_TRUE(files[0] == files[1]);
+  EXPECT_TRUE(files[0]["images/street_0003.jpg"] != files[2]["images/street_0003.jpg"]);
+  const std::string& gnss = files[0]["gnss.csv"];
+  EXPECT_EQ(gnss.substr(0, gnss.find('\n')),
+            "name,latitude,longitude,altitude,accuracy,heading,time,drive");
+  EXPECT_NE(gnss.find(",day1\n"), std::string::npos);
+}
+
+TEST_F(WriteStreetTest, JpegQualityChangesImagesAlone) {
+  std::map<std::string, std::string> files[2];
+  for (const int k : {0, 1}) {
+    const StreetOptions options{
+        .panoramas = 2, .width_px = 96, .hardships = {.jpeg_quality = k == 0 ? 95 : 40}};
+    const fs::path output = folder_ / std::to_string(k);
+    ASSERT_TRUE(WriteStreet(options, output.string(), {}).ok());
+    files[k] = FilesBelow(output);
+  }
+  for (const auto& [path, bytes] : files[0]) {
+    if (path.starts_with("images/")) {
+      EXPECT_LT(files[1][path].size(), 0.7 * static_cast<double>(bytes.size()));
+    } else {
+      EXPECT_TRUE(files[1][path] == bytes) << path;
+    }
+  }
+}
+
 TEST_F(WriteStreetTest, TablesNameEveryImageButThoseInTheGap) {
   auto files = Written("tables", 1);
   for (int i = 0; i < 5; ++i) {
@@ -65,6 +102,8 @@ TEST_F(WriteStreetTest, TablesNameEveryImageButThoseInTheGap) {
 
 TEST_F(WriteStreetTest, RefusesOptionsOutOfRangeAndFoldersThatCannotBe) {
   EXPECT_EQ(WriteStreet({.panoramas = 0}, folder_.string(), {}).code(),
+            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(WriteStreet({.hardships = {.jpeg_quality = 101}}, folder_.string(), {}).code(),
             absl::StatusCode::kInvalidArgument);
   fs::create_directories(folder_);
   std::ofstream(folder_ / "file") << "in the way";
