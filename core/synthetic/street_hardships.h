@@ -106,7 +106,10 @@ struct StreetHardships {
 
   template <typename Self, typename Visitor>
   static void VisitCamera(Self& self, Visitor&& visit) {
-    visit("harsh_light", self.harsh_light, "share of skylight missing in the shade", Range{0, 0.9});
+    visit("harsh_light",
+          self.harsh_light,
+          "share of skylight missing in the shade; the sky is overexposed",
+          Range{0, 0.9});
     visit("daylight",
           self.daylight,
           "share of the light left; the camera's gain makes up for its root, with noise",

@@ -50,8 +50,9 @@ SurfaceColour Lit(const StreetWorld& world,
                   const SurfaceHit& hit,
                   double pixel_rad) {
   if (hit.surface == SurfaceHit::kSky) {
-    return {SkyColour(
-        ray.direction, pixel_rad, world.seed + 5, world.light.clouds, world.light.cloud_drift)};
+    const Colour sky = SkyColour(
+        ray.direction, pixel_rad, world.seed + 5, world.light.clouds, world.light.cloud_drift);
+    return {world.light.above * sky};
   }
   const double pixel_m = pixel_rad * hit.distance_m;
   SurfaceColour seen;
@@ -86,6 +87,7 @@ StreetWorld MakeStreetWorld(double length_m, uint64_t seed, const StreetHardship
   world.reflection = hardships.reflection;
   world.light.sky *= 1.0 - hardships.harsh_light;
   world.light.sun *= 1.0 + hardships.harsh_light;
+  world.light.above *= 1.0 + 2.0 * hardships.harsh_light;
   world.grid = SolidGrid(world.solids);
   return world;
 }

@@ -19,6 +19,7 @@ struct Daylight {
   Eigen::Vector3d to_sun = Eigen::Vector3d(0.45, -0.55, 0.80).normalized();
   double sun = 0.62;    ///< brightness of a white surface that faces it
   double sky = 0.62;    ///< brightness of a white upright surface in the shade
+  double above = 1.0;   ///< brightness of sky and clouds themselves; beyond 1 they are overexposed
   uint32_t clouds = 0;  ///< another number, other clouds
   Eigen::Vector2d cloud_drift = Eigen::Vector2d::Zero();  ///< way gone, in heights of the clouds
 };
