@@ -23,6 +23,16 @@ struct EnumNames<BundleLoss> {
        {BundleLoss::kHuber, "huber"}}};
 };
 
+/// How far a predicted ray lies from its bearing: by the angle between them, or as the paper's (11)
+/// in the pixels of the equirectangular image (EvaluateErpResidual).
+enum class BundleResidual { kAngle, kErpPx };
+
+template <>
+struct EnumNames<BundleResidual> {
+  static constexpr std::array<std::pair<BundleResidual, std::string_view>, 2> kNames = {
+      {{BundleResidual::kAngle, "angle"}, {BundleResidual::kErpPx, "erp_px"}}};
+};
+
 enum class BundleSolver { kSchur, kCeres };
 
 template <>
@@ -39,6 +49,7 @@ struct BundleOptions {
   double function_tolerance = 1e-6;
   double initial_lambda = 1e-6;
   BundleSolver solver = BundleSolver::kSchur;
+  BundleResidual residual = BundleResidual::kAngle;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -55,6 +66,10 @@ struct BundleOptions {
           Range{1e-16, 0.1});
     visit("initial_lambda", self.initial_lambda, "start damping", Range{1e-16, 1e6});
     visit("solver", self.solver, "our own Schur solver, or Ceres for comparison");
+    visit("residual",
+          self.residual,
+          "what is minimised: the angle of a ray to its bearing, or its distance in pixels of the "
+          "equirectangular image, which weighs high and low latitudes more");
   }
 };
 
@@ -108,9 +123,10 @@ struct BundleReport {
 /// Minimises 1/2 sum rho(theta^2 / sigma^2) over poses and points, plus priors, by
 /// Levenberg-Marquardt; theta is the angle between the predicted ray and the observed bearing. The
 /// residual is the logarithm of the ray in the tangent plane of the bearing, which has theta as its
-/// length and is as large behind the bearing as it should be. Each pose is one 6-dof block (R, C).
-/// Where neither fixed poses or points nor priors hold the gauge, the first pose and the distance
-/// to the farthest other centre are held.
+/// length and is as large behind the bearing as it should be; with options.residual erp_px it is
+/// the difference in the equirectangular image instead (EvaluateErpResidual). Each pose is one
+/// 6-dof block (R, C). Where neither fixed poses or points nor priors hold the gauge, the first
+/// pose and the distance to the farthest other centre are held.
 ///
 /// A pose or point without observations stays where it is. Same bytes for any
 /// `context.num_threads`. InvalidArgument: an index out of range or a sigma that is not positive.

@@ -31,7 +31,9 @@ BundleEliminator::BundleEliminator(const BundleProblem& problem,
       elimination_(layout_.matrix, KeptBlocks(layout_, kept)),
       reducer_(layout_, num_threads),
       stepper_(layout_, num_threads),
-      system_(MakeReducedSystem(layout_)) {}
+      system_(MakeReducedSystem(layout_)) {
+  layout_.residual = options.residual;
+}
 
 EvaluatedState BundleEliminator::Start() const {
   EvaluatedState state{.variables = InitialState(problem_)};

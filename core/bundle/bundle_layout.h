@@ -64,6 +64,7 @@ struct BundleLayout {
   std::vector<PackedPoint> kept_points{};
   std::vector<PointChunk> chunks{};
   SymmetricBlockMatrix matrix{};  ///< its pattern, no values
+  BundleResidual residual = BundleResidual::kAngle;
 };
 
 /// `kept_points`: ascending, none of them fixed.

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "core/bundle/bearing_residual.h"
+#include "core/bundle/erp_residual.h"
 #include "core/bundle/gauge.h"
 #include "core/geometry/rotation.h"
 
@@ -77,18 +78,19 @@ class PoseManifold final : public ceres::Manifold {
 
 class BearingCost final : public ceres::SizedCostFunction<2, 7, 3> {
  public:
-  BearingCost(const Eigen::Vector3d& bearing, double sigma_rad)
-      : bearing_(bearing), weight_(1.0 / sigma_rad) {}
+  BearingCost(const Eigen::Vector3d& bearing, double sigma_rad, BundleResidual kind)
+      : bearing_(bearing),
+        weight_(1.0 / sigma_rad),
+        evaluate_(kind == BundleResidual::kErpPx ? EvaluateErpResidual : EvaluateBearingResidual) {}
 
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
     const double* pose = parameters[0];
-    const BearingResidual residual =
-        EvaluateBearingResidual(QuaternionMap(pose).normalized().toRotationMatrix(),
-                                VectorMap(pose + 4),
-                                VectorMap(parameters[1]),
-                                bearing_);
+    const BearingResidual residual = evaluate_(QuaternionMap(pose).normalized().toRotationMatrix(),
+                                               VectorMap(pose + 4),
+                                               VectorMap(parameters[1]),
+                                               bearing_);
     Eigen::Map<Eigen::Vector2d> r(residuals);
     r = weight_ * residual.r;
     if (jacobians && jacobians[0]) {
@@ -108,6 +110,7 @@ class BearingCost final : public ceres::SizedCostFunction<2, 7, 3> {
  private:
   Eigen::Vector3d bearing_;
   double weight_;
+  decltype(&EvaluateBearingResidual) evaluate_;
 };
 
 // diag(1/sigma) (C + bias - position)
@@ -204,7 +207,10 @@ std::unique_ptr<ceres::Problem> MakeCeresProblem() {
   return std::make_unique<ceres::Problem>(ownership);
 }
 
-void AddObservations(const BundleProblem& problem, const Gauge& gauge, CeresBundle& bundle) {
+void AddObservations(const BundleProblem& problem,
+                     const Gauge& gauge,
+                     BundleResidual residual,
+                     CeresBundle& bundle) {
   for (size_t i = 0; i < bundle.poses.size(); ++i) {
     bundle.problem->AddParameterBlock(bundle.poses[i].data(), 7, &bundle.manifold);
     if (gauge.pose_is_held[i]) {
@@ -220,7 +226,7 @@ void AddObservations(const BundleProblem& problem, const Gauge& gauge, CeresBund
     }
   }
   for (const BundleObservation& seen : problem.observations) {
-    bundle.problem->AddResidualBlock(new BearingCost(seen.bearing, seen.sigma_rad),
+    bundle.problem->AddResidualBlock(new BearingCost(seen.bearing, seen.sigma_rad, residual),
                                      bundle.loss.get(),
                                      bundle.poses[seen.pose].data(),
                                      bundle.points[seen.point].data());
@@ -295,7 +301,7 @@ absl::StatusOr<BundleReport> AdjustBundleWithCeres(BundleProblem& problem,
   bundle.biases.assign(problem.bias_sigma_m.size(), Eigen::Vector3d::Zero());
   bundle.loss = MakeLoss(options);
   bundle.problem = MakeCeresProblem();
-  AddObservations(problem, gauge, bundle);
+  AddObservations(problem, gauge, options.residual, bundle);
   AddPositionPriors(problem, bundle);
   AddDirectionPriors(problem, bundle);
 

@@ -3,7 +3,7 @@
 
 #include "core/bundle/kept_points.h"
 
-#include "core/bundle/bearing_term.h"
+#include "core/bundle/observation_term.h"
 #include "core/bundle/trial_step.h"
 #include "core/geometry/rotation.h"
 
@@ -24,11 +24,10 @@ void AddObservation(const PackedObservation& seen,
                     const RobustLoss& loss,
                     ReducedSystem& system) {
   const PoseState& pose = state.poses[seen.pose];
-  BearingTerm term =
-      LineariseBearing(pose.centre, point_in_world, pose.world_from_cam * seen.bearing);
-  const double weight = ApplyLoss(loss, seen.weight, term);
-  const Eigen::Matrix3d M = PointHessian(term, weight);
-  const Eigen::Vector3d g = PointGradient(term, weight);
+  const ObservationTerm term =
+      LineariseObservation(layout.residual, seen, pose, point_in_world, loss);
+  const Eigen::Matrix3d& M = term.hessian;
+  const Eigen::Vector3d& g = term.gradient;
   const auto add = [&](uint32_t block, const Block6& hessian, const Vector6& gradient) {
     system.S.Diagonal(block) += hessian;
     system.trace[block] += Eigen::Vector2d(hessian.topLeftCorner<3, 3>().trace(),

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/parallel_for.h"
-#include "core/bundle/bearing_term.h"
+#include "core/bundle/observation_term.h"
 
 namespace orbweave {
 namespace {
@@ -108,17 +108,15 @@ class ChunkReducer {
                       Eigen::Matrix3d& V,
                       Eigen::Vector3d& point_gradient) {
     const PoseState& pose = state_.poses[seen.pose];
-    BearingTerm term =
-        LineariseBearing(pose.centre, point_in_world, pose.world_from_cam * seen.bearing);
-    const double weight = ApplyLoss(loss_, seen.weight, term);
-    const Eigen::Matrix3d M = PointHessian(term, weight);
-    const Eigen::Vector3d gradient = PointGradient(term, weight);
+    const ObservationTerm term =
+        LineariseObservation(layout_.residual, seen, pose, point_in_world, loss_);
+    const Eigen::Matrix3d& M = term.hessian;
     V += M;
-    point_gradient += gradient;
+    point_gradient += term.gradient;
     if (seen.local == kHeld) return;
     AddPoseHessian(
         term.d, M, sums_.triangle[PairIndex(seen.local, seen.local)], sums_.trace[seen.local]);
-    sums_.gradient[seen.local] += PoseGradient(term.d, gradient);
+    sums_.gradient[seen.local] += PoseGradient(term.d, term.gradient);
     PosePart& part = parts_.emplace_back();
     part.M = M;
     part.d = term.d;

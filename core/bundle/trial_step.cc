@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/parallel_for.h"
-#include "core/bundle/bearing_term.h"
+#include "core/bundle/observation_term.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
@@ -24,11 +24,10 @@ Eigen::Vector3d PullOfPoses(const BundleLayout& layout,
     const uint32_t block = layout.pose_block[seen.pose];
     if (block == kHeld) continue;
     const PoseState& pose = state.poses[seen.pose];
-    BearingTerm term = LineariseBearing(
-        pose.centre, state.points[point.point], pose.world_from_cam * seen.bearing);
-    const double weight = ApplyLoss(loss, seen.weight, term);
+    const ObservationTerm term =
+        LineariseObservation(layout.residual, seen, pose, state.points[point.point], loss);
     const Eigen::Vector3d shift = step[block].head<3>().cross(term.d) - step[block].tail<3>();
-    pull += PointHessian(term, weight) * shift;
+    pull += term.hessian * shift;
   }
   return pull;
 }
@@ -51,8 +50,7 @@ PointCost EvaluatePointCost(const BundleLayout& layout,
   for (uint32_t k = point.first; k < point.end; ++k) {
     const PackedObservation& seen = layout.observations[k];
     const PoseState& pose = poses[seen.pose];
-    const BearingAngle angle =
-        EvaluateBearing(pose.centre, point_in_world, pose.world_from_cam * seen.bearing);
+    const BearingAngle angle = EvaluateObservation(layout.residual, seen, pose, point_in_world);
     sum.Add(angle.squared_angle * seen.weight);
     result.any_behind |= angle.behind;
   }
