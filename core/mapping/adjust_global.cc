@@ -72,29 +72,32 @@ absl::Status AdjustInRounds(MappingState& state,
 absl::Status AdjustGrowingModel(MappingState& state,
                                 const MappingOptions& options,
                                 const StageContext& context) {
-  const BundleOptions how = {
-      .loss = BundleLoss::kCauchy, .max_iterations = 15, .function_tolerance = 1e-4};
+  const BundleOptions how = AsPresetAdjusts(
+      options, {.loss = BundleLoss::kCauchy, .max_iterations = 15, .function_tolerance = 1e-4});
   return AdjustInRounds(state, options, how, {.max_rounds = 2, .max_changed_share = 0.05}, context);
 }
 
 absl::Status AdjustFinalModel(MappingState& state,
                               const MappingOptions& options,
                               const StageContext& context) {
-  const BundleOptions robust = {
-      .loss = BundleLoss::kCauchy, .max_iterations = 30, .function_tolerance = 1e-5};
+  const bool tightens = ScheduleOf(options).tightens;
+  const BundleOptions robust = AsPresetAdjusts(
+      options, {.loss = BundleLoss::kCauchy, .max_iterations = 30, .function_tolerance = 1e-5});
   ORBWEAVE_RETURN_IF_ERROR(
       AdjustInRounds(state,
                      options,
                      robust,
-                     {.max_rounds = 5, .max_changed_share = 0.001, .tightens = true},
+                     {.max_rounds = 5, .max_changed_share = 0.001, .tightens = tightens},
                      context));
-  DropTwoViewPoints(state, kTwoViewMedians * MedianErrorPx(state), options.two_view_below);
-  const BundleOptions exact = {
-      .loss = BundleLoss::kLeastSquares, .max_iterations = 30, .function_tolerance = 1e-7};
+  if (tightens)
+    DropTwoViewPoints(state, kTwoViewMedians * MedianErrorPx(state), options.two_view_below);
+  const BundleOptions exact = AsPresetAdjusts(
+      options,
+      {.loss = BundleLoss::kLeastSquares, .max_iterations = 30, .function_tolerance = 1e-7});
   constexpr int kMaxFinishes = 3;
   for (int finish = 0; finish < kMaxFinishes; ++finish) {
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, exact, context));
-    const TrackLimits limits = LimitsOf(Tightened(state, options));
+    const TrackLimits limits = LimitsOf(tightens ? Tightened(state, options) : options);
     if (FilterPoints(state, AllPoints(state), limits) == 0) break;
   }
   return absl::OkStatus();

@@ -16,10 +16,10 @@ namespace {
 constexpr int kPlanarLevels = 4;
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-/// Halvings of `wanted` until `value` suffices.
-int Halvings(double wanted, double value) {
+/// Halvings of `wanted` until `value` suffices; `strictly`: is more.
+int Halvings(double wanted, double value, bool strictly) {
   int halvings = 0;
-  for (; value < wanted; wanted /= 2.0) ++halvings;
+  for (; value < wanted || (strictly && value == wanted); wanted /= 2.0) ++halvings;
   return halvings;
 }
 
@@ -45,12 +45,13 @@ struct Candidate {
   uint32_t pair = 0;
   int level = 0;
   uint64_t image_matches = 0;  ///< of its better connected image; 0 where that does not rank
-  uint32_t deep_matches = 0;
+  ImageSlot first_image = 0;   ///< that image; 0 where that does not rank
+  uint32_t matches = 0;        ///< that rank: those that show depth, or all
 };
 
 bool IsBetter(const Candidate& x, const Candidate& y) {
-  return std::tuple(x.level, y.image_matches, y.deep_matches, x.pair) <
-         std::tuple(y.level, x.image_matches, x.deep_matches, y.pair);
+  return std::tuple(x.level, y.image_matches, x.first_image, y.matches, x.pair) <
+         std::tuple(y.level, x.image_matches, y.first_image, x.matches, y.pair);
 }
 
 std::vector<uint64_t> MatchesPerImage(const ClusterProblem& problem,
@@ -82,13 +83,19 @@ std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
     const uint32_t deep_matches =
         CountDeepMatches(problem, graph, pair, options.min_angle_deg * kRadiansPerDegree);
     if (deep_matches < static_cast<uint32_t>(options.min_inliers)) continue;
+    const auto num_matches = static_cast<uint32_t>(geometry.inliers.size());
     const int level =
-        Halvings(options.seed_min_inliers, static_cast<double>(geometry.inliers.size())) +
-        Halvings(options.seed_min_angle_deg, geometry.median_angle_rad / kRadiansPerDegree) +
-        (geometry.kind == TwoViewKind::kPlanar ? kPlanarLevels : 0);
-    const uint64_t ranking_matches =
-        by_image ? std::max(image_matches[pair.a], image_matches[pair.b]) : 0;
-    candidates.push_back({p, level, ranking_matches, deep_matches});
+        Halvings(options.seed_min_inliers, num_matches, by_image) +
+        Halvings(
+            options.seed_min_angle_deg, geometry.median_angle_rad / kRadiansPerDegree, by_image) +
+        (geometry.kind == TwoViewKind::kPlanar && !by_image ? kPlanarLevels : 0);
+    if (by_image) {
+      const bool a_is_first = image_matches[pair.a] >= image_matches[pair.b];
+      const ImageSlot first = a_is_first ? pair.a : pair.b;
+      candidates.push_back({p, level, image_matches[first], first, num_matches});
+    } else {
+      candidates.push_back({p, level, 0, 0, deep_matches});
+    }
   }
   std::sort(candidates.begin(), candidates.end(), IsBetter);
   std::vector<uint32_t> pairs;

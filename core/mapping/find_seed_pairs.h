@@ -15,7 +15,10 @@ namespace orbweave {
 /// being nearly planar costs four. Lower levels come first; within a level more matches that show
 /// depth, that is, whose rays meet under options.min_angle_deg at least. Left out: pure rotations,
 /// pairs of fewer than options.min_inliers such matches, and pairs with an image that is not
-/// `available`.
+/// `available`. The preset `paper` takes its section 4 as printed: the image with most matches, of
+/// its pairs the one with most matches that has *more* than the two limits, then the next image;
+/// planes count as other pairs do. Only where no pair satisfies the limits, about which the paper
+/// says nothing, they are halved.
 [[nodiscard]] std::vector<uint32_t> FindSeedPairs(const ClusterProblem& problem,
                                                   const CorrespondenceGraph& graph,
                                                   std::span<const uint8_t> available,

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/adjust_local.h"
+#include "core/mapping/adjust_new_images.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/rank_next_images.h"
 
@@ -65,7 +67,7 @@ class Growth {
   std::vector<uint32_t> MinVisible() const {
     const uint32_t base = effort_ == Effort::kRelaxed
                               ? 0U  // pairs may hold an image that sees no point
-                              : static_cast<uint32_t>(ScheduleOf(options_).min_visible);
+                              : static_cast<uint32_t>(schedule_.min_visible);
     std::vector<uint32_t> min_visible(log_.size(), base);
     for (ImageSlot image = 0; image < log_.size(); ++image) {
       const RegistrationRecord& record = log_[image];
@@ -80,19 +82,34 @@ class Growth {
   }
 
   absl::StatusOr<bool> RegisterNext() {
-    for (const ImageSlot image : RankNextImages(state_, MinVisible())) {
+    for (const ImageSlot image : RankNextImages(state_, MinVisible(), schedule_.ranks_by_score)) {
       ORBWEAVE_RETURN_IF_ERROR(context_.CheckStop());
       ORBWEAVE_ASSIGN_OR_RETURN(const RegistrationAttempt attempt,
                                 RegisterImage(state_, image, Limits(), context_));
       Note(image, attempt);
       if (!attempt.registered) continue;
+      if (schedule_.new_images_before_local > 0)
+        ORBWEAVE_RETURN_IF_ERROR(AdjustPose(state_, image, options_, context_));
       TriangulateImage(state_, image, LimitsOf(options_));
-      ORBWEAVE_RETURN_IF_ERROR(AdjustLocally(state_, image, options_, context_));
-      ++report_.num_local_adjustments;
+      ORBWEAVE_RETURN_IF_ERROR(AdjustAround(image));
       context_.Report(state_.Registered().size(), state_.Graph().NumImages(), "images");
       return true;
     }
     return false;
+  }
+
+  /// The local adjustment after `image` was registered, where the schedule has one now.
+  absl::Status AdjustAround(ImageSlot image) {
+    if (schedule_.new_images_before_local == 0) {
+      ++report_.num_local_adjustments;
+      return AdjustLocally(state_, image, options_, context_);
+    }
+    new_images_.push_back(image);
+    if (new_images_.size() <= static_cast<size_t>(schedule_.new_images_before_local))
+      return absl::OkStatus();
+    ++report_.num_local_adjustments;
+    const std::vector<ImageSlot> images = std::exchange(new_images_, {});
+    return AdjustNewImages(state_, images, options_, context_);
   }
 
   void Note(ImageSlot image, const RegistrationAttempt& attempt) {
@@ -107,7 +124,8 @@ class Growth {
   /// Few new images are in the hands of local adjustments, whose windows overlap.
   bool HasGrown() const {
     const auto images = static_cast<double>(state_.Registered().size());
-    if (images < images_adjusted_ + options_.local_window / 3) return false;
+    const bool is_local = schedule_.new_images_before_local == 0;
+    if (is_local && images < images_adjusted_ + options_.local_window / 3) return false;
     const double factor = 1.0 + options_.global_growth;
     return images >= factor * images_adjusted_ ||
            static_cast<double>(state_.NumPoints()) >= factor * points_adjusted_;
@@ -117,6 +135,7 @@ class Growth {
     ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(state_, options_, context_));
     ++report_.num_global_adjustments;
     DropWeakImages();
+    new_images_.clear();
     images_adjusted_ = static_cast<double>(state_.Registered().size());
     points_adjusted_ = static_cast<double>(state_.NumPoints());
     return absl::OkStatus();
@@ -143,7 +162,7 @@ class Growth {
         ORBWEAVE_RETURN_IF_ERROR(AdjustEverything());
       }
     } else {
-      if (!ScheduleOf(options_).relaxes_registration) return false;
+      if (!schedule_.relaxes_registration) return false;
       effort_ = Effort::kRelaxed;
     }
     for (RegistrationRecord& record : log_) record.visible_at_failure = 0;
@@ -161,6 +180,8 @@ class Growth {
   const MappingOptions& options_;
   RegistrationLog& log_;
   const StageContext& context_;
+  const MappingSchedule schedule_ = ScheduleOf(options_);
+  std::vector<ImageSlot> new_images_{};  ///< since the last adjustment, where the schedule counts
   Effort effort_ = Effort::kNormal;
   GrowthReport report_{};
   double images_adjusted_ = 0.0;

@@ -56,8 +56,8 @@ absl::StatusOr<bool> InitialiseFromPair(MappingState& state,
 
   const auto min_points = static_cast<uint32_t>(options.min_inliers);
   if (state.NumPoints() < min_points) return false;
-  ORBWEAVE_RETURN_IF_ERROR(
-      AdjustPart(state, images, AllPoints(state), {.max_iterations = 30}, context).status());
+  const BundleOptions how = AsPresetAdjusts(options, {.max_iterations = 30});
+  ORBWEAVE_RETURN_IF_ERROR(AdjustPart(state, images, AllPoints(state), how, context).status());
   TriangulateMatches(state, pair, limits);
   FilterPoints(state, AllPoints(state), limits);
   return state.NumPoints() >= min_points &&

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/bundle/adjust_bundle.h"
 #include "core/mapping/reconstruct_cluster.h"
 #include "core/mapping/triangulate_tracks.h"
 
@@ -17,17 +18,45 @@ struct MappingSchedule {
   bool seeds_by_image = false;
   /// The paper begins with a seed pair.
   MappingStart start = MappingStart::kIncremental;
+  /// The next image by the score of its visible points alone; else also by their number.
+  bool ranks_by_score = false;
+  /// More than this many images registered since the last adjustment: these are adjusted with their
+  /// points, all else held. 0: each image with its covisible window, at once.
+  int new_images_before_local = 0;
+  /// Limits of errors follow the exactness of the model, points of two observations go where there
+  /// are better ones.
+  bool tightens = true;
+  /// Observations count alike in pixels, whatever the scale of their features.
+  bool weighs_pixels_alike = false;
 };
 
-/// The paper asks for 30 visible points and knows neither relaxed registration nor proposals.
+/// The paper asks for 30 visible points, ranks by score alone, adjusts locally once N > 3 images
+/// are new and knows neither relaxed registration nor proposals nor any limit that changes (section
+/// 4).
 [[nodiscard]] inline MappingSchedule ScheduleOf(const MappingOptions& options) {
   if (options.preset == MappingPreset::kPaper) {
-    return {.min_visible = 30, .relaxes_registration = false, .seeds_by_image = true};
+    return {.min_visible = 30,
+            .relaxes_registration = false,
+            .seeds_by_image = true,
+            .ranks_by_score = true,
+            .new_images_before_local = 3,
+            .tightens = false,
+            .weighs_pixels_alike = true};
   }
   return {.min_visible = options.min_inliers,
           .relaxes_registration = true,
           .seeds_by_image = false,
           .start = options.start};
+}
+
+/// `how` as the preset adjusts: the paper's cost (11) is of pixels in the image, without a loss.
+[[nodiscard]] inline BundleOptions AsPresetAdjusts(const MappingOptions& options,
+                                                   BundleOptions how) {
+  if (options.preset == MappingPreset::kPaper) {
+    how.loss = BundleLoss::kLeastSquares;
+    how.residual = BundleResidual::kErpPx;
+  }
+  return how;
 }
 
 [[nodiscard]] inline TrackLimits LimitsOf(const MappingOptions& options) {

@@ -9,7 +9,8 @@
 namespace orbweave {
 
 std::vector<ImageSlot> RankNextImages(const MappingState& state,
-                                      std::span<const uint32_t> min_visible) {
+                                      std::span<const uint32_t> min_visible,
+                                      bool by_score_alone) {
   std::vector<ImageSlot> images;
   for (ImageSlot image = 0; image < state.Graph().NumImages(); ++image) {
     if (!state.IsRegistered(image) && state.Visible(image).Count() >= min_visible[image]) {
@@ -18,6 +19,7 @@ std::vector<ImageSlot> RankNextImages(const MappingState& state,
   }
   const auto rank = [&](ImageSlot image) {
     const VisibilityPyramid& visible = state.Visible(image);
+    if (by_score_alone) return uint64_t{visible.Score()};
     return uint64_t{visible.Count()} * visible.Count() * visible.Score();
   };
   std::sort(images.begin(), images.end(), [&](ImageSlot x, ImageSlot y) {

@@ -13,8 +13,10 @@ namespace orbweave {
 /// visible points times the score of VisibilityPyramid, then the smaller slot. On a sphere a
 /// hundred points reach nearly every cell, so that the score alone would take a look-alike of a
 /// registered place, which sees few points from the same spot, before a neighbour. `min_visible`
-/// per image: images that see fewer points are left out.
+/// per image: images that see fewer points are left out. `by_score_alone`: without the number, as
+/// the paper has it.
 [[nodiscard]] std::vector<ImageSlot> RankNextImages(const MappingState& state,
-                                                    std::span<const uint32_t> min_visible);
+                                                    std::span<const uint32_t> min_visible,
+                                                    bool by_score_alone = false);
 
 }  // namespace orbweave

@@ -11,6 +11,7 @@
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/reconstruct_component.h"
+#include "core/mapping/weigh_pixels_alike.h"
 
 namespace orbweave {
 namespace {
@@ -67,6 +68,10 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
                                                          const MappingOptions& options,
                                                          const StageContext& context) {
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  if (ScheduleOf(options).weighs_pixels_alike) {
+    if (const auto alike = WeighPixelsAlike(problem))
+      return ReconstructCluster(*alike, options, context);
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(const CorrespondenceGraph graph, BuildCorrespondenceGraph(problem));
   std::vector<uint8_t> available(problem.images.size(), 1);
   std::vector<std::string> reasons(problem.images.size());

@@ -51,7 +51,12 @@ struct MappingOptions {
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("preset", self.preset, "orbweave, or the paper's own schedule for comparisons");
+    visit(
+        "preset",
+        self.preset,
+        "orbweave, or the paper's own workflow for comparisons: then two_view.solver=eight_point, "
+        "bundle.residual=erp_px and others are the defaults of a command (to see all: orbweave "
+        "options --set mapping.preset=paper); what is set by --set or --config counts");
     visit(
         "start",
         self.start,

@@ -95,5 +95,22 @@ TEST(FindSeedPairs, PaperRanksTheFirstImageByItsMatches) {
   EXPECT_EQ(Find(problem, options).front(), Pair(2, 4));
 }
 
+TEST(FindSeedPairs, PaperTakesTheRuleAsPrinted) {
+  ClusterProblem problem = ProblemOfImages(6);
+  AddPair(problem, 0, 1, 220, 20.0);
+  AddPair(problem, 0, 2, 300, 10.0);                        // not the angle
+  AddPair(problem, 0, 3, 100, 30.0);                        // not more than 100
+  AddPair(problem, 0, 4, 240, 20.0, TwoViewKind::kPlanar);  // a plane is a pair as others are
+  AddPair(problem, 4, 5, 300, 20.0);
+  MappingOptions options;
+  options.preset = MappingPreset::kPaper;
+  const std::vector<ImagePair> found = Find(problem, options);
+  ASSERT_GE(found.size(), 3U);
+  // Image 0 has 860 matches and comes first, image 4 has 540.
+  EXPECT_EQ(found[0], Pair(0, 4));
+  EXPECT_EQ(found[1], Pair(0, 1));
+  EXPECT_EQ(found[2], Pair(4, 5));
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -48,6 +48,10 @@ TEST(RankNextImages, TakesTheNeighbourBeforeALookAlike) {
   const auto look_alike = std::ranges::find(ranked, 29U);
   ASSERT_NE(look_alike, ranked.end());
   EXPECT_LT(neighbour, look_alike);
+  // By score alone, as the paper has it, it is the other way round.
+  const std::vector<ImageSlot> by_score =
+      RankNextImages(state, std::vector<uint32_t>(30, 20), true);
+  EXPECT_GT(std::ranges::find(by_score, 9U), std::ranges::find(by_score, 29U));
 }
 
 TEST(RankNextImages, LeavesOutRegisteredAndBlindImages) {

@@ -312,6 +312,34 @@ TEST(ReconstructCluster, PaperPresetReconstructsToo) {
   EXPECT_EQ(result.components[0].images.size(), 12U);
 }
 
+TEST(ReconstructCluster, PaperPresetAdjustsLocallyOnceMoreThanThreeImagesAreNew) {
+  const RayStreet world = MakeStreet({.centres = StraightWalk(12, 3.0), .points_per_metre = 20});
+  // Nothing but the end adjusts globally: 10 images after the seed, local adjustments at 4 and 8.
+  MappingOptions options = {.preset = MappingPreset::kPaper, .global_growth = 10.0};
+  const ClusterReconstruction result = Reconstruct(world, options);
+  ASSERT_EQ(result.components.size(), 1U);
+  EXPECT_EQ(result.num_local_adjustments, 2);
+}
+
+TEST(ReconstructCluster, PaperPresetWeighsAndLimitsPixelsAlike) {
+  RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0), .points_per_metre = 20});
+  for (ClusterImage& image : world.problem.images) {
+    for (size_t i = 0; i < image.sigma_rad.size(); i += 2) image.sigma_rad[i] *= 4.0F;
+  }
+  MappingOptions options;
+  const ClusterReconstruction ours = Reconstruct(world, options);
+  options.preset = MappingPreset::kPaper;
+  const ClusterReconstruction paper = Reconstruct(world, options);
+  ASSERT_EQ(paper.components.size(), 1U);
+  for (const Track& track : paper.components[0].tracks) {
+    for (const Observation& seen : track.observations)
+      EXPECT_FLOAT_EQ(static_cast<float>(seen.sigma_rad),
+                      static_cast<float>(kStreetCamera.AngleFromPixels(1.0)));
+  }
+  // Errors of up to 4 px stay, and so do points of two observations.
+  EXPECT_GE(paper.components[0].tracks.size(), ours.components[0].tracks.size());
+}
+
 TEST(ReconstructCluster, GivesTheSameBytesForAnyThreadCount) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0), .outlier_share = 0.05});
   const auto one = ReconstructCluster(world.problem, {}, {.num_threads = 1, .seed = 3}).value();
