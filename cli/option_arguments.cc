@@ -3,6 +3,7 @@
 #include "cli/option_arguments.h"
 
 #include "core/io/file.h"
+#include "core/stages/preset_options.h"
 
 namespace orbweave {
 
@@ -15,15 +16,11 @@ void AddOptionArguments(CLI::App& command, OptionArguments& arguments) {
 }
 
 absl::StatusOr<PipelineOptions> ReadOptions(const OptionArguments& arguments) {
-  PipelineOptions options;
+  std::string text;
   if (!arguments.config.empty()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(arguments.config));
-    ORBWEAVE_ASSIGN_OR_RETURN(options, PipelineOptionsFromText(text, arguments.config));
+    ORBWEAVE_ASSIGN_OR_RETURN(text, ReadFile(arguments.config));
   }
-  for (const std::string& assignment : arguments.sets) {
-    ORBWEAVE_RETURN_IF_ERROR(SetPipelineOption(options, assignment));
-  }
-  return options;
+  return OptionsOverPreset(text, arguments.config, arguments.sets);
 }
 
 }  // namespace orbweave

@@ -18,8 +18,8 @@ struct OptionArguments {
 
 void AddOptionArguments(CLI::App& command, OptionArguments& arguments);
 
-/// Defaults, then the file, then --set. InvalidArgument names option, line and the nearest right
-/// name.
+/// Defaults of the preset that is chosen, then the file, then --set. InvalidArgument names option,
+/// line and the nearest right name.
 [[nodiscard]] absl::StatusOr<PipelineOptions> ReadOptions(const OptionArguments& arguments);
 
 }  // namespace orbweave

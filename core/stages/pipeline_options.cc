@@ -56,8 +56,8 @@ absl::Status SetPipelineOption(PipelineOptions& options, std::string_view assign
 }
 
 absl::StatusOr<PipelineOptions> PipelineOptionsFromText(std::string_view text,
-                                                        std::string_view source) {
-  PipelineOptions options;
+                                                        std::string_view source,
+                                                        PipelineOptions options) {
   int line_number = 0;
   for (const absl::string_view raw :
        absl::StrSplit(absl::string_view(text.data(), text.size()), '\n')) {

@@ -68,8 +68,9 @@ struct PipelineOptions {
 [[nodiscard]] absl::Status SetPipelineOption(PipelineOptions& options, std::string_view assignment);
 
 /// Reads options from lines of "section.key=value"; blank lines and lines beginning with '#' are
-/// skipped. `source` names the text in errors. Sections may be missing: defaults.
+/// skipped. `source` names the text in errors. What is missing stays as in `options`.
 [[nodiscard]] absl::StatusOr<PipelineOptions> PipelineOptionsFromText(std::string_view text,
-                                                                      std::string_view source);
+                                                                      std::string_view source,
+                                                                      PipelineOptions options = {});
 
 }  // namespace orbweave
