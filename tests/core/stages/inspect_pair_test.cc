@@ -27,13 +27,14 @@ Features FeaturesOf(const std::vector<Eigen::Vector3d>& bearings) {
 }
 
 PairInspection Inspect(const testing::TwoViewWorld& world,
-                       const std::optional<TwoViewGeometry>& verified = {}) {
+                       const std::optional<TwoViewGeometry>& verified = {},
+                       const TwoViewOptions& options = {}) {
   const Features a = FeaturesOf(world.bearings_a);
   const Features b = FeaturesOf(world.bearings_b);
   std::vector<FeatureMatch> matches;
   for (uint32_t i = 0; i < a.size(); ++i) matches.push_back({i, i});
-  const auto inspection =
-      InspectPair(kPair, {a, BearingsOf(a)}, {b, BearingsOf(b)}, matches, verified, {}, {}, {});
+  const auto inspection = InspectPair(
+      kPair, {a, BearingsOf(a)}, {b, BearingsOf(b)}, matches, verified, {}, options, {});
   EXPECT_TRUE(inspection.ok()) << inspection.status();
   return *inspection;
 }
@@ -49,13 +50,13 @@ TEST(InspectPair, WhatMatchingWouldAcceptIsVerified) {
   EXPECT_GT(inspection.spread_in_b, 0.5);
 }
 
-TEST(InspectPair, TooFewInliersAreShownAndRejected) {
-  // 12 right ones of 60: fewer than the options ask for.
-  const testing::TwoViewWorld world = testing::MakeTwoViewWorld(2, 60, 0.8, kSigmaRad);
-  const PairInspection inspection = Inspect(world);
+TEST(InspectPair, FewerInliersThanAskedForAreShownAndRejected) {
+  const testing::TwoViewWorld world = testing::MakeTwoViewWorld(2, 60, 0.3, kSigmaRad);
+  const PairInspection inspection = Inspect(world, {}, {.min_inliers = 55});
   EXPECT_EQ(inspection.verdict, PairVerdict::kRejected);
-  EXPECT_GE(inspection.geometry.inliers.size(), 8U);
-  EXPECT_NE(inspection.geometry.kind, TwoViewKind::kNone);
+  EXPECT_GE(inspection.geometry.inliers.size(), 30U);
+  EXPECT_LT(inspection.geometry.inliers.size(), 55U);
+  EXPECT_EQ(inspection.geometry.kind, TwoViewKind::kGeneral);
 }
 
 TEST(InspectPair, AHandfulOfMatchesHasNoGeometry) {
