@@ -28,6 +28,7 @@ absl::StatusOr<TwoViewGeometry> BestGeometry(ImagePair pair,
                                              const StageContext& context) {
   options.min_inliers = kFewestInliers;
   options.min_inlier_share = 0.0;
+  options.max_log10_false_alarms = 1000.0;
   const double max_error_rad = std::max(a.features.camera.AngleFromPixels(options.max_error_px),
                                         b.features.camera.AngleFromPixels(options.max_error_px));
   return EstimateTwoView(pair, a.bearings, b.bearings, putative, max_error_rad, options, context);

@@ -11,7 +11,7 @@ namespace {
 
 /// Sections 3 to 5 of the paper; docs/benchmarks.md says what each stands for. A stage that learns
 /// something the paper does not have gets a line here that turns it off.
-constexpr std::array<std::string_view, 16> kPaper = {
+constexpr std::array<std::string_view, 17> kPaper = {
     "mapping.preset=paper",
     "features.max_features=8192",
     "pairs.gnss_max_neighbours=10000",
@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 16> kPaper = {
     "matching.guided=false",
     "two_view.solver=eight_point",
     "two_view.min_inliers=15",
+    "two_view.max_log10_false_alarms=1000",
     "view_graph.min_closing_share=0",
     "partition.cluster_size=0",
     "partition.min_clusters=1",
