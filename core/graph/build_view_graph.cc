@@ -64,7 +64,8 @@ class TriangleLedger {
       const TriangleCount& count = counts_[worst];
       dropped.push_back({edges_[worst].pair,
                          std::to_string(count.total - count.closing) + " of " +
-                             std::to_string(count.total) + " triplets do not close"});
+                             std::to_string(count.total) + " triplets do not close",
+                         DropCause::kTriplets});
       Remove(worst);
     }
   }

@@ -24,7 +24,7 @@ constexpr size_t kWitnesses = 4;
 constexpr double kMaxTriplet_rad = 3.0 * std::numbers::pi / 180.0;
 
 // Inliers of a pair over those of a nearer one, where both see the same; what chance may do.
-constexpr uint32_t kMoreInliers = 2;
+constexpr double kMoreInliers = 1.5;
 
 using Sequence = std::vector<uint32_t>;
 

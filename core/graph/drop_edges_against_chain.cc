@@ -22,10 +22,10 @@ constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kDepthWander = 0.1;
 // Drift of directions, radians: ten times that of rotations, for steps of little parallax.
 constexpr double kDrift_rad = 0.1;
-// The points of a wide pair are so much deeper than those of neighbours.
-constexpr double kDeeper = 4.0;
-// Half a depth: what directions of short steps may be off in all.
-constexpr double kSlack = 0.5;
+// The points of a pair may be so much deeper than those of neighbours around.
+constexpr double kDeeper = 2.0;
+// Depths that a pair is off where nothing is wrong: panoramas that turn on the spot.
+constexpr double kSlack = 0.3;
 constexpr double kTurn_deg = 15.0;
 constexpr double kTurnPerRootStep_deg = 0.5;
 constexpr double kNearSigmas = 3.0;
@@ -86,7 +86,7 @@ EdgesByChain DropEdgesAgainstChain(const std::vector<ViewEdge>& edges,
     if (fault.empty()) {
       result.kept.push_back(edge);
     } else {
-      result.dropped.push_back({edge.pair, std::move(fault)});
+      result.dropped.push_back({edge.pair, std::move(fault), DropCause::kSequence});
     }
   }
   return result;

@@ -22,9 +22,9 @@ struct EdgesByChain {
 /// each other by up to f^2 either way, f = exp(0.1 (1 + sqrt n)): their logarithm wanders by a
 /// tenth a step. When for some direction u even the depths that suit the edge best leave
 ///
-///   sum_k (u . v_k > 0 ? 1 / f : f) u . v_k - 0.1 sum_k |v_k| - max(0, 4 l u . e)
+///   sum_k (u . v_k > 0 ? 1 / f : f) u . v_k - 0.1 sum_k |v_k| - max(0, 2 l u . e)
 ///
-/// above half a depth, no depths bring the drive to where the edge wants it (0.1 rad: drift of
+/// above 0.3 depths, no depths bring the drive to where the edge wants it (0.1 rad: drift of
 /// directions): it is dropped. A drive that comes back has as much behind it as before it along
 /// every u, and keeps its edges. Of edges among neighbours that may see far (MaySeeFar) only
 /// those that point against the way are dropped. So is an edge that turns otherwise

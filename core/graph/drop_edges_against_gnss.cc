@@ -22,6 +22,8 @@ struct Slack {
 };
 constexpr Slack kNear = {3.0, 1.5, 1.0};
 constexpr Slack kFar = {8.0, 2.5, 3.0};
+/// kFar where positions show that they err no more than they say: by chance one in 300,000.
+constexpr Slack kFarAndSmooth = {5.0, 2.5, 3.0};
 
 /// What GNSS says of an edge.
 struct Separation {
@@ -45,17 +47,36 @@ double BaselineOverDepth(const ViewEdge& edge) {
   return 2.0 * std::tan(edge.median_angle_rad / 2.0);
 }
 
-/// nullopt where no edge is long enough to tell.
-std::optional<double> MedianDepth(const std::vector<ViewEdge>& edges,
-                                  const ImageManifest& manifest) {
+/// Neighbours in the sequence of one drive.
+constexpr uint32_t kSequenceSteps = 5;
+
+bool IsInSequence(const ImagePair& pair, const ImageManifest& manifest) {
+  return pair.b.value - pair.a.value <= kSequenceSteps &&
+         manifest.At(pair.a).drive == manifest.At(pair.b).drive;
+}
+
+/// Depths of the scene that edges and positions say together.
+std::vector<double> Depths(const std::vector<ViewEdge>& edges,
+                           const ImageManifest& manifest,
+                           bool in_sequence) {
   std::vector<double> depths_m;
   for (const ViewEdge& edge : edges) {
+    if (in_sequence && !IsInSequence(edge.pair, manifest)) continue;
     const std::optional<Separation> separation = SeparationOf(edge, manifest);
     const double ratio = BaselineOverDepth(edge);
     if (!separation || !(ratio > 0.0) || ratio >= kNear.max_ratio) continue;
     if (separation->distance_m < separation->sigma_m) continue;
     depths_m.push_back(separation->distance_m / ratio);
   }
+  return depths_m;
+}
+
+/// By neighbours in the sequence, where enough of them tell; nullopt where no edge does.
+std::optional<double> MedianDepth(const std::vector<ViewEdge>& edges,
+                                  const ImageManifest& manifest) {
+  constexpr size_t kEnough = 10;
+  std::vector<double> depths_m = Depths(edges, manifest, true);
+  if (depths_m.size() < kEnough) depths_m = Depths(edges, manifest, false);
   if (depths_m.empty()) return std::nullopt;
   const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
   std::nth_element(depths_m.begin(), middle, depths_m.end());
@@ -71,7 +92,7 @@ bool IsWithin(const Slack& slack,
          slack.sigmas * separation.sigma_m + slack.baselines * depth_m * ratio;
 }
 
-enum class Opinion : uint8_t { kNone, kAgrees, kDisagrees };
+enum class Opinion : uint8_t { kNone, kAgrees, kDoubts, kDisagrees };
 
 /// What GNSS thinks of each edge.
 std::vector<Opinion> FormOpinions(const std::vector<ViewEdge>& edges,
@@ -83,38 +104,35 @@ std::vector<Opinion> FormOpinions(const std::vector<ViewEdge>& edges,
     const std::optional<Separation> separation = SeparationOf(edges[e], manifest);
     if (!separation) continue;
     if (IsWithin(kNear, *separation, edges[e], *depth_m)) opinions[e] = Opinion::kAgrees;
+    if (!IsWithin(kFarAndSmooth, *separation, edges[e], *depth_m)) opinions[e] = Opinion::kDoubts;
     if (!IsWithin(kFar, *separation, edges[e], *depth_m)) opinions[e] = Opinion::kDisagrees;
   }
   return opinions;
 }
 
-/// Neighbours in the sequence of one drive.
-constexpr uint32_t kSequenceSteps = 5;
-
-bool IsInSequence(const ImagePair& pair, const ImageManifest& manifest) {
-  return pair.b.value - pair.a.value <= kSequenceSteps &&
-         manifest.At(pair.a).drive == manifest.At(pair.b).drive;
-}
-
 /// Edges that GNSS disagrees with count against the others.
-struct Balance {
-  int votes = 0;
-  int balance = 0;
+struct Votes {
+  int all = 0;
+  int agreeing = 0;
+  int disagreeing = 0;
 
   void Add(Opinion opinion) {
-    ++votes;
-    balance += opinion == Opinion::kDisagrees ? -1 : 1;
+    ++all;
+    agreeing += opinion == Opinion::kAgrees ? 1 : 0;
+    disagreeing += opinion == Opinion::kDisagrees ? 1 : 0;
   }
 };
 
-/// Per image: whether GNSS disagrees with half or less of its edges to neighbours in the sequence,
-/// where there are two or more, else of all its edges. Look-alikes may be many; neighbours they are
-/// not.
-std::vector<uint8_t> FindTrusted(const std::vector<ViewEdge>& edges,
-                                 const std::vector<Opinion>& opinions,
-                                 const ImageManifest& manifest) {
-  std::vector<Balance> all(manifest.images.size());
-  std::vector<Balance> in_sequence(manifest.images.size());
+enum class Trust : uint8_t { kNone, kUsual, kSmooth };
+
+/// Per image: none where GNSS disagrees with more than half of its edges to neighbours in the
+/// sequence, where there are two or more, else of all its edges; smooth where it agrees with every
+/// such neighbour. Look-alikes may be many; neighbours they are not.
+std::vector<Trust> FindTrust(const std::vector<ViewEdge>& edges,
+                             const std::vector<Opinion>& opinions,
+                             const ImageManifest& manifest) {
+  std::vector<Votes> all(manifest.images.size());
+  std::vector<Votes> in_sequence(manifest.images.size());
   for (size_t e = 0; e < edges.size(); ++e) {
     if (edges[e].kind == TwoViewKind::kNone) continue;
     const bool is_in_sequence = IsInSequence(edges[e].pair, manifest);
@@ -123,12 +141,20 @@ std::vector<uint8_t> FindTrusted(const std::vector<ViewEdge>& edges,
       if (is_in_sequence) in_sequence[image.value].Add(opinions[e]);
     }
   }
-  std::vector<uint8_t> trusted(manifest.images.size(), 0);
-  for (size_t i = 0; i < trusted.size(); ++i) {
-    const Balance& balance = in_sequence[i].votes >= 2 ? in_sequence[i] : all[i];
-    trusted[i] = balance.balance >= 0 ? 1 : 0;
+  std::vector<Trust> trust(manifest.images.size(), Trust::kNone);
+  for (size_t i = 0; i < trust.size(); ++i) {
+    const bool has_neighbours = in_sequence[i].all >= 2;
+    const Votes& votes = has_neighbours ? in_sequence[i] : all[i];
+    if (2 * votes.disagreeing <= votes.all) trust[i] = Trust::kUsual;
+    if (has_neighbours && votes.agreeing == votes.all) trust[i] = Trust::kSmooth;
   }
-  return trusted;
+  return trust;
+}
+
+/// Whether GNSS speaks against an edge of two images that it is trusted with so far.
+bool SpeaksAgainst(Opinion opinion, Trust a, Trust b) {
+  if (opinion == Opinion::kDoubts) return a == Trust::kSmooth && b == Trust::kSmooth;
+  return opinion == Opinion::kDisagrees && a != Trust::kNone && b != Trust::kNone;
 }
 
 }  // namespace
@@ -136,7 +162,7 @@ std::vector<uint8_t> FindTrusted(const std::vector<ViewEdge>& edges,
 EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest) {
   const std::vector<Opinion> opinions = FormOpinions(edges, manifest);
-  const std::vector<uint8_t> trusted = FindTrusted(edges, opinions, manifest);
+  const std::vector<Trust> trust = FindTrust(edges, opinions, manifest);
   DisjointSets joined(static_cast<uint32_t>(manifest.images.size()));
   for (size_t e = 0; e < edges.size(); ++e) {
     if (opinions[e] == Opinion::kAgrees) joined.Unite(edges[e].pair.a.value, edges[e].pair.b.value);
@@ -144,15 +170,16 @@ EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
   EdgesByGnss result;
   for (size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
-    const bool is_wrong = opinions[e] == Opinion::kDisagrees && trusted[a.value] != 0 &&
-                          trusted[b.value] != 0 && joined.Find(a.value) == joined.Find(b.value);
+    const bool is_wrong = SpeaksAgainst(opinions[e], trust[a.value], trust[b.value]) &&
+                          joined.Find(a.value) == joined.Find(b.value);
     if (!is_wrong) {
       result.kept.push_back(edges[e]);
       continue;
     }
     const auto metres = std::lround(SeparationOf(edges[e], manifest)->distance_m);
-    result.dropped.push_back(
-        {edges[e].pair, "GNSS puts its images " + std::to_string(metres) + " m apart"});
+    result.dropped.push_back({edges[e].pair,
+                              "GNSS puts its images " + std::to_string(metres) + " m apart",
+                              DropCause::kGnss});
   }
   return result;
 }

@@ -17,15 +17,17 @@ struct EdgesByGnss {
 /// Edges without those that join places that look alike though GNSS knows them apart.
 ///
 /// Rays that meet under an angle alpha (median of the edge) start from a baseline of 2 d tan(alpha
-/// / 2), where d is the depth of the scene: the median over edges whose positions are
-/// further apart than GNSS errs. An edge disagrees when its positions are more than 8 standard
-/// deviations plus 2.5 such baselines apart; it agrees within 3 and 1.5. Positions may be wrong, so
-/// that an edge is dropped only when at both of its images GNSS disagrees with half or less of the
-/// edges to neighbours in the sequence (up to 5 ids of the same drive; where there are less than
-/// two of all edges), and edges that agree join its images. Positions that are smooth along the
-/// sequence are thus believed whatever the number of look-alikes; a single position that is off is
-/// not, and a stretch of positions that jumped together, which agrees with nothing that joins it to
-/// the rest, loses no edge. Edges without geometry and of images without a position stay.
+/// / 2), where d is the depth of the scene: the median over edges of neighbours in the
+/// sequence (of all, where these are few) whose positions are further apart than GNSS errs. An edge
+/// disagrees when its positions are more than 8 standard deviations plus 2.5 such baselines apart
+/// (5 and 2.5 where positions of both images agree with all their neighbours in the sequence); it
+/// agrees within 3 and 1.5. Positions may be wrong, so that an edge is dropped only when at both of
+/// its images GNSS disagrees with half or less of the edges to neighbours in the sequence (up to 5
+/// ids of the same drive; where there are less than two of all edges), and edges that agree join
+/// its images. Positions that are smooth along the sequence are thus believed whatever the number
+/// of look-alikes; a single position that is off is not, and a stretch of positions that jumped
+/// together, which agrees with nothing that joins it to the rest, loses no edge. Edges without
+/// geometry and of images without a position stay.
 [[nodiscard]] EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                                const ImageManifest& manifest);
 

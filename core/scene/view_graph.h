@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,19 @@ struct ViewGraph {
   std::vector<ViewEdge> edges{};
 };
 
+/// What spoke against an edge.
+enum class DropCause : uint8_t {
+  kGeometry = 0,  ///< it has none, or another edge of the pair is better
+  kTriplets = 1,
+  kGnss = 2,
+  kSequence = 3,  ///< the drive between its images
+};
+
 /// An edge that was dropped, and why ("3 of 3 triplets do not close").
 struct DroppedEdge {
   ImagePair pair{};
   std::string reason{};
+  DropCause cause = DropCause::kGeometry;
 };
 
 /// Overlapping clusters of images. Every image of `graph` with an edge is interior to exactly one
@@ -44,6 +54,7 @@ struct Seam {
   uint32_t cluster_a = 0;  ///< < cluster_b
   uint32_t cluster_b = 0;
   std::vector<ImageId> shared{};  ///< images in both
+  std::string weakness{};         ///< why it may not hold, as far as pairs tell; empty: it holds
 };
 
 struct Partition {

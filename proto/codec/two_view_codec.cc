@@ -80,12 +80,14 @@ std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
     out->set_cluster_a(seam.cluster_a);
     out->set_cluster_b(seam.cluster_b);
     out->set_shared(codec::Pack(seam.shared));
+    out->set_weakness(seam.weakness);
   }
   for (const DroppedEdge& edge : divided.dropped) {
     v1::DroppedEdge* out = proto.add_dropped();
     out->set_a(edge.pair.a.value);
     out->set_b(edge.pair.b.value);
     out->set_reason(edge.reason);
+    out->set_cause(static_cast<uint32_t>(edge.cause));
   }
   proto.set_edges(codec::Pack(divided.edges));
   return proto.SerializeAsString();
@@ -104,10 +106,14 @@ absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) 
   for (const v1::Seam& in : proto.seams()) {
     Seam seam{.cluster_a = in.cluster_a(), .cluster_b = in.cluster_b()};
     ORBWEAVE_ASSIGN_OR_RETURN(seam.shared, codec::Unpack<ImageId>(in.shared(), "seam"));
+    seam.weakness = in.weakness();
     divided.partition.seams.push_back(std::move(seam));
   }
   for (const v1::DroppedEdge& in : proto.dropped()) {
-    divided.dropped.push_back({{ImageId(in.a()), ImageId(in.b())}, in.reason()});
+    if (in.cause() > static_cast<uint32_t>(DropCause::kSequence))
+      return absl::InvalidArgumentError("partition: an edge dropped for an unknown cause");
+    divided.dropped.push_back(
+        {{ImageId(in.a()), ImageId(in.b())}, in.reason(), static_cast<DropCause>(in.cause())});
   }
   ORBWEAVE_ASSIGN_OR_RETURN(divided.edges, codec::Unpack<ImagePair>(proto.edges(), "edges"));
   return divided;

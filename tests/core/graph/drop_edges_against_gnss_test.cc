@@ -57,6 +57,27 @@ TEST(DropEdgesAgainstGnss, DropsPlacesThatLookAlikeAndNothingElse) {
   EXPECT_TRUE(result.dropped[0].reason.starts_with("GNSS puts its images "));
 }
 
+TEST(DropEdgesAgainstGnss, BelievesASmoothSequenceBeforeACountOfLookAlikes) {
+  std::vector<ViewEdge> edges = StraightDrive(60);
+  const size_t right = edges.size();
+  for (uint32_t a = 0; a < 60; ++a) {
+    for (uint32_t b = a + 20; b < 60; ++b) edges.push_back(EdgeOver(a, b, 1.0));
+  }
+  ASSERT_GT(edges.size(), 2 * right);
+  EXPECT_EQ(DropEdgesAgainstGnss(edges, Manifest(60)).kept.size(), right);
+}
+
+TEST(DropEdgesAgainstGnss, TellsHousesApartWherePositionsProveExact) {
+  std::vector<ViewEdge> edges = StraightDrive(60);
+  const size_t right = edges.size();
+  for (uint32_t a = 0; a + 8 < 60; ++a) edges.push_back(EdgeOver(a, a + 8, 1.0));
+  ImageManifest manifest = Manifest(60);
+  EXPECT_LT(DropEdgesAgainstGnss(edges, manifest).kept.size(), right + 10);
+  for (uint32_t i = 0; i < 60; i += 2)
+    *manifest.images[i].prior.position_in_enu += Eigen::Vector3d(0.0, 25.0, 0.0);
+  EXPECT_GT(DropEdgesAgainstGnss(edges, manifest).kept.size(), right + 30) << "not in zigzags";
+}
+
 TEST(DropEdgesAgainstGnss, KeepsAStretchWhoseGnssJumped) {
   const std::vector<ViewEdge> edges = StraightDrive(60);
   ImageManifest manifest = Manifest(60);
