@@ -39,17 +39,18 @@ MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
     return static_cast<idx_t>(std::lower_bound(piece.images.begin(), piece.images.end(), image) -
                               piece.images.begin());
   };
+  const std::span<const double> cost_of =
+      piece.cut_cost.empty() ? piece.edge_weight : piece.cut_cost;
   double total = 0.0;
   for (const uint32_t image : piece.images) {
-    for (const Adjacency::Link& link : piece.adjacency.Of(image))
-      total += piece.edge_weight[link.edge];
+    for (const Adjacency::Link& link : piece.adjacency.Of(image)) total += cost_of[link.edge];
   }
   const double scale = std::min(1.0, kTotalWeight / total);
   MetisGraph graph;
   for (const uint32_t image : piece.images) {
     for (const Adjacency::Link& link : piece.adjacency.Of(image)) {
       graph.neighbour.push_back(position(link.image));
-      const double weight = std::round(scale * piece.edge_weight[link.edge]);
+      const double weight = std::round(scale * cost_of[link.edge]);
       graph.weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(weight)));
     }
     graph.begin.push_back(static_cast<idx_t>(graph.neighbour.size()));
@@ -60,7 +61,9 @@ MetisGraph ToMetisGraph(const ConnectedPiece& piece) {
 }
 
 // Part of each image of the piece.
-absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts) {
+absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph,
+                                            uint32_t num_parts,
+                                            double unevenness) {
   idx_t num_vertices = static_cast<idx_t>(graph.begin.size() - 1);
   idx_t num_constraints = 1;
   idx_t parts = static_cast<idx_t>(num_parts);
@@ -68,6 +71,7 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph, uint32_t num_parts
   std::array<idx_t, METIS_NOPTIONS> options{};
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_UFACTOR] = static_cast<idx_t>(std::lround(1000.0 * unevenness));
   options[METIS_OPTION_CONTIG] = 1;
   options[METIS_OPTION_NUMBERING] = 0;
   std::vector<idx_t> part(graph.begin.size() - 1, 0);
@@ -221,10 +225,11 @@ class Settlement {
 
 absl::StatusOr<std::vector<std::vector<uint32_t>>> DivideGraph(const ConnectedPiece& piece,
                                                                uint32_t num_parts,
-                                                               uint32_t min_part_size) {
+                                                               uint32_t min_part_size,
+                                                               double unevenness) {
   if (num_parts <= 1) return std::vector<Chunk>{{piece.images.begin(), piece.images.end()}};
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<idx_t> part,
-                            RunMetis(ToMetisGraph(piece), num_parts));
+                            RunMetis(ToMetisGraph(piece), num_parts, unevenness));
   Settlement settlement(piece, StrongChunks(piece, part));
   const size_t half = piece.images.size() / num_parts / 2;
   settlement.Settle(min_part_size, std::max<size_t>(min_part_size, half));

@@ -13,7 +13,7 @@ namespace orbweave {
 
 struct PartitionOptions {
   int cluster_size = 100;
-  int min_clusters = 3;
+  int min_clusters = 1;
   int min_cluster_size = 16;
   int overlap = 12;
   int reviews = 2;
@@ -61,9 +61,13 @@ struct PartitionOptions {
 /// METIS k-way with edge weight = inliers x spread (EdgeWeights) cuts it into parts of
 /// about equal cost (ImageCosts); the interior of every cluster is connected. At every seam images
 /// are then shared, those with the strongest edges to the other side first and alternating between
-/// both sides, until `overlap` are shared or no more are connected. Clusters are sorted by their
-/// smallest interior image. Images without an edge are in no cluster. InvalidArgument when an edge
-/// names an image that does not exist, Internal when METIS fails.
+/// both sides, until `overlap` are shared or no more are connected. Where clusters hang together by
+/// seams alone that should not hold (ForecastSeam), the images shared there are made dear to part
+/// and the division is repeated, up to three times; then such clusters are joined as long as they
+/// have no more than 2.4 times cluster_size images. A cut that is left says why it is weak
+/// (Seam::weakness). Clusters are sorted by their smallest interior image. Images without an edge
+/// are in no cluster. InvalidArgument when an edge names an image that does not exist, Internal
+/// when METIS fails.
 [[nodiscard]] absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
                                                            const PartitionOptions& options);
 

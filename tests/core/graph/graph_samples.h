@@ -11,7 +11,10 @@
 namespace orbweave {
 
 inline ViewEdge Edge(uint32_t a, uint32_t b, uint32_t num_inliers = 100) {
-  return {.pair = MakePair(ImageId(a), ImageId(b)), .num_inliers = num_inliers, .spread = 0.5};
+  return {.pair = MakePair(ImageId(a), ImageId(b)),
+          .num_inliers = num_inliers,
+          .median_angle_rad = 0.2,
+          .spread = 0.5};
 }
 
 /// A drive: every image is joined to the `window` following ones, the nearer the stronger.

@@ -84,7 +84,7 @@ void ExpectLawful(const ViewGraph& graph,
 }
 
 TEST(PartitionViewGraph, LeavesASmallJobInOneCluster) {
-  for (const uint32_t n : {2, 11, 30, 31}) {
+  for (const uint32_t n : {2, 11, 48, 140}) {
     const Partition partition = Divided(Street(n, 10));
     ASSERT_EQ(partition.clusters.size(), 1U) << n;
     EXPECT_EQ(partition.clusters[0].images.size(), n);
@@ -94,7 +94,7 @@ TEST(PartitionViewGraph, LeavesASmallJobInOneCluster) {
 
 TEST(PartitionViewGraph, DividesALoopOf48IntoThreeClustersInARing) {
   const ViewGraph loop = Loop(48, 10);
-  const Partition partition = Divided(loop);
+  const Partition partition = Divided(loop, {.min_clusters = 3});
   EXPECT_EQ(partition.clusters.size(), 3U);
   EXPECT_EQ(partition.seams.size(), 3U);
   ExpectLawful(loop, partition, {});
@@ -152,13 +152,48 @@ TEST(PartitionViewGraph, LeavesOutImagesWithoutAnEdge) {
 
 TEST(PartitionViewGraph, KeepsChainsLawful) {
   const ViewGraph chain = Street(64, 1);
-  const Partition partition = Divided(chain);
+  const Partition partition = Divided(chain, {.min_clusters = 3});
   EXPECT_EQ(partition.clusters.size(), 3U);
   ExpectLawful(chain, partition, {});
 }
 
 TEST(PartitionViewGraph, DoesNotDivideWhenToldNotTo) {
   EXPECT_EQ(Divided(Street(500, 5), {.cluster_size = 0}).clusters.size(), 1U);
+}
+
+/// A street of which no pair across these places has more than so many inliers.
+ViewGraph Thinned(ViewGraph street, const std::set<uint32_t>& places, uint32_t num_inliers) {
+  for (ViewEdge& edge : street.edges) {
+    const auto place = places.upper_bound(edge.pair.a.value);
+    if (place != places.end() && *place <= edge.pair.b.value) edge.num_inliers = num_inliers;
+  }
+  return street;
+}
+
+TEST(PartitionViewGraph, CutsBesideAPlaceWhereNoSeamWouldHold) {
+  const ViewGraph street = Thinned(Street(200, 6), {100}, 2);
+  const PartitionOptions options{.cluster_size = 50};
+  const Partition partition = Divided(street, options);
+  EXPECT_GE(partition.clusters.size(), 3U);
+  ExpectLawful(street, partition, options);
+  for (const Seam& seam : partition.seams) EXPECT_EQ(seam.weakness, "");
+  for (const Cluster& cluster : partition.clusters) {
+    EXPECT_EQ(std::ranges::binary_search(cluster.interior, ImageId(99)),
+              std::ranges::binary_search(cluster.interior, ImageId(100)));
+  }
+}
+
+TEST(PartitionViewGraph, LetsAClusterGrowRatherThanCutWhereNothingHolds) {
+  std::set<uint32_t> everywhere;
+  for (uint32_t i = 1; i < 100; ++i) everywhere.insert(i);
+  const ViewGraph street = Thinned(Street(100, 3), everywhere, 4);
+  EXPECT_EQ(Divided(street, {.cluster_size = 50}).clusters.size(), 1U);
+  const Partition partition = Divided(street, {.cluster_size = 25});
+  EXPECT_EQ(partition.clusters.size(), 2U);
+  ASSERT_EQ(partition.seams.size(), 1U) << "four times the size is too much";
+  EXPECT_NE(partition.seams[0].weakness.find("shared images have pairs enough on both sides"),
+            std::string::npos)
+      << partition.seams[0].weakness;
 }
 
 TEST(PartitionViewGraph, GivesTheSameAnswerTwice) {
