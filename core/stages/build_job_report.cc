@@ -11,6 +11,7 @@
 #include "core/merging/quantile.h"
 #include "core/stages/check_contradicted_pairs.h"
 #include "core/stages/check_job.h"
+#include "core/stages/check_look_alikes.h"
 #include "core/stages/check_residual_patterns.h"
 #include "core/stages/judge_model.h"
 #include "core/stages/list_missing_images.h"
@@ -94,6 +95,16 @@ void TellReviews(const PartitionReview& review, JobReport& report) {
                               std::to_string(request.cluster_b) +
                               " were reconstructed again with up to " +
                               std::to_string(request.images) + " shared images: " + request.reason);
+  }
+}
+
+/// Cuts that were made where pairs leave little hope for the seam.
+void TellWeakCuts(const Partition& partition, JobReport& report) {
+  for (const Seam& seam : partition.seams) {
+    if (seam.weakness.empty()) continue;
+    report.warnings.push_back("clusters " + std::to_string(seam.cluster_a) + " and " +
+                              std::to_string(seam.cluster_b) +
+                              " are divided where the seam may not hold: " + seam.weakness);
   }
 }
 
@@ -285,6 +296,8 @@ JobReport BuildJobReport(const JobResults& results) {
   report.warnings = results.manifest.warnings;
   ListMissingImages(results, report);
   TellReviews(results.review, report);
+  TellWeakCuts(results.view_graph.partition, report);
+  report.checks.push_back(CheckLookAlikes(results));
   if (!results.models.empty()) {
     const AdjustedModel& main = results.models.front();
     report.gnss = GnssRow(main.report.gnss);
