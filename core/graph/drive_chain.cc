@@ -151,38 +151,44 @@ DriveChain::DriveChain(const std::vector<ViewEdge>& edges, const ImageManifest& 
       for (size_t q = p + 1; q <= last; ++q) {
         const ViewEdge* const step = index.Find(sequence[p], sequence[q]);
         if (step == nullptr || !IsConfirmed(index, sequence, p, q)) continue;
-        Append(*step);
+        const ImageId from(sequence[p]);
+        Append(from,
+               ImageId(sequence[q]),
+               step->pair.a == from ? step->b_from_a : step->b_from_a.Inverse(),
+               BaselineOverDepth(*step));
         break;
       }
     }
   }
 }
 
-void DriveChain::Append(const ViewEdge& step) {
-  const Place& from = places_[step.pair.a.value];
-  Place& to = places_[step.pair.b.value];
-  if (to.step > 0) return;  // an image that was passed by goes on to where others came
-  const double length = BaselineOverDepth(step);
-  const Eigen::Vector3d moved = from.stretch_from_cam * step.b_from_a.Centre().normalized();
-  to = from;
-  ++to.step;
-  to.stretch_from_cam = (from.stretch_from_cam * step.b_from_a.rotation.conjugate()).normalized();
+void DriveChain::Append(ImageId from, ImageId to, const Rigid3& next_from_cam, double length) {
+  const Place& before = places_[from.value];
+  Place& place = places_[to.value];
+  if (place.step > 0) return;  // an image that was passed by goes on to where others came
+  const Eigen::Vector3d moved = before.stretch_from_cam * next_from_cam.Centre().normalized();
+  place = before;
+  ++place.step;
+  place.stretch_from_cam =
+      (before.stretch_from_cam * next_from_cam.rotation.conjugate()).normalized();
   if (length == 0.0) return;
-  to.length += length;
+  place.length += length;
   for (size_t axis = 0; axis < kAxes; ++axis) {
     const double progress = length * Axes()[axis].dot(moved);
-    (progress > 0.0 ? to.forward : to.backward)[axis] += std::abs(progress);
+    (progress > 0.0 ? place.forward : place.backward)[axis] += std::abs(progress);
   }
 }
 
 std::optional<DriveChain::Way> DriveChain::Between(ImageId a, ImageId b) const {
-  const Place& from = places_[a.value];
-  const Place& to = places_[b.value];
-  if (from.stretch == 0 || from.stretch != to.stretch || from.step >= to.step) return std::nullopt;
-  Way way{.steps = to.step - from.step,
+  const bool a_is_first = places_[a.value].step <= places_[b.value].step;
+  const Place& from = places_[a_is_first ? a.value : b.value];
+  const Place& to = places_[a_is_first ? b.value : a.value];
+  if (from.stretch == 0 || from.stretch != to.stretch || from.step == to.step) return std::nullopt;
+  Way way{.first = a_is_first ? a : b,
+          .steps = to.step - from.step,
           .length = to.length - from.length,
-          .b_from_a = to.stretch_from_cam.conjugate() * from.stretch_from_cam,
-          .stretch_from_a = from.stretch_from_cam};
+          .last_from_first = to.stretch_from_cam.conjugate() * from.stretch_from_cam,
+          .stretch_from_first = from.stretch_from_cam};
   for (size_t axis = 0; axis < kAxes; ++axis) {
     way.forward[axis] = to.forward[axis] - from.forward[axis];
     way.backward[axis] = to.backward[axis] - from.backward[axis];
@@ -199,8 +205,11 @@ bool DriveChain::IsInSight(const Sight& sight, uint32_t image, uint32_t num_inli
 
 bool DriveChain::MaySeeFar(const ViewEdge& edge) const {
   const auto [a, b] = edge.pair;
-  return IsInSight(ahead_[a.value], b.value, edge.num_inliers) ||
-         IsInSight(behind_[b.value], a.value, edge.num_inliers);
+  const auto is_seen = [&](const std::vector<Sight>& sights, ImageId from, ImageId to) {
+    return IsInSight(sights[from.value], to.value, edge.num_inliers);
+  };
+  return is_seen(ahead_, a, b) || is_seen(behind_, b, a) || is_seen(ahead_, b, a) ||
+         is_seen(behind_, a, b);
 }
 
 }  // namespace orbweave

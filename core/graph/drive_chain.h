@@ -29,12 +29,13 @@ class DriveChain {
 
   /// What lies between two images of one unbroken stretch, in the frame of the stretch.
   struct Way {
+    ImageId first{};
     uint32_t steps = 0;
-    double length = 0.0;                            ///< sum over steps, in depths
-    std::array<double, kAxes> forward{};            ///< along each axis: sum of what goes forward
-    std::array<double, kAxes> backward{};           ///< and of what goes back, both >= 0
-    Eigen::Quaterniond b_from_a{1, 0, 0, 0};        ///< rotation
-    Eigen::Quaterniond stretch_from_a{1, 0, 0, 0};  ///< rotation
+    double length = 0.0;                                ///< sum over steps, in depths
+    std::array<double, kAxes> forward{};                ///< along each axis: what goes forward
+    std::array<double, kAxes> backward{};               ///< and what goes back, both >= 0
+    Eigen::Quaterniond last_from_first{1, 0, 0, 0};     ///< rotation
+    Eigen::Quaterniond stretch_from_first{1, 0, 0, 0};  ///< rotation
   };
 
   /// Images of a drive follow each other in id order. A step is the strongest edge to the next
@@ -42,7 +43,8 @@ class DriveChain {
   /// leaves no more of them open. Elsewhere a stretch ends: what nothing confirms predicts nothing.
   DriveChain(const std::vector<ViewEdge>& edges, const ImageManifest& manifest);
 
-  /// a < b; nullopt where no unbroken stretch holds both.
+  /// The way from the image that the drive comes to first, whichever it is, to the other; nullopt
+  /// where no unbroken stretch holds both.
   [[nodiscard]] std::optional<Way> Between(ImageId a, ImageId b) const;
 
   /// Whether an edge, true to its length, may join images far apart in depths of what neighbours
@@ -65,7 +67,7 @@ class DriveChain {
   /// that they do not: each with the inliers of the weakest edge so far.
   using Sight = std::vector<std::pair<uint32_t, uint32_t>>;
 
-  void Append(const ViewEdge& step);
+  void Append(ImageId from, ImageId to, const Rigid3& next_from_cam, double length);
   [[nodiscard]] static bool IsInSight(const Sight& sight, uint32_t image, uint32_t num_inliers);
 
   std::vector<Place> places_;

@@ -39,11 +39,13 @@ bool IsNearByGnss(const ImagePair& pair, const ImageManifest& manifest) {
 }
 
 // By how many depths the drive misses the edge at least, for the direction that shows it best.
-double Miss(const DriveChain::Way& way, const ViewEdge& edge, bool may_see_far) {
+double Miss(const DriveChain::Way& way,
+            const Rigid3& last_from_first,
+            double length,
+            bool may_see_far) {
   const double f = std::exp(kDepthWander * (1.0 + std::sqrt(static_cast<double>(way.steps))));
-  const double length = BaselineOverDepth(edge);
   const Eigen::Vector3d direction =
-      length > 0.0 ? Eigen::Vector3d(way.stretch_from_a * edge.b_from_a.Centre().normalized())
+      length > 0.0 ? Eigen::Vector3d(way.stretch_from_first * last_from_first.Centre().normalized())
                    : Eigen::Vector3d::Zero();
   const double longest = may_see_far ? std::numeric_limits<double>::infinity() : kDeeper * length;
   double miss = 0.0;
@@ -63,12 +65,15 @@ double Miss(const DriveChain::Way& way, const ViewEdge& edge, bool may_see_far) 
 std::string FindFault(const DriveChain& chain, const ViewEdge& edge) {
   const std::optional<DriveChain::Way> way = chain.Between(edge.pair.a, edge.pair.b);
   if (!way || way->steps < 2) return "";
+  const Rigid3 last_from_first =
+      way->first == edge.pair.a ? edge.b_from_a : edge.b_from_a.Inverse();
   const double turn_deg =
-      kDegPerRad * RotationAngle(edge.b_from_a.rotation * way->b_from_a.conjugate());
+      kDegPerRad * RotationAngle(last_from_first.rotation * way->last_from_first.conjugate());
   if (turn_deg > kTurn_deg + kTurnPerRootStep_deg * std::sqrt(static_cast<double>(way->steps)))
     return "turns by " + std::to_string(std::lround(turn_deg)) + " degrees against the " +
            std::to_string(way->steps) + " steps of the drive between its images";
-  if (Miss(*way, edge, chain.MaySeeFar(edge)) <= kSlack) return "";
+  if (Miss(*way, last_from_first, BaselineOverDepth(edge), chain.MaySeeFar(edge)) <= kSlack)
+    return "";
   return "the " + std::to_string(way->steps) +
          " steps of the drive between its images do not end where it says";
 }
