@@ -142,17 +142,22 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
   ClusterResult cluster{.cluster = recipe.cluster};
   ORBWEAVE_ASSIGN_OR_RETURN(cluster.reconstruction,
                             ReconstructCluster(problem, options.mapping, context));
+  std::vector<Reconstruction>& components = cluster.reconstruction.components;
+  const size_t grown = components.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      components,
+      JoinComponents(std::move(components), RaysOf(problem), problem.pairs, {}, context));
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeClusterResult(cluster), blobs, result));
   ORBWEAVE_RETURN_IF_ERROR(
       PutOutput(EncodeClusterResult(RimOfCluster(cluster, recipe.shared)), blobs, result));
   size_t registered = 0;
-  for (const Reconstruction& component : cluster.reconstruction.components)
-    registered += component.images.size();
+  for (const Reconstruction& component : components) registered += component.images.size();
   result.report_json = nlohmann::json{{"images", problem.images.size()},
                                       {"registered", registered},
-                                      {"components", cluster.reconstruction.components.size()},
+                                      {"components", components.size()},
+                                      {"joined_components", grown - components.size()},
                                       {"residual_rms_px", cluster.reconstruction.residual_rms_px},
                                       {"started_globally", cluster.reconstruction.started_globally},
                                       {"start_remark", cluster.reconstruction.start_remark}}

@@ -29,4 +29,11 @@ void TakePairs(const ClusterRecipe& recipe,
   });
 }
 
+std::vector<ImageRays> RaysOf(const ClusterProblem& problem) {
+  std::vector<ImageRays> rays;
+  for (const ClusterImage& image : problem.images)
+    rays.push_back({image.id, image.bearings, image.sigma_rad});
+  return rays;
+}
+
 }  // namespace orbweave

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mapping/reconstruct_cluster.h"
+#include "core/merging/join_components.h"
 #include "core/scene/features.h"
 #include "core/stages/recipes.h"
 
@@ -17,5 +18,8 @@ namespace orbweave {
 void TakePairs(const ClusterRecipe& recipe,
                std::vector<TwoViewGeometry> geometries,
                ClusterProblem& problem);
+
+/// The features of a cluster's images. `problem` must outlive it.
+[[nodiscard]] std::vector<ImageRays> RaysOf(const ClusterProblem& problem);
 
 }  // namespace orbweave

@@ -101,11 +101,11 @@ inline Orientated Orientate(const Corridor& corridor, const PartitionOptions& op
   const Partition partition = PartitionViewGraph(graph, options).value();
   std::vector<Submodel> submodels;
   for (uint32_t c = 0; c < partition.clusters.size(); ++c) {
-    ClusterReconstruction cluster =
-        ReconstructCluster(
-            orientate_internal::Problem(corridor, partition.clusters[c], graph, geometries),
-            {},
-            {.seed = c + 1})
+    const ClusterProblem problem =
+        orientate_internal::Problem(corridor, partition.clusters[c], graph, geometries);
+    ClusterReconstruction cluster = ReconstructCluster(problem, {}, {.seed = c + 1}).value();
+    cluster.components =
+        JoinComponents(std::move(cluster.components), RaysOf(problem), problem.pairs, {}, {})
             .value();
     uint32_t component = 0;
     for (Reconstruction& each : cluster.components)
