@@ -146,19 +146,53 @@ TEST(HardCases, RepeatedFacadesAreToldApartByGnss) {
   }
 }
 
-TEST(HardCases, RepeatedFacadesWithoutGnssAreNeverWrongInSilence) {
-  for (const double share : {0.3, 0.5, 1.0}) {
+TEST(HardCases, RepeatedFacadesAreToldApartByTheDriveItself) {
+  for (const double share : {0.25, 0.6, 1.0}) {
     const Corridor corridor = MakeCorridor({.panoramas = 60,
                                             .shape = CorridorShape::kStraight,
                                             .features_per_panorama = kFeatures,
                                             .gnss_sigma_m = 0.0,
                                             .repeat_after = 20,
                                             .repeat_share = share});
-    const Orientated result = Orientate(corridor);
-    for (const testing::GloballyAdjusted& world : result.worlds) {
-      if (ErrorsOf(corridor, world.reconstruction).position_rmse_m < 0.05) continue;
-      EXPECT_TRUE(result.NamesAContradiction()) << share;
+    for (const int clusters : {1, 3}) {
+      SCOPED_TRACE(share);
+      SCOPED_TRACE(clusters);
+      const Orientated result = Orientate(corridor, {.min_clusters = clusters});
+      ExpectWholeAndExact(corridor, result);
+      EXPECT_GT(result.dropped_edges.size(), 80U);
     }
+  }
+}
+
+TEST(HardCases, FacadesThatRepeatFromHouseToHouseAreNeverWrongInSilence) {
+  for (const double gnss_sigma_m : {0.0, 2.0}) {
+    for (const double share : {0.4, 0.8}) {
+      SCOPED_TRACE(share);
+      const Corridor corridor = MakeCorridor({.panoramas = 60,
+                                              .features_per_panorama = kFeatures,
+                                              .gnss_sigma_m = gnss_sigma_m,
+                                              .repeat_after = 8,
+                                              .repeat_share = share,
+                                              .seed = 5});
+      const Orientated result = Orientate(corridor);
+      for (const testing::GloballyAdjusted& world : result.worlds) {
+        if (ErrorsOf(corridor, world.reconstruction).position_rmse_m < 0.05) continue;
+        EXPECT_TRUE(result.NamesAContradiction());
+      }
+    }
+  }
+}
+
+TEST(HardCases, NoRightPairIsTakenForALookAlike) {
+  for (const CorridorShape shape : {CorridorShape::kLoop, CorridorShape::kUturn}) {
+    const Corridor corridor = MakeCorridor({.panoramas = 60,
+                                            .shape = shape,
+                                            .features_per_panorama = kFeatures,
+                                            .gnss_sigma_m = 0.0,
+                                            .drives = 2});
+    const Orientated result = Orientate(corridor);
+    ExpectWholeAndExact(corridor, result);
+    EXPECT_TRUE(result.dropped_edges.empty());
   }
 }
 
