@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/write_models.h"
 
+#include <map>
 #include <string>
 #include <utility>
 
@@ -22,8 +23,9 @@ void ModelWriter::BeginModel(const std::map<ImageId, RegisteredImage>& images,
                              const ImageManifest& manifest) {
   const std::string sparse = (folder_ / "sparse" / std::to_string(num_models_)).string();
   status_.Update(EnsureWritableFolder(sparse));
-  images_ = &images;
-  colmap_ = std::make_unique<ColmapModelWriter>(sparse, images, manifest);
+  images_ = images;
+  std::erase_if(images_, [](const auto& image) { return image.second.loose; });
+  colmap_ = std::make_unique<ColmapModelWriter>(sparse, images_, manifest);
   if (num_models_ == 0) points_ = std::make_unique<PlyWriter>((folder_ / "points.ply").string());
   ++num_models_;
 }
@@ -34,7 +36,7 @@ void ModelWriter::TakePoint(const Track& track) {
 }
 
 absl::Status ModelWriter::AddImages() {
-  for (const auto& [id, image] : *images_) {
+  for (const auto& [id, image] : images_) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Features features,
                               FetchFeatures(coordinator_, feature_names_.at(id.value)));
     colmap_->AddImage(id, features.keypoints);

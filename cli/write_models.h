@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -13,7 +14,8 @@
 namespace orbweave {
 
 /// Writes the models of a job while they pass by: sparse/0, sparse/1, ... for COLMAP, and the
-/// points of the first as points.ply.
+/// points of the first as points.ply. Loose images, which nothing but a position places, are not in
+/// them.
 class ModelWriter final : public ModelListener {
  public:
   /// `feature_names` as of FetchFeatureNames; `coordinator` outlives the object.
@@ -37,7 +39,7 @@ class ModelWriter final : public ModelListener {
   std::filesystem::path folder_;
   absl::Status status_;  ///< of the folders
   size_t num_models_ = 0;
-  const std::map<ImageId, RegisteredImage>* images_ = nullptr;
+  std::map<ImageId, RegisteredImage> images_;  ///< of the model that passes by, none loose
   std::unique_ptr<ColmapModelWriter> colmap_;  ///< of the model that passes by
   std::unique_ptr<PlyWriter> points_;          ///< while the first does
 };
