@@ -182,6 +182,7 @@ struct JobReport {
   double mean_track_length = 0.0;
   double residual_px_mean = 0.0;
   double residual_px_rms = 0.0;
+  double residual_erp_px_mean = 0.0;  ///< distance in the image, seam unwrapped, as others print it
   Histogram residual_histogram{};
   std::vector<uint64_t> track_lengths{};  ///< [n]: points seen by n images; the last: by n or more
   std::vector<ReportCluster> clusters{};

@@ -15,6 +15,15 @@ namespace {
 constexpr size_t kResidualBins = 41;
 constexpr size_t kLongestTrack = 20;
 
+/// Distance in the image. Columns are periodic.
+double ErpDistance(const EquirectangularCamera& camera,
+                   const Eigen::Vector3d& bearing,
+                   const Eigen::Vector3d& ray_in_cam) {
+  const Eigen::Vector2d apart =
+      camera.PixelFromBearing(bearing) - camera.PixelFromBearing(ray_in_cam);
+  return std::hypot(std::remainder(apart.x(), static_cast<double>(camera.width_px)), apart.y());
+}
+
 }  // namespace
 
 ReconstructionMeter::ReconstructionMeter(const std::map<ImageId, RegisteredImage>& images,
@@ -38,6 +47,7 @@ void ReconstructionMeter::Add(const Track& track) {
     ++histogram.counts[static_cast<size_t>(std::min(bin, kResidualBins - 1.0))];
     sum_px_ += residual_px;
     sum_px2_ += residual_px * residual_px;
+    sum_erp_px_ += ErpDistance(manifest_.At(id).camera, observation.bearing, ray_in_cam);
     ++measures_.observations;
     ImageMeasures& of_image = measures_.images[id];
     ++of_image.observations;
@@ -53,6 +63,7 @@ ReconstructionMeasures ReconstructionMeter::Finish() && {
   measures_.mean_track_length = n / static_cast<double>(measures_.points);
   measures_.residual_px_mean = sum_px_ / n;
   measures_.residual_px_rms = std::sqrt(sum_px2_ / n);
+  measures_.residual_erp_px_mean = sum_erp_px_ / n;
   return std::move(measures_);
 }
 

@@ -18,13 +18,15 @@ struct ImageMeasures {
 };
 
 /// Numbers of a finished model, recomputed from poses, points and bearings alone. A residual is the
-/// angle between bearing and point times W / 2pi.
+/// angle between bearing and point times W / 2pi; the residual in the equirectangular image itself,
+/// which others print, is the distance of their pixels, the seam unwrapped.
 struct ReconstructionMeasures {
   uint64_t points = 0;
   uint64_t observations = 0;
   double mean_track_length = 0.0;
   double residual_px_mean = 0.0;
   double residual_px_rms = 0.0;
+  double residual_erp_px_mean = 0.0;
   Histogram residual_histogram{};  ///< 40 bins of 0.1 px and one for the rest
   std::vector<uint64_t>
       track_lengths{};  ///< [n]: points seen by n images; the last (20): by 20 or more
@@ -47,6 +49,7 @@ class ReconstructionMeter {
   const ImageManifest& manifest_;
   double sum_px_ = 0.0;
   double sum_px2_ = 0.0;
+  double sum_erp_px_ = 0.0;
   ReconstructionMeasures measures_{};
 };
 

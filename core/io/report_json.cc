@@ -241,6 +241,7 @@ std::string ReportJson(const JobReport& report) {
   json["mean_track_length"] = report.mean_track_length;
   json["residual_px_mean"] = report.residual_px_mean;
   json["residual_px_rms"] = report.residual_px_rms;
+  json["residual_erp_px"] = report.residual_erp_px_mean;
   json["residual_histogram"] = {{"bin_width_px", report.residual_histogram.bin_width},
                                 {"counts", report.residual_histogram.counts}};
   json["track_lengths"] = report.track_lengths;

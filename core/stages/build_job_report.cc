@@ -77,6 +77,8 @@ void AddMeasures(const ReconstructionMeasures& measures, JobReport& report) {
   if (total > 0.0) {
     report.residual_px_mean =
         (report.residual_px_mean * before + measures.residual_px_mean * added) / total;
+    report.residual_erp_px_mean =
+        (report.residual_erp_px_mean * before + measures.residual_erp_px_mean * added) / total;
     report.residual_px_rms =
         std::sqrt((report.residual_px_rms * report.residual_px_rms * before +
                    measures.residual_px_rms * measures.residual_px_rms * added) /
