@@ -4,12 +4,16 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/exit_code.h"
 #include "core/estimators/compare_poses.h"
+#include "core/estimators/compare_with_claims.h"
+#include "core/io/camera_sigmas.h"
 #include "core/io/colmap_model.h"
 #include "core/io/file.h"
 #include "core/io/reference_poses.h"
@@ -37,6 +41,36 @@ void Print(const PoseErrors& errors, size_t compared, size_t known) {
               errors.rotation_max_deg);
 }
 
+/// What the sigmas of cameras.csv, which is beside the models of a job, are worth.
+absl::Status PrintClaims(const std::string& folder,
+                         const ColmapModel& model,
+                         const std::map<std::string, Rigid3>& truth) {
+  const std::string path = folder + "/cameras.csv";
+  if (!std::filesystem::exists(path)) return absl::OkStatus();
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto sigma_of_name, ParseCameraSigmas(text, path));
+  std::vector<Rigid3> estimated;
+  std::vector<Rigid3> reference;
+  std::vector<Eigen::Vector3d> sigmas;
+  for (const ColmapImage& image : model.images) {
+    const auto known = truth.find(image.name);
+    const auto sigma = sigma_of_name.find(image.name);
+    if (known == truth.end() || sigma == sigma_of_name.end()) continue;
+    estimated.push_back(image.cam_from_world);
+    reference.push_back(known->second);
+    sigmas.push_back(sigma->second);
+  }
+  const std::optional<ClaimErrors> errors = CompareWithClaims(estimated, sigmas, reference);
+  if (!errors) return absl::OkStatus();
+  const Eigen::Vector3d& ratio = errors->squared_over_variance;
+  std::printf("  claimed     %.2f, %.2f, %.2f squared error over variance along x, y, z (%s)\n",
+              ratio.x(),
+              ratio.y(),
+              ratio.z(),
+              errors->is_relative ? "relative to the camera whose pose is held" : "absolute");
+  return absl::OkStatus();
+}
+
 absl::Status Evaluate(const EvaluateArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadFile(arguments.truth));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto truth, ParseReferencePoses(text, arguments.truth));
@@ -58,7 +92,7 @@ absl::Status Evaluate(const EvaluateArguments& arguments) {
                                       arguments.truth + ", or they are in one place");
   }
   Print(*errors, estimated.size(), truth.size());
-  return absl::OkStatus();
+  return is_model ? absl::OkStatus() : PrintClaims(arguments.output, model, truth);
 }
 
 }  // namespace
