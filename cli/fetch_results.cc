@@ -95,7 +95,7 @@ absl::StatusOr<AdjustedModel> FetchModel(CoordinatorApi& coordinator,
     if (listener != nullptr) listener->TakePoint(track);
   };
   if (listener != nullptr) listener->BeginModel(model.images, manifest);
-  TracksOfWorld tracks(world.model_from_world);
+  TracksOfWorld tracks(world);
   for (const Digest& digest : blocks) {
     ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
     ORBWEAVE_ASSIGN_OR_RETURN(WorldBlock block, DecodeWorldBlock(bytes));

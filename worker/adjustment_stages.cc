@@ -228,6 +228,10 @@ absl::StatusOr<TaskResult> RunConcludeAdjustment(const TaskSpec& spec,
                                               worlds[world].georeference,
                                               manifest,
                                               options.global));
+    if (model.worlds.back().images.empty()) {  // nothing in it is placed by its own observations
+      model.worlds.pop_back();
+      model.blocks.pop_back();
+    }
   }
   if (options.global.attach_loose) AttachLooseImages(manifest, model.worlds);
   TaskResult result;

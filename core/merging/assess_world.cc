@@ -14,6 +14,7 @@ namespace {
 
 struct WorldTotals {
   double sum_of_squares = 0.0;
+  double weighted_sum_of_squares = 0.0;
   double redundancy = 0.0;
   std::optional<ImageId> held{};
   std::optional<ImageId> farthest{};
@@ -23,6 +24,7 @@ WorldTotals TotalsOf(const std::vector<BlockInspection>& blocks) {
   WorldTotals totals;
   for (const BlockInspection& block : blocks) {
     totals.sum_of_squares += block.sum_of_squares;
+    totals.weighted_sum_of_squares += block.weighted_sum_of_squares;
     totals.redundancy += block.redundancy;
     if (block.held) totals.held = block.held;
     if (block.farthest) totals.farthest = block.farthest;
@@ -153,16 +155,16 @@ AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,
   const double redundancy = totals.redundancy +
                             GaugeFreedoms(problem, totals.farthest.has_value()) - 3.0 * num_split -
                             6.0 * static_cast<double>(bearings.variables.size());
-  const PoseCovariances covariances =
-      poses.Covariances(std::move(bearings),
-                        {.bearings = BearingVarianceFactor(totals.sum_of_squares, redundancy),
-                         .positions = PositionVarianceFactors(problem.bundle, poses.state())});
+  const PoseCovariances covariances = poses.Covariances(
+      std::move(bearings),
+      {.bearings = BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy),
+       .positions = PositionVarianceFactors(problem.bundle, poses.state())});
   UncertaintyReport& report = assessed.report;
   report.reason = covariances.reason;
   report.known = covariances.reason.empty();
   if (totals.held) report.held_image = manifest.At(*totals.held).name;
   if (totals.farthest) report.held_distance_to = manifest.At(*totals.farthest).name;
-  report.bearing_sigma_factor = std::sqrt(covariances.factors.bearings);
+  report.bearing_sigma_factor = std::sqrt(BearingVarianceFactor(totals.sum_of_squares, redundancy));
   report.horizontal_gnss_sigma_factor = std::sqrt(covariances.factors.positions.x());
   report.vertical_gnss_sigma_factor = std::sqrt(covariances.factors.positions.z());
   for (size_t pose = 0; pose < problem.image_of_pose.size(); ++pose) {

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "core/merging/assess_world.h"
+#include "core/merging/check_sequence_steps.h"
 #include "core/merging/choose_local_frame.h"
 #include "core/merging/global_problem.h"
 #include "core/merging/judge_gnss.h"
@@ -59,6 +61,7 @@ void MeasureResiduals(std::span<const BlockSummary> summaries, GlobalAdjustRepor
   ResidualPattern pattern;
   for (const BlockSummary& summary : summaries) pattern.Add(summary.pattern);
   report.pattern_px = pattern.LargestPx(report.residual_px_rms);
+  report.checks.push_back(CheckResidualPattern(pattern, report.residual_px_rms));
 }
 
 /// The drives' biases, by group.
@@ -81,6 +84,42 @@ SeamCertifier CertifierOf(const AdjustedWorld& adjusted, const std::vector<Seam>
   return certifier;
 }
 
+using Supports = std::map<ImageId, std::vector<PatchSupport>>;
+
+Supports SupportsOf(const std::vector<BlockInspection>& inspections) {
+  Supports supports;
+  for (const BlockInspection& inspection : inspections) AddSupport(inspection.supports, supports);
+  return supports;
+}
+
+/// Takes out what its own observations do not place, and widens the sigmas of images whose
+/// observations know less than their number.
+void JudgeSupports(const Supports& supports,
+                   const ImageManifest& manifest,
+                   Reconstruction& poses,
+                   GlobalAdjustReport& report) {
+  for (auto image = poses.images.begin(); image != poses.images.end();) {
+    const auto& [id, registered] = *image;
+    const auto support = supports.find(id);
+    if (registered.loose || support == supports.end()) {
+      ++image;
+      continue;
+    }
+    const SupportVerdict verdict = JudgeSupport(support->second);
+    if (verdict.is_weak) {
+      report.weak_images.push_back({manifest.At(id).name, verdict.reason});
+      image = poses.images.erase(image);
+      continue;
+    }
+    if (std::optional<PoseUncertainty>& uncertainty = image->second.uncertainty) {
+      const double factor = std::max(verdict.coherence, 1.0);
+      uncertainty->position_covariance *= factor;
+      uncertainty->rotation_sigma_rad *= std::sqrt(factor);
+    }
+    ++image;
+  }
+}
+
 }  // namespace
 
 ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
@@ -97,6 +136,7 @@ ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
   const std::vector<Eigen::Vector3d> biases_m =
       BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
   const SeamCertifier certifier = CertifierOf(adjusted, seams);
+  const Supports supports = SupportsOf(adjusted.inspections);
   AssessedWorld assessed =
       AssessWorld(std::move(adjusted.inspections), problem, biases_m, manifest);
   for (const auto& [id, uncertainty] : assessed.uncertainties)
@@ -110,6 +150,7 @@ ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
     world.report.gnss.reason = georeference.reason;
   }
   LoosenUnobserved(summaries, manifest, poses, world.report);
+  JudgeSupports(supports, manifest, poses, world.report);
   MeasureResiduals(summaries, world.report);
   if (!georeference.enu_from_world) world.model_from_world = ChooseLocalFrame(poses, manifest);
   const double sigma_factor = world.report.uncertainty.bearing_sigma_factor;
@@ -119,6 +160,8 @@ ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
     seam.position_noise_m *= world.model_from_world.scale;
   }
   world.images = std::move(poses.images);
+  world.report.checks.push_back(
+      CheckSequenceSteps(ModelImages(world), manifest, georeference.enu_from_world.has_value()));
   return world;
 }
 
@@ -126,8 +169,22 @@ std::map<ImageId, RegisteredImage> ModelImages(const ConcludedWorld& world) {
   return Transformed(world.model_from_world, Reconstruction{.images = world.images}).images;
 }
 
+TracksOfWorld::TracksOfWorld(const ConcludedWorld& world)
+    : model_from_world_(world.model_from_world) {
+  for (const auto& [id, image] : world.images) {
+    if (!image.loose) observers_.insert(id);
+  }
+}
+
+bool TracksOfWorld::IsSeen(Track& track) const {
+  std::erase_if(track.observations,
+                [&](const Observation& seen) { return !observers_.contains(seen.ref.image); });
+  return track.observations.size() > 1;
+}
+
 void TracksOfWorld::Add(WorldBlock block, const Visit& visit) {
   for (Track& track : block.scene.tracks) {
+    if (!IsSeen(track)) continue;
     track.point_in_world = model_from_world_ * track.point_in_world;
     visit(track);
   }
@@ -141,7 +198,7 @@ void TracksOfWorld::Add(WorldBlock block, const Visit& visit) {
 
 void TracksOfWorld::Finish(const Visit& visit) {
   for (auto& [id, track] : split_) {
-    if (track.observations.size() < 2) continue;
+    if (!IsSeen(track)) continue;
     std::ranges::sort(track.observations, {}, &Observation::ref);
     visit(track);
   }
@@ -150,7 +207,7 @@ void TracksOfWorld::Finish(const Visit& visit) {
 Reconstruction GatherWorld(const ConcludedWorld& world, std::vector<WorldBlock> blocks) {
   Reconstruction model{.images = ModelImages(world)};
   const auto take = [&model](const Track& track) { model.tracks.push_back(track); };
-  TracksOfWorld tracks(world.model_from_world);
+  TracksOfWorld tracks(world);
   for (WorldBlock& block : blocks) tracks.Add(std::move(block), take);
   tracks.Finish(take);
   model.SortTracks();

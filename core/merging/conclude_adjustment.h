@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "core/geometry/sim3.h"
@@ -31,9 +32,11 @@ struct AdjustedWorld {
   GlobalAdjustReport report{};  ///< without what ConcludeAdjustment finds
 };
 
-/// What only the whole world tells: which images nobody observes any more, how GNSS fits
-/// (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the partition) fit, and the
-/// frame of the model.
+/// What only the whole world tells: which images nobody observes any more (they become loose),
+/// which ones their own observations do not place (JudgeSupport; they are no more in the world, for
+/// AttachLooseImages to put where GNSS says), how GNSS fits
+/// (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the partition) fit, cross
+/// checks, and the frame of the model.
 [[nodiscard]] ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
                                                 const std::vector<Seam>& seams,
                                                 const Georeference& georeference,
@@ -50,14 +53,18 @@ class TracksOfWorld {
  public:
   using Visit = std::function<void(const Track& track)>;
 
-  explicit TracksOfWorld(const Sim3& model_from_world) : model_from_world_(model_from_world) {}
+  explicit TracksOfWorld(const ConcludedWorld& world);
 
   void Add(WorldBlock block, const Visit& visit);
   /// After all blocks.
   void Finish(const Visit& visit);
 
  private:
+  /// Takes off what images that are no more in the model saw.
+  [[nodiscard]] bool IsSeen(Track& track) const;
+
   Sim3 model_from_world_;
+  std::set<ImageId> observers_;
   std::map<uint32_t, Track> split_;
 };
 

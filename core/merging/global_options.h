@@ -9,6 +9,7 @@
 #include "core/base/options.h"
 #include "core/bundle/adjust_bundle.h"
 #include "core/scene/cross_check.h"
+#include "core/scene/image_manifest.h"
 
 namespace orbweave {
 
@@ -105,7 +106,8 @@ struct GlobalAdjustReport {
   uint32_t removed_tracks = 0;
   std::vector<std::string>
       unobserved_images{};        ///< names of images left without observations; now loose
-  double residual_px_mean = 0.0;  ///< angle x W / 2pi
+  std::vector<Exclusion> weak_images{};  ///< taken out for want of support, and why (JudgeSupport)
+  double residual_px_mean = 0.0;         ///< angle x W / 2pi
   double residual_px_rms = 0.0;
   double pattern_px = 0.0;           ///< what repeats in every panorama (ResidualPattern)
   std::vector<CrossCheck> checks{};  ///< in the order in which they were made

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/distributed_bundle/separator_system.h"
+#include "core/merging/image_support.h"
 #include "core/merging/place_by_sides.h"
 #include "core/merging/world_block.h"
 
@@ -18,14 +19,16 @@ inline constexpr double kUnheldPointDamping = 1e-14;
 /// What an adjusted block has to say about its world as a whole, its points eliminated: it grows
 /// with the block's panoramas.
 struct BlockInspection {
-  /// Normal equations of all its bearings, least squares; variables: poses that see something,
-  /// split points.
+  /// Normal equations of all its bearings, least squares, each bearing weighted by the scatter
+  /// found in its panorama; variables: poses that see something, split points.
   SeparatorSystem bearings{};
-  double sum_of_squares = 0.0;  ///< of bearings' errors over their sigmas
-  double redundancy = 0.0;      ///< equations less the unknowns of eliminated points
+  double sum_of_squares = 0.0;           ///< of bearings' errors over their sigmas
+  double weighted_sum_of_squares = 0.0;  ///< the same with those weights
+  double redundancy = 0.0;               ///< equations less the unknowns of eliminated points
   std::optional<ImageId> held{};
   std::optional<ImageId> farthest{};
   std::vector<SidePlacement> placements{};
+  std::vector<PatchSupport> supports{};  ///< SupportOf
 };
 
 /// For AssessWorld and SeamCertifier. Same bytes for any `num_threads`.

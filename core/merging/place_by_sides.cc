@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/bundle/bearing_term.h"
+#include "core/merging/pose_from_point.h"
 
 namespace orbweave {
 namespace {
@@ -46,14 +47,6 @@ std::set<ImageId> ImagesBetweenSides(const WorldBlock& block, const Owners& owne
     for (const Observation& seen : track.observations) between.insert(seen.ref.image);
   }
   return between;
-}
-
-/// [[d]x; -I]: a pose's Jacobian is this times the point's.
-Eigen::Matrix<double, 6, 3> PoseFromPoint(const Eigen::Vector3d& d) {
-  Eigen::Matrix<double, 6, 3> A;
-  A << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0,
-      0.0, 0.0, -1.0;
-  return A;
 }
 
 void AddSighting(const Observation& seen,

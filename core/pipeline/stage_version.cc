@@ -23,9 +23,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"review_seams", "1"},
     {"join_submodels", "3"},
     {"assemble_block", "3"},
-    {"steer_adjustment", "2"},
-    {"adjust_block", "2"},
-    {"conclude_adjustment", "3"},
+    {"steer_adjustment", "3"},
+    {"adjust_block", "3"},
+    {"conclude_adjustment", "4"},
 }};
 
 }  // namespace

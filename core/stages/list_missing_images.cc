@@ -17,6 +17,14 @@ std::vector<std::string> ReasonsOfImages(const JobResults& results) {
       reasons[image.image.value] = image.reason;
     }
   }
+  std::map<std::string, std::string> weak;
+  for (const AdjustedModel& model : results.models) {
+    for (const Exclusion& image : model.report.weak_images) weak[image.name] = image.reason;
+  }
+  for (const ImageRecord& image : results.manifest.images) {
+    const auto found = weak.find(image.name);
+    if (found != weak.end()) reasons[image.id.value] = found->second;
+  }
   for (const AdjustedModel& model : results.models) {
     const std::set<std::string> unobserved(model.report.unobserved_images.begin(),
                                            model.report.unobserved_images.end());

@@ -58,6 +58,11 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   proto->set_pattern_px(report.pattern_px);
   codec::ToProto(report.uncertainty, proto->mutable_uncertainty());
   for (const CrossCheck& check : report.checks) ToProto(check, proto->add_checks());
+  for (const Exclusion& image : report.weak_images) {
+    v1::Exclusion* out = proto->add_weak_images();
+    out->set_name(image.name);
+    out->set_reason(image.reason);
+  }
 }
 
 absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& report) {
@@ -75,6 +80,8 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
     ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, FromProto(check));
     report.checks.push_back(std::move(decoded));
   }
+  for (const v1::Exclusion& image : proto.weak_images())
+    report.weak_images.push_back({image.name(), image.reason()});
   for (const v1::BundleReport& adjustment : proto.adjustments()) {
     ORBWEAVE_ASSIGN_OR_RETURN(BundleReport decoded, codec::FromProto(adjustment));
     report.adjustments.push_back(std::move(decoded));

@@ -162,6 +162,9 @@ void ToProto(const BlockSummary& summary, v1::BlockSummary* proto) {
   proto->set_cluster(summary.cluster);
   proto->set_pattern_sums_px(Pack(std::span<const double>(summary.pattern.sum_px)));
   proto->set_pattern_counts(Pack(std::span<const uint32_t>(summary.pattern.count)));
+  proto->set_pattern_up_sums_px(Pack(std::span<const double>(summary.pattern.sum_up_px)));
+  proto->set_pattern_band_up_sums_px(Pack(std::span<const double>(summary.pattern.band_up_px)));
+  proto->set_pattern_band_counts(Pack(std::span<const uint32_t>(summary.pattern.band_count)));
 }
 
 absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
@@ -184,6 +187,18 @@ absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
                             UnpackExactly<uint32_t>(proto.pattern_counts(), kSectors, "pattern"));
   std::ranges::copy(sums, summary.pattern.sum_px.begin());
   std::ranges::copy(sector_counts, summary.pattern.count.begin());
+  constexpr size_t kBands = ResidualPattern::kBands;
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto ups,
+                            UnpackExactly<double>(proto.pattern_up_sums_px(), kSectors, "pattern"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto band_ups,
+      UnpackExactly<double>(proto.pattern_band_up_sums_px(), kBands, "pattern"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto band_counts,
+      UnpackExactly<uint32_t>(proto.pattern_band_counts(), kBands, "pattern"));
+  std::ranges::copy(ups, summary.pattern.sum_up_px.begin());
+  std::ranges::copy(band_ups, summary.pattern.band_up_px.begin());
+  std::ranges::copy(band_counts, summary.pattern.band_count.begin());
   return summary;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/inspection_codec.h"
 
+#include <array>
 #include <vector>
 
 #include "orbweave/v1/adjustment.pb.h"
@@ -54,6 +55,64 @@ absl::StatusOr<std::vector<SidePlacement>> PlacementsOf(const v1::BlockInspectio
   return placements;
 }
 
+void ToProto(const std::vector<PatchSupport>& supports, v1::BlockInspection* proto) {
+  std::vector<ImageId> images;
+  std::vector<uint32_t> patches;
+  std::vector<std::array<uint32_t, 2>> counts;
+  std::vector<Block6> hessians;
+  std::vector<Vector6> gradients;
+  std::vector<std::array<double, 2>> squares;
+  for (const PatchSupport& support : supports) {
+    images.push_back(support.image);
+    patches.push_back(support.patch);
+    counts.push_back({support.observations, support.equations});
+    hessians.push_back(support.hessian);
+    gradients.push_back(support.gradient);
+    squares.push_back({support.sum_of_squares, support.redundancy});
+  }
+  proto->set_support_images(codec::Pack(images));
+  proto->set_support_patches(codec::Pack(patches));
+  proto->set_support_counts(codec::Pack(counts));
+  proto->set_support_hessians(codec::PackMatrices(hessians));
+  proto->set_support_gradients(codec::PackMatrices(gradients));
+  proto->set_support_squares(codec::Pack(squares));
+}
+
+absl::StatusOr<std::vector<PatchSupport>> SupportsOf(const v1::BlockInspection& proto) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
+                            codec::Unpack<ImageId>(proto.support_images(), "supported images"));
+  const size_t count = images.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto patches,
+      codec::UnpackExactly<uint32_t>(proto.support_patches(), count, "patches"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto counts,
+      (codec::UnpackExactly<std::array<uint32_t, 2>>(proto.support_counts(), count, "support")));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto hessians,
+      codec::UnpackMatrices<Block6>(proto.support_hessians(), count, "support"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto gradients,
+      codec::UnpackMatrices<Vector6>(proto.support_gradients(), count, "support"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto squares,
+      (codec::UnpackExactly<std::array<double, 2>>(proto.support_squares(), count, "support")));
+  std::vector<PatchSupport> supports;
+  for (size_t i = 0; i < count; ++i) {
+    if (!hessians[i].allFinite() || !gradients[i].allFinite())
+      return absl::InvalidArgumentError("block inspection: support that is not a number");
+    supports.push_back({images[i],
+                        patches[i],
+                        counts[i][0],
+                        counts[i][1],
+                        hessians[i],
+                        gradients[i],
+                        squares[i][0],
+                        squares[i][1]});
+  }
+  return supports;
+}
+
 }  // namespace
 
 std::string EncodeBlockInspection(const BlockInspection& inspection) {
@@ -64,6 +123,8 @@ std::string EncodeBlockInspection(const BlockInspection& inspection) {
   if (inspection.held) proto.set_held(inspection.held->value);
   if (inspection.farthest) proto.set_farthest(inspection.farthest->value);
   ToProto(inspection.placements, &proto);
+  proto.set_weighted_sum_of_squares(inspection.weighted_sum_of_squares);
+  ToProto(inspection.supports, &proto);
   return proto.SerializeAsString();
 }
 
@@ -71,11 +132,13 @@ absl::StatusOr<BlockInspection> DecodeBlockInspection(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::BlockInspection proto,
                             codec::Parse<v1::BlockInspection>(bytes, "block inspection"));
   BlockInspection inspection{.sum_of_squares = proto.sum_of_squares(),
+                             .weighted_sum_of_squares = proto.weighted_sum_of_squares(),
                              .redundancy = proto.redundancy()};
   ORBWEAVE_ASSIGN_OR_RETURN(inspection.bearings, codec::FromProto(proto.bearings()));
   if (proto.has_held()) inspection.held = ImageId(proto.held());
   if (proto.has_farthest()) inspection.farthest = ImageId(proto.farthest());
   ORBWEAVE_ASSIGN_OR_RETURN(inspection.placements, PlacementsOf(proto));
+  ORBWEAVE_ASSIGN_OR_RETURN(inspection.supports, SupportsOf(proto));
   return inspection;
 }
 

@@ -44,6 +44,7 @@ GlobalAdjustReport SmallReport() {
   report.uncertainty = {.known = true, .held_image = "b.jpg"};
   report.adjustments.push_back({.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
   report.unobserved_images = {"c.jpg"};
+  report.weak_images = {{"d.jpg", "its 8 observations lie in one corner"}};
   report.checks = {{"gnss_clock", 0.8, 0.2, "s", CheckLevel::kDoubtful, "the clock is late"}};
   return report;
 }
@@ -83,7 +84,8 @@ void AddAdjustmentSeeds(Seeds& seeds) {
        .sum_of_squares = 8.0,
        .redundancy = 9.0,
        .held = ImageId(0),
-       .placements = {{.image = ImageId(2), .cluster = 3, .num_points = 7}}})};
+       .placements = {{.image = ImageId(2), .cluster = 3, .num_points = 7}},
+       .supports = {{.image = ImageId(2), .patch = 5, .observations = 8, .equations = 16}}})};
   AdjustmentProgress progress{.worlds = {{.phase = 1, .report = SmallReport()}}, .is_asked = {1}};
   progress.worlds[0].path.separators_of_block = {SmallSystem().variables};
   progress.blocks = {

@@ -7,7 +7,8 @@
 
 #include <cmath>
 
-#include "tests/support/random_world.h"
+#include "tests/core/merging/adjust_globally.h"
+#include "tests/core/merging/corridor_model.h"
 
 namespace orbweave {
 namespace {
@@ -43,6 +44,50 @@ TEST(ResidualPattern, FindsWhatRepeatsInEveryPanorama) {
 TEST(ResidualPattern, TheSeamIsNowhereSpecial) {
   const auto near_seam = [](double azimuth) { return std::cos(azimuth) < -0.95 ? 1.0 : 0.0; };
   EXPECT_NEAR(PatternOf(near_seam).LargestPx(1.4), 1.0, 0.2);
+}
+
+TEST(ResidualPattern, FindsWhatRepeatsOverLatitude) {
+  Random random(2);
+  ResidualPattern pattern;
+  for (int i = 0; i < 50000; ++i) {
+    const Eigen::Vector3d ray = testing::RandomDirection(random);
+    const double latitude = std::asin(-ray.y());
+    const Eigen::Vector3d up = -Eigen::Vector3d::UnitY() - std::sin(latitude) * ray;
+    const Eigen::Vector3d noise(random.Normal(), random.Normal(), random.Normal());
+    const Eigen::Vector3d error = noise + std::sin(2.0 * latitude) * up.normalized();
+    pattern.Add((ray + error / kPxPerRad).normalized(), ray, kPxPerRad);
+  }
+  EXPECT_EQ(pattern.LargestOverAzimuthPx(1.4), 0.0);
+  EXPECT_NEAR(pattern.LargestOverLatitudePx(1.4), 1.0, 0.15);
+  const CrossCheck check = CheckResidualPattern(pattern, 1.4);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_NE(check.sentence.find("latitude"), std::string::npos);
+}
+
+TEST(ResidualPattern, APanoramaThatIsTooTallShowsInAnAdjustedModel) {
+  const Corridor corridor =
+      MakeCorridor({.panoramas = 40, .features_per_panorama = 400, .gnss_sigma_m = 0.0});
+  const auto check_of = [&](double stretch) {
+    Reconstruction model = testing::TrueModel(corridor);
+    for (Track& track : model.tracks) {
+      for (Observation& seen : track.observations) {
+        const double latitude = stretch * std::asin(-seen.bearing.y());
+        const double azimuth = std::atan2(seen.bearing.x(), seen.bearing.z());
+        seen.bearing = {std::cos(latitude) * std::sin(azimuth),
+                        -std::sin(latitude),
+                        std::cos(latitude) * std::cos(azimuth)};
+      }
+    }
+    const auto adjusted = testing::AdjustGlobally(model, corridor.manifest, {}, {}, {}).value();
+    const auto found =
+        std::ranges::find(adjusted.report.checks, "residual_pattern", &CrossCheck::name);
+    EXPECT_NE(found, adjusted.report.checks.end());
+    return *found;
+  };
+  EXPECT_EQ(check_of(1.0).level, CheckLevel::kGood);
+  const CrossCheck tall = check_of(1.0 / 1.03);
+  EXPECT_EQ(tall.level, CheckLevel::kDoubtful) << tall.value;
+  EXPECT_NE(tall.sentence.find("latitude"), std::string::npos);
 }
 
 TEST(ResidualPattern, SumsOfPartsAreThatOfTheWhole) {
