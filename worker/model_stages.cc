@@ -109,7 +109,10 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
   divided.dropped.insert(divided.dropped.end(), filtered.dropped.begin(), filtered.dropped.end());
   ORBWEAVE_ASSIGN_OR_RETURN(
       divided.partition, DivideOrWiden(spec, filtered.graph, manifest, options.partition, blobs));
-  for (const ViewEdge& edge : filtered.graph.edges) divided.edges.push_back(edge.pair);
+  for (const ViewEdge& edge : filtered.graph.edges) {
+    divided.edges.push_back(edge.pair);
+    divided.edge_kinds.push_back(static_cast<uint8_t>(edge.kind));
+  }
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeDividedViewGraph(divided), blobs, result));

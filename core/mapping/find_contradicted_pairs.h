@@ -8,10 +8,29 @@
 
 namespace orbweave {
 
-/// Pairs of registered images whose verified matches the model tells apart: of the matches whose
-/// two features both show a point, at least options.min_inliers, less than half show the same one.
+/// Pairs of registered images, in order of the graph's pairs.
+struct JudgedPairs {
+  std::vector<ImagePair> explained{};
+  std::vector<ImagePair> contradicted{};
+};
+
+/// Holds verified pairs against the model that was made of them. Evidence are the matches whose two
+/// features both show a point. One is explained when it is the same point, or when the point of one
+/// feature is seen by the other image where the other feature is, within twice
+/// options.max_error_px: tracks of one thing that never met do not count against a model, and
+/// unlike an epipolar plane a point tells a facade from its likeness further down a straight
+/// street.
+///
+/// A pair is *explained* when more of its matches are than chance leaves: the model's own pose of
+/// the two images is verified by them, whatever else the pair's matches show (moving things,
+/// patterns that repeat within one room). It is *contradicted* when no more are than chance, there
+/// are at least options.min_inliers of them, and those the model tears apart are in several places
+/// of both panoramas: one poster, one bus or one plane that fits several poses is no evidence.
 /// Places that look alike make such pairs; in a model folded onto itself the right pairs are among
-/// them. In order of the graph's pairs.
+/// them. All others are neither.
+[[nodiscard]] JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options);
+
+/// The contradicted ones.
 [[nodiscard]] std::vector<ImagePair> FindContradictedPairs(const MappingState& state,
                                                            const MappingOptions& options);
 

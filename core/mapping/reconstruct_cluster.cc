@@ -100,9 +100,11 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
     if (!kept) continue;
     result.components.push_back(ExportComponent(*component.state));
     residuals.Add(problem, result.components.back());
-    const std::vector<ImagePair> contradicted = FindContradictedPairs(*component.state, options);
+    const JudgedPairs judged = JudgePairs(*component.state, options);
     result.contradicted_pairs.insert(
-        result.contradicted_pairs.end(), contradicted.begin(), contradicted.end());
+        result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
+    result.explained_pairs.insert(
+        result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
     if (registered.size() <= largest) continue;
     largest = registered.size();
     result.started_globally = component.started_globally;

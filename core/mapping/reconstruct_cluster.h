@@ -130,7 +130,8 @@ struct ClusterReconstruction {
   /// Largest first; an image is in at most one. Each in its own frame and scale.
   std::vector<Reconstruction> components{};
   std::vector<NotRegistered> not_registered{};
-  std::vector<ImagePair> contradicted_pairs{};  ///< by the components; FindContradictedPairs
+  std::vector<ImagePair> contradicted_pairs{};  ///< by the components; JudgePairs
+  std::vector<ImagePair> explained_pairs{};
   int num_global_adjustments = 0;
   int num_local_adjustments = 0;
   double residual_rms_px = 0.0;

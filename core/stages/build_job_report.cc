@@ -6,13 +6,16 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/merging/quantile.h"
 #include "core/stages/check_contradicted_pairs.h"
 #include "core/stages/check_job.h"
 #include "core/stages/check_look_alikes.h"
+#include "core/stages/check_pairs.h"
 #include "core/stages/check_residual_patterns.h"
+#include "core/stages/check_standing_camera.h"
 #include "core/stages/judge_model.h"
 #include "core/stages/list_missing_images.h"
 #include "core/stages/summarise_uncertainty.h"
@@ -268,6 +271,7 @@ ClusterSummary SummariseCluster(const ClusterResult& result) {
   ClusterSummary summary{.cluster = result.cluster,
                          .not_registered = cluster.not_registered,
                          .contradicted_pairs = cluster.contradicted_pairs,
+                         .explained_pairs = cluster.explained_pairs,
                          .residual_rms_px = cluster.residual_rms_px};
   for (const Reconstruction& component : cluster.components) {
     summary.components.push_back(
@@ -299,6 +303,9 @@ JobReport BuildJobReport(const JobResults& results) {
   ListMissingImages(results, report);
   TellReviews(results.review, report);
   TellWeakCuts(results.view_graph.partition, report);
+  report.checks.push_back(CheckPairs(results));
+  if (std::optional<CrossCheck> standing = CheckStandingCamera(results, report.images))
+    report.checks.push_back(*std::move(standing));
   report.checks.push_back(CheckLookAlikes(results));
   if (!results.models.empty()) {
     const AdjustedModel& main = results.models.front();

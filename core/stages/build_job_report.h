@@ -27,6 +27,7 @@ struct ClusterSummary {
   std::vector<Component> components{};
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};
+  std::vector<ImagePair> explained_pairs{};
   double residual_rms_px = 0.0;
 };
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "core/stages/check_standing_camera.h"
+
 namespace orbweave {
 namespace {
 
@@ -18,6 +20,10 @@ std::vector<std::string> ReasonsOfImages(const JobResults& results) {
     }
   }
   std::map<std::string, std::string> weak;
+  const std::vector<std::string> standing = StandingReasons(results);
+  for (size_t i = 0; i < standing.size(); ++i) {
+    if (!standing[i].empty()) reasons[i] = standing[i];
+  }
   for (const AdjustedModel& model : results.models) {
     for (const Exclusion& image : model.report.weak_images) weak[image.name] = image.reason;
   }

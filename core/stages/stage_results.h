@@ -17,6 +17,7 @@ struct DividedViewGraph {
   Partition partition{};
   std::vector<DroppedEdge> dropped{};
   std::vector<ImagePair> edges{};
+  std::vector<uint8_t> edge_kinds{};  ///< TwoViewKind of each
 };
 
 /// The result of one cluster, with its number.

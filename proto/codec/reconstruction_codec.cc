@@ -36,6 +36,7 @@ std::string EncodeClusterResult(const ClusterResult& result) {
     out->set_image_a(pair.a.value);
     out->set_image_b(pair.b.value);
   }
+  proto.set_explained_pairs(codec::Pack(result.reconstruction.explained_pairs));
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
   proto.set_num_local_adjustments(result.reconstruction.num_local_adjustments);
   proto.set_residual_rms_px(result.reconstruction.residual_rms_px);
@@ -61,6 +62,12 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
       return absl::InvalidArgumentError("cluster reconstruction: images of a pair out of order");
     result.reconstruction.contradicted_pairs.push_back(
         {ImageId(pair.image_a()), ImageId(pair.image_b())});
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.explained_pairs,
+                            codec::Unpack<ImagePair>(proto.explained_pairs(), "explained pairs"));
+  for (const ImagePair& pair : result.reconstruction.explained_pairs) {
+    if (!(pair.a < pair.b))
+      return absl::InvalidArgumentError("cluster reconstruction: images of a pair out of order");
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();
   result.reconstruction.num_local_adjustments = proto.num_local_adjustments();

@@ -90,6 +90,7 @@ std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
     out->set_cause(static_cast<uint32_t>(edge.cause));
   }
   proto.set_edges(codec::Pack(divided.edges));
+  proto.set_edge_kinds(codec::Pack(divided.edge_kinds));
   return proto.SerializeAsString();
 }
 
@@ -116,6 +117,9 @@ absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) 
         {{ImageId(in.a()), ImageId(in.b())}, in.reason(), static_cast<DropCause>(in.cause())});
   }
   ORBWEAVE_ASSIGN_OR_RETURN(divided.edges, codec::Unpack<ImagePair>(proto.edges(), "edges"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      divided.edge_kinds,
+      codec::UnpackExactly<uint8_t>(proto.edge_kinds(), divided.edges.size(), "kinds of edges"));
   return divided;
 }
 
