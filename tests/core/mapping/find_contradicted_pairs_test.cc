@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/sphere_cells.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {
@@ -24,6 +25,49 @@ TEST(FindContradictedPairs, FindsThePairThatJoinsTwoPlaces) {
   const std::vector<ImagePair> found =
       FindContradictedPairs(street.TriangulatedStateWith(FirstImages(30)), {});
   EXPECT_EQ(found, (std::vector<ImagePair>{alike.pair}));
+}
+
+TEST(JudgePairs, ExplainsEveryPairOfNeighboursInATrueModel) {
+  const StreetFixture street({.centres = StraightWalk(6, 3.0), .outlier_share = 0.3});
+  const JudgedPairs judged = JudgePairs(street.TriangulatedStateWith(FirstImages(6)), {});
+  EXPECT_EQ(judged.explained.size(), street.world.problem.pairs.size());
+}
+
+TEST(JudgePairs, TracksOfOneThingThatNeverMetAreNoContradiction) {
+  // Points of images 0 to 2 and of 3 to 5 from pairs of their own; then the pairs between them.
+  StreetFixture street({.centres = StraightWalk(6, 1.0), .points_per_metre = 60});
+  std::vector<TwoViewGeometry> all = street.world.problem.pairs;
+  std::erase_if(street.world.problem.pairs, [](const TwoViewGeometry& pair) {
+    return pair.pair.a.value < 3 && pair.pair.b.value >= 3;
+  });
+  street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+  MappingState apart = street.TriangulatedStateWith(FirstImages(6));
+  ClusterProblem whole = street.world.problem;
+  whole.pairs = std::move(all);
+  const CorrespondenceGraph graph = BuildCorrespondenceGraph(whole).value();
+  MappingState state(whole, graph);
+  for (const ImageSlot image : FirstImages(6)) state.Register(image, apart.CamFromWorld(image));
+  for (PointIndex point = 0; point < apart.EndOfPoints(); ++point) {
+    if (apart.Exists(point)) state.AddPoint(apart.Point(point).position, apart.Point(point).nodes);
+  }
+  const JudgedPairs judged = JudgePairs(state, {});
+  EXPECT_TRUE(judged.contradicted.empty());
+  EXPECT_EQ(judged.explained.size(), whole.pairs.size());
+}
+
+TEST(JudgePairs, OnePosterIsNoEvidence) {
+  // All of the look-alike matches lie in one patch of the second image.
+  StreetFixture street({.centres = StraightWalk(30, 3.0), .points_per_metre = 60});
+  TwoViewGeometry poster{.pair = {ImageId(2), ImageId(27)}, .kind = TwoViewKind::kGeneral};
+  const ClusterImage& b = street.world.problem.images[27];
+  for (FeatureIndex f = 0; f < b.bearings.size() && poster.inliers.size() < 60; ++f) {
+    if (SphereCell(b.bearings[f], 4) == 6)
+      poster.inliers.push_back({static_cast<FeatureIndex>(poster.inliers.size()), f});
+  }
+  ASSERT_GE(poster.inliers.size(), 30U);
+  street.world.problem.pairs.push_back(poster);
+  street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+  EXPECT_TRUE(FindContradictedPairs(street.TriangulatedStateWith(FirstImages(30)), {}).empty());
 }
 
 }  // namespace
