@@ -16,6 +16,7 @@ struct WorldTotals {
   double sum_of_squares = 0.0;
   double weighted_sum_of_squares = 0.0;
   double redundancy = 0.0;
+  TrackCorrelation correlation{};
   std::optional<ImageId> held{};
   std::optional<ImageId> farthest{};
 };
@@ -26,6 +27,7 @@ WorldTotals TotalsOf(const std::vector<BlockInspection>& blocks) {
     totals.sum_of_squares += block.sum_of_squares;
     totals.weighted_sum_of_squares += block.weighted_sum_of_squares;
     totals.redundancy += block.redundancy;
+    totals.correlation.Add(block.correlation);
     if (block.held) totals.held = block.held;
     if (block.farthest) totals.farthest = block.farthest;
   }
@@ -157,7 +159,8 @@ AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,
                             6.0 * static_cast<double>(bearings.variables.size());
   const PoseCovariances covariances = poses.Covariances(
       std::move(bearings),
-      {.bearings = BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy),
+      {.bearings = totals.correlation.Inflation() *
+                   BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy),
        .positions = PositionVarianceFactors(problem.bundle, poses.state())});
   UncertaintyReport& report = assessed.report;
   report.reason = covariances.reason;

@@ -20,7 +20,8 @@ struct AssessedWorld {
 
 /// The uncertainty of the poses of an adjusted world: what its blocks' bearings say of poses
 /// (InspectBlock), in their order, is added - every panorama's bearings weighted by their own
-/// scatter, so that a place where they scatter more claims less -, and the normal equations of all
+/// scatter, so that a place where they scatter more claims less, and all by how errors go together
+/// along tracks (TrackCorrelation) -, and the normal equations of all
 /// poses with GNSS and gravity terms give the covariances (CovariancesOfSystem). Memory grows with
 /// the panoramas, not with the points. GNSS errors count as independent from image to image: an
 /// offset common to all positions shows nowhere. `problem` holds the world's poses and GNSS terms

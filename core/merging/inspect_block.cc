@@ -110,6 +110,20 @@ double SquaresOf(const Track& track, const Reconstruction& scene) {
   return sum;
 }
 
+TrackCorrelation CorrelationOf(const WorldBlock& block) {
+  TrackCorrelation correlation;
+  for (const Track& track : block.scene.tracks) {
+    std::vector<Eigen::Vector3d> residuals;
+    for (const Observation& seen : track.observations) {
+      const Rigid3& pose = block.scene.images.at(seen.ref.image).cam_from_world;
+      const Eigen::Vector3d ray = (track.point_in_world - pose.Centre()).normalized();
+      residuals.emplace_back((pose.rotation.conjugate() * seen.bearing - ray) / seen.sigma_rad);
+    }
+    correlation.AddTrack(residuals);
+  }
+  return correlation;
+}
+
 double SquaresOf(const WorldBlock& block) {
   double sum = 0.0;
   for (const Track& track : block.scene.tracks) sum += SquaresOf(track, block.scene);
@@ -137,8 +151,10 @@ void AddBearings(const WorldBlock& block, int num_threads, BlockInspection& insp
 }  // namespace
 
 BlockInspection InspectBlock(const WorldBlock& block, int num_threads) {
-  BlockInspection inspection{
-      .farthest = block.farthest, .placements = PlaceBySides(block), .supports = SupportOf(block)};
+  BlockInspection inspection{.farthest = block.farthest,
+                             .placements = PlaceBySides(block),
+                             .supports = SupportOf(block),
+                             .correlation = CorrelationOf(block)};
   AddBearings(block, num_threads, inspection);
   const auto held = std::ranges::find_if(block.images, &BlockImage::is_held);
   if (held != block.images.end()) inspection.held = held->id;

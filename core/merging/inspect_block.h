@@ -8,6 +8,7 @@
 #include "core/distributed_bundle/separator_system.h"
 #include "core/merging/image_support.h"
 #include "core/merging/place_by_sides.h"
+#include "core/merging/track_correlation.h"
 #include "core/merging/world_block.h"
 
 namespace orbweave {
@@ -29,6 +30,7 @@ struct BlockInspection {
   std::optional<ImageId> farthest{};
   std::vector<SidePlacement> placements{};
   std::vector<PatchSupport> supports{};  ///< SupportOf
+  TrackCorrelation correlation{};        ///< of tracks that this block has for itself
 };
 
 /// For AssessWorld and SeamCertifier. Same bytes for any `num_threads`.

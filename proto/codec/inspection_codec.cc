@@ -13,6 +13,8 @@
 namespace orbweave {
 namespace {
 
+using CorrelationBytes = std::array<double, TrackCorrelation::kLengths>;
+
 void ToProto(const std::vector<SidePlacement>& placements, v1::BlockInspection* proto) {
   std::vector<ImageId> images;
   std::vector<uint32_t> clusters;
@@ -125,6 +127,9 @@ std::string EncodeBlockInspection(const BlockInspection& inspection) {
   ToProto(inspection.placements, &proto);
   proto.set_weighted_sum_of_squares(inspection.weighted_sum_of_squares);
   ToProto(inspection.supports, &proto);
+  const TrackCorrelation& correlation = inspection.correlation;
+  proto.set_correlation(codec::Pack(std::vector<CorrelationBytes>{
+      correlation.products, correlation.squares, correlation.tracks}));
   return proto.SerializeAsString();
 }
 
@@ -139,6 +144,10 @@ absl::StatusOr<BlockInspection> DecodeBlockInspection(std::string_view bytes) {
   if (proto.has_farthest()) inspection.farthest = ImageId(proto.farthest());
   ORBWEAVE_ASSIGN_OR_RETURN(inspection.placements, PlacementsOf(proto));
   ORBWEAVE_ASSIGN_OR_RETURN(inspection.supports, SupportsOf(proto));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto correlation,
+      codec::UnpackExactly<CorrelationBytes>(proto.correlation(), 3, "track correlation"));
+  inspection.correlation = {correlation[0], correlation[1], correlation[2]};
   return inspection;
 }
 
