@@ -316,6 +316,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
       .reconstruction = {.components = {SomeReconstruction()},
                          .not_registered = {{ImageId(77), "no verified matches"}},
                          .contradicted_pairs = {{ImageId(3), ImageId(8)}},
+                         .explained_pairs = {{ImageId(3), ImageId(4)}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
                          .start_remark = "29 of 30 images stay registered"}};
@@ -325,6 +326,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
   EXPECT_EQ(cluster_out->reconstruction.contradicted_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(8)}}));
+  EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
+            (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);
   EXPECT_EQ(cluster_out->reconstruction.start_remark, "29 of 30 images stay registered");
   ExpectSame(cluster_out->reconstruction.components[0], cluster.reconstruction.components[0]);
@@ -363,6 +366,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   model.worlds[0].report.uncertainty = {
       .known = true, .held_image = "b.jpg", .bearing_sigma_factor = 0.9};
   model.worlds[0].report.residual_px_mean = 0.5;
+  model.worlds[0].report.weak_images = {{"c.jpg", "8 observations in one corner"}};
   model.worlds[0].report.adjustments.push_back(
       {.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
   const auto model_out = DecodeConcludedModel(EncodeConcludedModel(model));
@@ -371,6 +375,9 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(report.gnss.outliers, model.worlds[0].report.gnss.outliers);
   EXPECT_EQ(report.adjustments[0].biases_m[0], Eigen::Vector3d(1, 2, 3));
   ExpectSame({.images = model_out->worlds[0].images}, {.images = model.worlds[0].images});
+  ASSERT_EQ(report.weak_images.size(), 1U);
+  EXPECT_EQ(report.weak_images[0].name, "c.jpg");
+  EXPECT_EQ(report.weak_images[0].reason, "8 observations in one corner");
   EXPECT_EQ(report.uncertainty.held_image, "b.jpg");
   EXPECT_EQ(report.uncertainty.bearing_sigma_factor, 0.9);
   EXPECT_EQ(model_out->blocks, model.blocks);
