@@ -112,6 +112,7 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
   for (const ViewEdge& edge : filtered.graph.edges) {
     divided.edges.push_back(edge.pair);
     divided.edge_kinds.push_back(static_cast<uint8_t>(edge.kind));
+    divided.edge_rungs.push_back(static_cast<uint8_t>(edge.rung));
   }
 
   TaskResult result;

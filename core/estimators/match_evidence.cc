@@ -22,9 +22,8 @@ using Eigen::Vector3d;
 constexpr size_t kPoseSample = 5;
 constexpr size_t kRotationSample = 2;
 constexpr size_t kNumErrors = 4;
-/// Exchanged matches per match at most: with 256 the share of chance is known to a tenth where it
-/// is a hundredth.
-constexpr size_t kMaxExchanges = 256;
+/// Exchanged matches at most: the share of chance is then known to a tenth where it is a hundredth.
+constexpr size_t kMaxExchanges = 16384;
 
 /// The matches that speak for themselves.
 std::vector<PlacePairs::Match> IndependentMatches(const BearingPairs& pairs) {
@@ -77,7 +76,7 @@ class PoseTest {
 /// place in b is the right one's is no wrong match.
 Counts CountExchanged(const std::vector<PlacePairs::Match>& matches, const PoseTest& test) {
   const size_t n = matches.size();
-  const size_t num_shifts = std::min(n - 1, kMaxExchanges);
+  const size_t num_shifts = std::min(n - 1, std::max<size_t>(1, kMaxExchanges / n));
   Counts counts;
   for (size_t shift = 1; shift <= num_shifts; ++shift) {
     for (size_t i = 0; i < n; ++i) {

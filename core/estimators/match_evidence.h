@@ -29,7 +29,7 @@ struct MatchEvidence {
 /// may move by itself, such as a car that follows, count as three (PlacePairs); which ones count
 /// does not depend on the pose. Degenerate: five matches or fewer have 0.
 /// |b_from_a.translation| = 1, or 0 for a pure rotation, whose error is the angle between the rays
-/// and whose sample are two matches. The cost grows with n^2 up to 256 matches, linearly beyond.
+/// and whose sample are two matches. Linear in the number of matches.
 [[nodiscard]] MatchEvidence EvidenceOf(const BearingPairs& pairs,
                                        const Rigid3& b_from_a,
                                        double max_error_rad);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/features/descriptor_distance.h"
 #include "core/geometry/place_pairs.h"
 #include "core/robust/false_alarms.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/features/accept_matches.h"
+#include "core/features/descriptor_distance.h"
 #include "core/features/match_descriptors.h"
 
 namespace orbweave {
@@ -19,7 +20,9 @@ using std::numbers::pi;
 /// centre of a) and the azimuth, equal for all bearings of one epipolar half plane.
 struct AxialFeature {
   double azimuth_rad = 0.0;  ///< [-pi, pi]
-  double polar_rad = 0.0;    ///< [0, pi]
+  double cos_azimuth = 1.0;
+  double sin_azimuth = 0.0;
+  double polar_rad = 0.0;  ///< [0, pi]
   double sin_polar = 0.0;
   FeatureIndex index = 0;
 };
@@ -35,7 +38,13 @@ std::vector<AxialFeature> AboutAxis(const Features& features,
   for (FeatureIndex i = 0; i < features.size(); ++i) {
     const Eigen::Vector3d p = axial_from_cam * features.Bearing(i);
     const double sin_polar = std::hypot(p.x(), p.y());
-    axial.push_back({std::atan2(p.y(), p.x()), std::atan2(sin_polar, p.z()), sin_polar, i});
+    const double azimuth = std::atan2(p.y(), p.x());
+    axial.push_back({.azimuth_rad = azimuth,
+                     .cos_azimuth = std::cos(azimuth),
+                     .sin_azimuth = std::sin(azimuth),
+                     .polar_rad = std::atan2(sin_polar, p.z()),
+                     .sin_polar = sin_polar,
+                     .index = i});
   }
   return axial;
 }
@@ -58,8 +67,9 @@ class Epipolar {
     const double sin_polar = std::max(a.sin_polar, b.sin_polar);
     if (sin_polar <= sin_error_)
       return std::abs(a.polar_rad - b.polar_rad) < 0.5 * pi;  // at one epipole
-    const double azimuth = a.azimuth_rad - b.azimuth_rad;
-    return std::cos(azimuth) > 0.0 && sin_polar * std::abs(std::sin(azimuth)) <= sin_error_;
+    const double cosine = a.cos_azimuth * b.cos_azimuth + a.sin_azimuth * b.sin_azimuth;
+    const double sine = a.sin_azimuth * b.cos_azimuth - a.cos_azimuth * b.sin_azimuth;
+    return cosine > 0.0 && sin_polar * std::abs(sine) <= sin_error_;
   }
 
  private:

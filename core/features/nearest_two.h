@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/features.h"
-
 namespace orbweave {
 
 /// Squared distance of "nothing there": larger than any of two descriptors.
@@ -39,13 +37,6 @@ enum class DistanceKernel { kPortable, kAvx2, kAvx512Vnni };
 [[nodiscard]] NearestTwoBothWays FindNearestTwo(std::span<const uint8_t> a,
                                                 std::span<const uint8_t> b,
                                                 DistanceKernel kernel);
-
-/// Of two descriptors.
-[[nodiscard]] inline int32_t SquaredDistance(const uint8_t* a, const uint8_t* b) {
-  int32_t sum = 0;
-  for (int k = 0; k < kDescriptorSize; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return sum;
-}
 
 /// The same with the fastest kernel of this processor.
 [[nodiscard]] NearestTwoBothWays FindNearestTwo(std::span<const uint8_t> a,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "core/scene/cross_check.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
+#include "core/scene/two_view_geometry.h"
 
 namespace orbweave {
 
@@ -195,6 +197,8 @@ struct JobReport {
   std::vector<ReportStage> stages{};  ///< in order
   std::vector<ReportWorker> workers{};
   double elapsed_s = 0.0;
+  std::array<uint64_t, kNumMatchRungs>
+      pairs_of_rung{};               ///< verified pairs that stayed, by MatchRung
   std::vector<CrossCheck> checks{};  ///< of all models, the largest model's first
   Verdict verdict{};
   std::vector<std::string> warnings{};

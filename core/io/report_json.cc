@@ -247,6 +247,9 @@ std::string ReportJson(const JobReport& report) {
   json["track_lengths"] = report.track_lengths;
   json["clusters"] = Clusters(report);
   json["seams"] = Seams(report);
+  for (const auto& [rung, name] : EnumNames<MatchRung>::kNames) {
+    json["pairs_by_rung"][std::string(name)] = report.pairs_of_rung[static_cast<size_t>(rung)];
+  }
   json["checks"] = Checks(report);
   json["gnss"] = Gnss(report.gnss);
   json["gnss"]["contradicted"] = Contradicted(report);

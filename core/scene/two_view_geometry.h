@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/base/options.h"
 #include "core/geometry/rigid3.h"
 #include "core/scene/ids.h"
 
@@ -26,7 +30,16 @@ enum class MatchRung : uint8_t {
   kUpright = 2,      ///< the same matches, by samples of cameras that stand upright
   kGuided = 3,       ///< too little by themselves; what they predict was found along the planes
 };
-constexpr int kNumMatchRungs = 4;
+constexpr size_t kNumMatchRungs = 4;
+
+template <>
+struct EnumNames<MatchRung> {
+  static constexpr std::array<std::pair<MatchRung, std::string_view>, kNumMatchRungs> kNames = {
+      {{MatchRung::kGiven, "given"},
+       {MatchRung::kDescriptors, "descriptors"},
+       {MatchRung::kUpright, "upright_samples"},
+       {MatchRung::kGuided, "predicted_matches"}}};
+};
 
 struct TwoViewGeometry {
   ImagePair pair{};

@@ -14,7 +14,8 @@ namespace orbweave {
           .b_from_a = geometry.b_from_a,
           .num_inliers = static_cast<uint32_t>(geometry.inliers.size()),
           .median_angle_rad = geometry.median_angle_rad,
-          .spread = geometry.spread};
+          .spread = geometry.spread,
+          .rung = geometry.rung};
 }
 
 }  // namespace orbweave

@@ -20,6 +20,7 @@ struct ViewEdge {
   uint32_t num_inliers = 0;
   double median_angle_rad = 0.0;
   double spread = 0.0;
+  MatchRung rung = MatchRung::kGiven;
 };
 
 /// Images joined by verified geometry. Edges sorted by pair.

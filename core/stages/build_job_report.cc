@@ -14,7 +14,6 @@
 #include "core/stages/check_job.h"
 #include "core/stages/check_look_alikes.h"
 #include "core/stages/check_pairs.h"
-#include "core/stages/check_residual_patterns.h"
 #include "core/stages/check_standing_camera.h"
 #include "core/stages/judge_model.h"
 #include "core/stages/list_missing_images.h"
@@ -255,7 +254,6 @@ std::vector<CrossCheck> ChecksOfModel(const JobResults& results,
 void Judge(const JobResults& results, JobReport& report) {
   for (size_t number = 0; number < results.models.size(); ++number)
     std::ranges::copy(ChecksOfModel(results, report, number), std::back_inserter(report.checks));
-  std::ranges::copy(CheckResidualPatterns(results), std::back_inserter(report.checks));
   const bool has_pairs = std::ranges::any_of(
       report.checks, [](const CrossCheck& check) { return check.name == "pairs_contradicted"; });
   if (const auto pairs = CheckContradictedPairs(results); pairs && !has_pairs)
@@ -299,6 +297,7 @@ JobReport BuildJobReport(const JobResults& results) {
       report.images, [](const ReportImage& row) { return row.registered && !row.loose; }));
   report.clusters = ClusterRows(results);
   report.seams = SeamRows(results);
+  for (const uint8_t rung : results.view_graph.edge_rungs) ++report.pairs_of_rung.at(rung);
   report.warnings = results.manifest.warnings;
   ListMissingImages(results, report);
   TellReviews(results.review, report);

@@ -18,6 +18,7 @@ struct DividedViewGraph {
   std::vector<DroppedEdge> dropped{};
   std::vector<ImagePair> edges{};
   std::vector<uint8_t> edge_kinds{};  ///< TwoViewKind of each
+  std::vector<uint8_t> edge_rungs{};  ///< MatchRung of each
 };
 
 /// The result of one cluster, with its number.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/two_view_codec.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "proto/codec/pack.h"
@@ -91,6 +92,7 @@ std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
   }
   proto.set_edges(codec::Pack(divided.edges));
   proto.set_edge_kinds(codec::Pack(divided.edge_kinds));
+  proto.set_edge_rungs(codec::Pack(divided.edge_rungs));
   return proto.SerializeAsString();
 }
 
@@ -120,6 +122,13 @@ absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) 
   ORBWEAVE_ASSIGN_OR_RETURN(
       divided.edge_kinds,
       codec::UnpackExactly<uint8_t>(proto.edge_kinds(), divided.edges.size(), "kinds of edges"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      divided.edge_rungs,
+      codec::UnpackExactly<uint8_t>(proto.edge_rungs(), divided.edges.size(), "rungs of edges"));
+  if (std::ranges::any_of(divided.edge_rungs,
+                          [](uint8_t rung) { return rung >= kNumMatchRungs; })) {
+    return absl::InvalidArgumentError("partition: unknown rung of an edge");
+  }
   return divided;
 }
 

@@ -52,7 +52,8 @@ void AddViewGraph(Seeds& seeds) {
   seeds["two_view_geometries"] = {EncodeTwoViewGeometries({pair, pair})};
   DividedViewGraph divided{.dropped = {{{ImageId(0), ImageId(7)}, "loop"}},
                            .edges = {{ImageId(0), ImageId(1)}},
-                           .edge_kinds = {1}};
+                           .edge_kinds = {1},
+                           .edge_rungs = {1}};
   divided.partition.clusters = {{.images = {ImageId(0), ImageId(1)}, .interior = {ImageId(0)}}};
   divided.partition.seams = {{.cluster_a = 0, .cluster_b = 1, .shared = {ImageId(1)}}};
   seeds["divided_view_graph"] = {EncodeDividedViewGraph(divided)};

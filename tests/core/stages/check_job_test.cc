@@ -9,7 +9,6 @@
 #include <algorithm>
 
 #include "core/stages/check_contradicted_pairs.h"
-#include "core/stages/check_residual_patterns.h"
 #include "core/stages/judge_model.h"
 
 namespace orbweave {
@@ -259,20 +258,6 @@ TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
     results.clusters[0].contradicted_pairs.push_back({ImageId(i - 1), ImageId(i)});
   EXPECT_EQ(CheckContradictedPairs(results)->level, CheckLevel::kBad);
   EXPECT_EQ(CheckContradictedPairs(Street(5, {})), std::nullopt);
-}
-
-TEST(CheckResidualPatterns, DoubtWhatRepeatsBesideWhatDoesNotAndLeaveModelsThatCheckedThemselves) {
-  JobResults results = Street(40, {{0, 30}, {30, 40}});
-  results.models[0].report.pattern_px = 0.2;  // of 0.6 rms
-  EXPECT_EQ(CheckResidualPatterns(results)[0].level, CheckLevel::kGood);
-  results.models[0].report.pattern_px = 0.5;
-  const std::vector<CrossCheck> checks = CheckResidualPatterns(results);
-  ASSERT_EQ(checks.size(), 2U);
-  EXPECT_EQ(checks[0].level, CheckLevel::kDoubtful);
-  EXPECT_THAT(checks[0].sentence, HasSubstr("up to 0.50 px repeat"));
-  EXPECT_EQ(checks[1].level, CheckLevel::kGood);
-  results.models[0].report.checks = {{.name = "residual_pattern"}};
-  EXPECT_EQ(CheckResidualPatterns(results).size(), 1U);
 }
 
 TEST(BuildJobReport, HasARowForEveryModelAndPlacesMissingImagesByGnss) {
