@@ -46,8 +46,10 @@ void AddGnssPairs(const ImageManifest& manifest, const PairOptions& options, Pai
       for (const uint32_t j : near[i]) pairs.push_back(MakePair(ids[i], ids[j]));
     }
   };
+  if (options.gnss_radius_m <= 0.0) return;
   add(options.gnss_radius_m, options.gnss_max_neighbours);
-  add(std::max(options.gnss_radius_m, options.similar_gate_m), options.gnss_min_neighbours);
+  add(std::max(options.gnss_radius_m, options.similar_gate_m),
+      std::min(options.gnss_min_neighbours, options.gnss_max_neighbours));
 }
 
 void AddSimilarPairs(const ImageManifest& manifest,

@@ -34,9 +34,9 @@ std::string MakeWeakStreet(const TemporaryFolder& folder) {
                      "--tunnel-panoramas",
                      "24",
                      "--tunnel-features",
-                     "40",
+                     "36",
                      "--seed",
-                     "3"});
+                     "6"});
 }
 
 std::string NameOf(uint32_t image) {
@@ -104,8 +104,8 @@ TEST(WeakSeam, AReviewJoinsWhatTheUsualOverlapLeavesApart) {
 
   ASSERT_EQ(Reconstruct(street, folder / "mended", with).exit_code, 0);
   const nlohmann::json mended = ReportOf(folder / "mended");
-  EXPECT_TRUE(MiddleIsJoined(mended)) << mended["seams"].dump(1);
-  EXPECT_LT(mended["models"], left["models"]);
+  EXPECT_GT(left["models"], 1);
+  EXPECT_EQ(mended["models"], 1) << mended["seams"].dump(1);
   EXPECT_EQ(mended["registered"], 80);
   EXPECT_THAT(mended["warnings"].dump(), HasSubstr("clusters 1 and 2 were reconstructed again"));
   const int reused = TasksOf(mended, "reconstruct_cluster", "tasks_reused");

@@ -225,7 +225,7 @@ TEST(EstimateTwoView, IsDeterministic) {
 
 TEST(EstimateTwoView, HasNoAnswerWithoutSupport) {
   EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 1.0)).kind, TwoViewKind::kNone);
-  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 14)).kind, TwoViewKind::kNone);
+  EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 9)).kind, TwoViewKind::kNone);
   EXPECT_EQ(Estimate({}).kind, TwoViewKind::kNone);
   EXPECT_EQ(Estimate(MakeTwoViewWorld(1, 100, 0.6), {.min_inlier_share = 0.5}).kind,
             TwoViewKind::kNone);

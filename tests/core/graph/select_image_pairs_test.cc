@@ -95,6 +95,21 @@ TEST(SelectImagePairs, CapsNeighboursOfACarThatStands) {
   EXPECT_GE(pairs.size(), 200U * 5U / 2U);
 }
 
+TEST(SelectImagePairs, LooksFurtherWhereTheStreetIsThinlyCovered) {
+  // 12 m apart: within 20 m there is one neighbour on either side only.
+  ImageManifest manifest = DriveAlongStreet(60, true);
+  for (ImageRecord& image : manifest.images)
+    image.prior.position_in_enu = Eigen::Vector3d(12.0 * image.id.value, 0.0, 0.0);
+  const auto pairs = SelectImagePairs(
+      manifest, {}, {.sequence_window = 0, .gnss_min_neighbours = 6, .exhaustive_below = 0});
+  EXPECT_TRUE(Has(pairs, 30, 32));
+  EXPECT_TRUE(Has(pairs, 30, 33));
+  EXPECT_FALSE(Has(pairs, 30, 35));  // 60 m: further than look-alikes are believed
+  const auto near = SelectImagePairs(
+      manifest, {}, {.sequence_window = 0, .gnss_min_neighbours = 0, .exhaustive_below = 0});
+  EXPECT_EQ(near.size(), 59U);
+}
+
 TEST(SelectImagePairs, LeavesSequencePairsOfAGnssOutlierAlone) {
   ImageManifest manifest = DriveAlongStreet(60, true);
   manifest.images[30].prior.position_in_enu = Eigen::Vector3d(5000.0, 5000.0, 0.0);

@@ -18,8 +18,9 @@ ReconstructionMeasures Measure(const Eigen::Vector3d& ray, const Eigen::Vector2d
   manifest.images.push_back({.camera = kCamera});
   const std::map<ImageId, RegisteredImage> images = {{ImageId(0), {}}};
   ReconstructionMeter meter(images, manifest);
-  meter.Add({.point_in_world = 4.0 * ray,
-             .observations = {{.bearing = kCamera.BearingFromPixel(seen_px)}}});
+  meter.Add(
+      {.point_in_world = 4.0 * ray,
+       .observations = {{.ref = {ImageId(0), 0}, .bearing = kCamera.BearingFromPixel(seen_px)}}});
   return std::move(meter).Finish();
 }
 

@@ -36,13 +36,16 @@ TEST(CheckOptionsTogether, PassesTheDefaults) {
 
 TEST(CheckOptionsTogether, RefusesCeresWhereTheGraphMayBeDivided) {
   const JobShape street{.num_images = 100};
-  EXPECT_THAT(ProblemOf({"bundle.solver=ceres"}, street), HasSubstr("partition.cluster_size=0"));
+  EXPECT_EQ(ProblemOf({"bundle.solver=ceres"}, street), "");  // stays one cluster
+  EXPECT_THAT(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=3"}, street),
+              HasSubstr("partition.cluster_size=0"));
   EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.cluster_size=0"}, street), "");
   EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=1"}, street), "");
   EXPECT_NE(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=1"}, {.num_images = 101}),
             "");
-  EXPECT_EQ(ProblemOf({"bundle.solver=ceres"}, {.num_images = 31}), "");  // too few for two
-  EXPECT_NE(ProblemOf({"bundle.solver=ceres"}, {.num_images = 32}), "");
+  EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=3"}, {.num_images = 31}),
+            "");  // too few for two
+  EXPECT_NE(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=3"}, {.num_images = 32}), "");
 }
 
 TEST(CheckOptionsTogether, RefusesCeresForClustersByHand) {
