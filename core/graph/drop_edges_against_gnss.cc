@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "core/graph/disjoint_sets.h"
 
@@ -157,21 +160,59 @@ bool SpeaksAgainst(Opinion opinion, Trust a, Trust b) {
   return opinion == Opinion::kDisagrees && a != Trust::kNone && b != Trust::kNone;
 }
 
+/// Parts that edges which agree with GNSS hold together, and what joins them against it.
+class Crossings {
+ public:
+  Crossings(const std::vector<ViewEdge>& edges,
+            const std::vector<Opinion>& opinions,
+            uint32_t num_images)
+      : parts_(num_images) {
+    for (size_t e = 0; e < edges.size(); ++e) {
+      if (opinions[e] == Opinion::kAgrees)
+        parts_.Unite(edges[e].pair.a.value, edges[e].pair.b.value);
+    }
+    for (size_t e = 0; e < edges.size(); ++e) {
+      if (opinions[e] != Opinion::kDisagrees) continue;
+      const auto [a, b] = edges[e].pair;
+      images_[{parts_.Find(a.value), parts_.Find(b.value)}].insert(a.value);
+      images_[{parts_.Find(b.value), parts_.Find(a.value)}].insert(b.value);
+    }
+  }
+
+  [[nodiscard]] bool IsWithinAPart(const ImagePair& pair) {
+    return parts_.Find(pair.a.value) == parts_.Find(pair.b.value);
+  }
+
+  /// Positions that jumped take a stretch along, and so do a drive that comes back and its pairs.
+  /// Two parts that hold together by themselves and meet in a panorama or two look alike there.
+  [[nodiscard]] bool IsAChanceMeeting(const ImagePair& pair) {
+    constexpr uint32_t kOwnImages = 5;
+    constexpr size_t kStretch = 3;
+    const uint32_t a = parts_.Find(pair.a.value);
+    const uint32_t b = parts_.Find(pair.b.value);
+    if (a == b || parts_.SizeOf(a) < kOwnImages || parts_.SizeOf(b) < kOwnImages) return false;
+    return images_.at({a, b}).size() < kStretch && images_.at({b, a}).size() < kStretch;
+  }
+
+ private:
+  DisjointSets parts_;
+  std::map<std::pair<uint32_t, uint32_t>, std::set<uint32_t>> images_{};
+};
+
 }  // namespace
 
 EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest) {
   const std::vector<Opinion> opinions = FormOpinions(edges, manifest);
   const std::vector<Trust> trust = FindTrust(edges, opinions, manifest);
-  DisjointSets joined(static_cast<uint32_t>(manifest.images.size()));
-  for (size_t e = 0; e < edges.size(); ++e) {
-    if (opinions[e] == Opinion::kAgrees) joined.Unite(edges[e].pair.a.value, edges[e].pair.b.value);
-  }
+  Crossings crossings(edges, opinions, static_cast<uint32_t>(manifest.images.size()));
   EdgesByGnss result;
   for (size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
-    const bool is_wrong = SpeaksAgainst(opinions[e], trust[a.value], trust[b.value]) &&
-                          joined.Find(a.value) == joined.Find(b.value);
+    const bool is_wrong =
+        SpeaksAgainst(opinions[e], trust[a.value], trust[b.value]) &&
+        (crossings.IsWithinAPart(edges[e].pair) ||
+         (opinions[e] == Opinion::kDisagrees && crossings.IsAChanceMeeting(edges[e].pair)));
     if (!is_wrong) {
       result.kept.push_back(edges[e]);
       continue;

@@ -24,10 +24,11 @@ struct EdgesByGnss {
 /// agrees within 3 and 1.5. Positions may be wrong, so that an edge is dropped only when at both of
 /// its images GNSS disagrees with half or less of the edges to neighbours in the sequence (up to 5
 /// ids of the same drive; where there are less than two of all edges), and edges that agree join
-/// its images. Positions that are smooth along the sequence are thus believed whatever the number
-/// of look-alikes; a single position that is off is not, and a stretch of positions that jumped
-/// together, which agrees with nothing that joins it to the rest, loses no edge. Edges without
-/// geometry and of images without a position stay.
+/// its images - or nothing but it, and at most one more panorama on either side, joins two parts
+/// of five images and more that agree by themselves. Positions that are smooth along the sequence
+/// are thus believed whatever the number of look-alikes; a single position that is off is not, and
+/// a stretch of positions that jumped together, which agrees with nothing that joins it to the
+/// rest, loses no edge. Edges without geometry and of images without a position stay.
 [[nodiscard]] EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                                const ImageManifest& manifest);
 

@@ -15,7 +15,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"select_image_pairs", "3"},
     {"match_images", "3"},
     {"verify_matches", "3"},
-    {"partition_view_graph", "6"},
+    {"partition_view_graph", "7"},
     {"reconstruct_cluster", "4"},
     {"list_seams", "1"},
     {"fit_seams", "1"},

@@ -87,6 +87,23 @@ TEST(DropEdgesAgainstGnss, KeepsAStretchWhoseGnssJumped) {
   EXPECT_TRUE(DropEdgesAgainstGnss(edges, manifest).dropped.empty());
 }
 
+TEST(DropEdgesAgainstGnss, DropsAChanceMeetingOfTwoStreets) {
+  // Two streets that share nothing but a police car, seen from one panorama of each.
+  std::vector<ViewEdge> edges;
+  for (uint32_t a = 0; a < 60; ++a) {
+    for (uint32_t b = a + 1; b <= a + 6 && b < (a < 30 ? 30U : 60U); ++b)
+      edges.push_back(EdgeOver(a, b, kStepM * (b - a)));
+  }
+  const size_t right = edges.size();
+  edges.push_back(EdgeOver(10, 50, 1.0));
+  ImageManifest manifest = Manifest(60);
+  for (uint32_t i = 30; i < 60; ++i) manifest.images[i].prior.position_in_enu->y() += 100.0;
+  const EdgesByGnss result = DropEdgesAgainstGnss(edges, manifest);
+  EXPECT_EQ(result.kept.size(), right);
+  ASSERT_EQ(result.dropped.size(), 1U);
+  EXPECT_EQ(result.dropped[0].pair, (ImagePair{ImageId(10), ImageId(50)}));
+}
+
 TEST(DropEdgesAgainstGnss, KeepsLongBaselinesAndImagesWithoutPosition) {
   std::vector<ViewEdge> edges = StraightDrive(60);
   edges.push_back(EdgeOver(0, 20, 60.0));  // from afar, and the rays say so
