@@ -117,7 +117,8 @@ class Growth {
     ++record.num_attempts;
     record.visible_at_failure = attempt.registered ? 0 : attempt.num_visible;
     record.best_visible = std::max(record.best_visible, attempt.num_visible);
-    record.best_inliers = std::max(record.best_inliers, attempt.num_inliers);
+    if (attempt.num_inliers < record.best_inliers) return;
+    record.best_inliers = attempt.num_inliers;
     record.needed_inliers = NeededInliers(Limits(), attempt.num_visible);
   }
 

@@ -7,9 +7,13 @@ namespace orbweave {
 
 std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) {
   if (record.dropped) return "lost its points again in the adjustment";
-  if (record.num_attempts > 0) {
+  if (record.best_inliers < record.needed_inliers) {
     return std::to_string(record.best_inliers) + " of " + std::to_string(record.needed_inliers) +
            " needed points agree";
+  }
+  if (record.best_visible >= needed_visible && needed_visible > 0) {
+    return "sees " + std::to_string(record.best_visible) +
+           " reconstructed points of models that did not last, or that hold it nowhere";
   }
   if (record.best_visible > 0) {
     return "sees " + std::to_string(record.best_visible) + " of " + std::to_string(needed_visible) +

@@ -14,9 +14,9 @@ struct RegistrationRecord {
   int num_attempts = 0;
   uint32_t visible_at_failure = 0;  ///< scene points it saw when it last failed
   uint32_t best_inliers = 0;        ///< most points that ever agreed
-  uint32_t needed_inliers = 0;
-  uint32_t best_visible = 0;  ///< most points it ever saw
-  bool dropped = false;       ///< was registered, then lost its points
+  uint32_t needed_inliers = 0;      ///< when most agreed
+  uint32_t best_visible = 0;        ///< most points it ever saw
+  bool dropped = false;             ///< was registered, then lost its points
 };
 
 /// One record per image of the cluster.

@@ -17,6 +17,13 @@ TEST(ReasonOf, SaysHowManyPointsWereSeen) {
   EXPECT_EQ(ReasonOf({.best_visible = 7}, 30), "sees 7 of 30 needed reconstructed points");
 }
 
+TEST(ReasonOf, NeverSaysThatMoreThanEnoughIsTooLittle) {
+  EXPECT_EQ(ReasonOf({.num_attempts = 2, .best_inliers = 17, .needed_inliers = 10}, 20),
+            "no pair of its images could start a reconstruction");
+  const std::string reason = ReasonOf({.best_visible = 545}, 20);
+  EXPECT_TRUE(reason.starts_with("sees 545 reconstructed points")) << reason;
+}
+
 TEST(ReasonOf, SaysThatNothingStarted) {
   EXPECT_EQ(ReasonOf({}, 20), "no pair of its images could start a reconstruction");
 }
