@@ -141,10 +141,6 @@ absl::StatusOr<bool> GrowGlobally(const ClusterProblem& problem,
   return is_forced;
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether the model lacks images that its matches reach.
 bool LeavesImagesOut(const CorrespondenceGraph& graph,
                      std::span<const uint8_t> available,
