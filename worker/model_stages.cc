@@ -117,8 +117,8 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeDividedViewGraph(divided), blobs, result));
-  const auto recipes =
-      PlanClusters(divided.partition, filtered.graph, extracted.features, collected.blob_of_pair);
+  const auto recipes = PlanClusters(
+      divided.partition, filtered.graph, manifest, extracted.features, collected.blob_of_pair);
   ORBWEAVE_RETURN_IF_ERROR(PutRecipes(recipes, EncodeClusterRecipe, blobs, result));
   result.report_json = nlohmann::json{{"edges", divided.edges.size()},
                                       {"dropped_edges", divided.dropped.size()},
@@ -143,14 +143,11 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
     ORBWEAVE_ASSIGN_OR_RETURN(auto geometries, FetchBlob(digest, blobs, DecodeTwoViewGeometries));
     TakePairs(recipe, std::move(geometries), problem);
   }
+  TakeFixes(recipe, problem);
   ClusterResult cluster{.cluster = recipe.cluster};
   ORBWEAVE_ASSIGN_OR_RETURN(cluster.reconstruction,
                             ReconstructCluster(problem, options.mapping, context));
-  std::vector<Reconstruction>& components = cluster.reconstruction.components;
-  const size_t grown = components.size();
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      components,
-      JoinComponents(std::move(components), RaysOf(problem), problem.pairs, {}, context));
+  const std::vector<Reconstruction>& components = cluster.reconstruction.components;
 
   TaskResult result;
   ORBWEAVE_RETURN_IF_ERROR(PutOutput(EncodeClusterResult(cluster), blobs, result));
@@ -161,7 +158,7 @@ absl::StatusOr<TaskResult> RunReconstructCluster(const TaskSpec& spec,
   result.report_json = nlohmann::json{{"images", problem.images.size()},
                                       {"registered", registered},
                                       {"components", components.size()},
-                                      {"joined_components", grown - components.size()},
+                                      {"joined_components", cluster.reconstruction.num_joined},
                                       {"residual_rms_px", cluster.reconstruction.residual_rms_px},
                                       {"started_globally", cluster.reconstruction.started_globally},
                                       {"start_remark", cluster.reconstruction.start_remark}}

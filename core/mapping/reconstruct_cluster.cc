@@ -9,12 +9,15 @@
 
 #include "core/mapping/export_component.h"
 #include "core/mapping/find_contradicted_pairs.h"
+#include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/reconstruct_component.h"
 #include "core/mapping/weigh_pixels_alike.h"
 
 namespace orbweave {
 namespace {
+
+constexpr uint32_t kFewestImages = 2;
 
 /// Squared angles of all observations in pixels at the equator of their panoramas.
 struct ResidualSum {
@@ -62,6 +65,54 @@ void SortLargestFirst(std::vector<Reconstruction>& components) {
       });
 }
 
+/// Grows components until no images are left, then joins those that bridges hold together.
+absl::StatusOr<std::vector<MappingState>> MapComponents(const ClusterProblem& problem,
+                                                        const CorrespondenceGraph& graph,
+                                                        const MappingOptions& options,
+                                                        const StageContext& context,
+                                                        RegistrationLog& log,
+                                                        ClusterReconstruction& result) {
+  std::vector<uint8_t> available(problem.images.size(), 1);
+  std::vector<MappingState> states;
+  size_t largest = 0;
+  while (CountAvailable(available) >= kFewestImages) {
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        ComponentResult component,
+        ReconstructComponent(problem, graph, available, options, log, context));
+    result.num_global_adjustments += component.growth.num_global_adjustments;
+    result.num_local_adjustments += component.growth.num_local_adjustments;
+    if (states.empty()) result.start_remark = component.start_remark;
+    if (!component.state || component.state->Registered().empty()) break;
+    const std::vector<ImageSlot>& registered = component.state->Registered();
+    for (const ImageSlot image : registered) available[image] = 0;
+    if (registered.size() > largest) {
+      largest = registered.size();
+      result.started_globally = component.started_globally;
+      result.start_remark = component.start_remark;
+    }
+    states.push_back(*std::move(component.state));
+  }
+  if (!ScheduleOf(options).relaxes_registration) return states;
+  const size_t grown = states.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      states, JoinByBridges(std::move(states), problem, graph, options, log, context));
+  result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
+  return states;
+}
+
+void TakeComponent(const MappingState& state,
+                   const MappingOptions& options,
+                   ResidualSum& residuals,
+                   ClusterReconstruction& result) {
+  result.components.push_back(ExportComponent(state));
+  residuals.Add(state.Problem(), result.components.back());
+  const JudgedPairs judged = JudgePairs(state, options);
+  result.contradicted_pairs.insert(
+      result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
+  result.explained_pairs.insert(
+      result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
+}
+
 }  // namespace
 
 absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& problem,
@@ -73,42 +124,22 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       return ReconstructCluster(*alike, options, context);
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const CorrespondenceGraph graph, BuildCorrespondenceGraph(problem));
-  std::vector<uint8_t> available(problem.images.size(), 1);
-  std::vector<std::string> reasons(problem.images.size());
   RegistrationLog log(problem.images.size());
   ClusterReconstruction result;
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MappingState> states,
+                            MapComponents(problem, graph, options, context, log, result));
   ResidualSum residuals;
-  size_t largest = 0;
-
-  while (CountAvailable(available) >= static_cast<uint32_t>(options.min_component_images)) {
-    ORBWEAVE_ASSIGN_OR_RETURN(
-        const ComponentResult component,
-        ReconstructComponent(problem, graph, available, options, log, context));
-    result.num_global_adjustments += component.growth.num_global_adjustments;
-    result.num_local_adjustments += component.growth.num_local_adjustments;
-    if (result.components.empty()) result.start_remark = component.start_remark;
-    if (!component.state) break;
-    const std::vector<ImageSlot>& registered = component.state->Registered();
-    const bool kept = registered.size() >= static_cast<size_t>(options.min_component_images);
-    for (const ImageSlot image : registered) {
-      available[image] = 0;
-      if (kept) continue;
-      reasons[image] = "its component of " + std::to_string(registered.size()) +
-                       " images is smaller than " + std::to_string(options.min_component_images);
+  std::vector<std::string> reasons(problem.images.size());
+  for (const MappingState& state : states) {
+    const size_t size = state.Registered().size();
+    if (size >= static_cast<size_t>(options.min_component_images)) {
+      TakeComponent(state, options, residuals, result);
+      continue;
     }
-    if (registered.empty()) break;
-    if (!kept) continue;
-    result.components.push_back(ExportComponent(*component.state));
-    residuals.Add(problem, result.components.back());
-    const JudgedPairs judged = JudgePairs(*component.state, options);
-    result.contradicted_pairs.insert(
-        result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
-    result.explained_pairs.insert(
-        result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
-    if (registered.size() <= largest) continue;
-    largest = registered.size();
-    result.started_globally = component.started_globally;
-    result.start_remark = component.start_remark;
+    for (const ImageSlot image : state.Registered()) {
+      reasons[image] = "its component of " + std::to_string(size) + " images is smaller than " +
+                       std::to_string(options.min_component_images);
+    }
   }
 
   SortLargestFirst(result.components);

@@ -132,6 +132,7 @@ struct ClusterReconstruction {
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};  ///< by the components; JudgePairs
   std::vector<ImagePair> explained_pairs{};
+  int num_joined = 0;  ///< components fewer, since bridges joined them
   int num_global_adjustments = 0;
   int num_local_adjustments = 0;
   double residual_rms_px = 0.0;

@@ -29,11 +29,14 @@ void TakePairs(const ClusterRecipe& recipe,
   });
 }
 
-std::vector<ImageRays> RaysOf(const ClusterProblem& problem) {
-  std::vector<ImageRays> rays;
-  for (const ClusterImage& image : problem.images)
-    rays.push_back({image.id, image.bearings, image.sigma_rad});
-  return rays;
+void TakeFixes(const ClusterRecipe& recipe, ClusterProblem& problem) {
+  for (const PositionFix& fix : recipe.fixes) {
+    const auto image = std::ranges::lower_bound(problem.images, fix.image, {}, &ClusterImage::id);
+    if (image == problem.images.end() || image->id != fix.image) continue;
+    image->prior.position_in_enu = fix.position_in_enu;
+    image->prior.horizontal_sigma_m = fix.horizontal_sigma_m;
+    image->prior.vertical_sigma_m = fix.vertical_sigma_m;
+  }
 }
 
 }  // namespace orbweave

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/mapping/reconstruct_cluster.h"
-#include "core/merging/join_components.h"
 #include "core/scene/features.h"
 #include "core/stages/recipes.h"
 
@@ -19,7 +18,7 @@ void TakePairs(const ClusterRecipe& recipe,
                std::vector<TwoViewGeometry> geometries,
                ClusterProblem& problem);
 
-/// The features of a cluster's images. `problem` must outlive it.
-[[nodiscard]] std::vector<ImageRays> RaysOf(const ClusterProblem& problem);
+/// Gives the images of a cluster, sorted, their GNSS positions.
+void TakeFixes(const ClusterRecipe& recipe, ClusterProblem& problem);
 
 }  // namespace orbweave

@@ -48,6 +48,7 @@ std::vector<ImageId> SharedImages(const Partition& partition, uint32_t cluster) 
 
 std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
                                         const ViewGraph& graph,
+                                        const ImageManifest& manifest,
                                         const std::vector<Digest>& features,
                                         const std::map<ImagePair, Digest>& blob_of_pair) {
   std::vector<std::vector<uint32_t>> clusters_of_image(graph.num_images);
@@ -56,6 +57,11 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
     recipes[c].cluster = c;
     for (const ImageId id : partition.clusters[c].images) {
       recipes[c].images.push_back({id, features[id.value]});
+      const PosePrior& prior = manifest.At(id).prior;
+      if (prior.position_in_enu) {
+        recipes[c].fixes.push_back(
+            {id, *prior.position_in_enu, prior.horizontal_sigma_m, prior.vertical_sigma_m});
+      }
       clusters_of_image[id.value].push_back(c);
     }
   }

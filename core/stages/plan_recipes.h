@@ -23,10 +23,12 @@ namespace orbweave {
 /// The images of a cluster that other clusters have too, sorted.
 [[nodiscard]] std::vector<ImageId> SharedImages(const Partition& partition, uint32_t cluster);
 
-/// One recipe per cluster: its images, the edges of `graph` among them, and the blobs these are in.
+/// One recipe per cluster: its images with their GNSS positions, the edges of `graph` among them,
+/// and the blobs these are in.
 [[nodiscard]] std::vector<ClusterRecipe> PlanClusters(
     const Partition& partition,
     const ViewGraph& graph,
+    const ImageManifest& manifest,
     const std::vector<Digest>& features,
     const std::map<ImagePair, Digest>& blob_of_pair);
 

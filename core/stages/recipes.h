@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,12 +44,22 @@ struct MatchRecipe {
   std::vector<Pair> pairs{};          ///< sorted
 };
 
+/// Where GNSS has an image, in the job's local frame.
+struct PositionFix {
+  ImageId image{};
+  Eigen::Vector3d position_in_enu = Eigen::Vector3d::Zero();
+  double horizontal_sigma_m = 1.0;
+  double vertical_sigma_m = 1.0;
+  friend bool operator==(const PositionFix&, const PositionFix&) = default;
+};
+
 struct ClusterRecipe {
   uint32_t cluster = 0;
   std::vector<FeatureFile> images{};  ///< sorted
   std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
   std::vector<ImageId> shared{};      ///< images that other clusters have too, sorted
   std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others
+  std::vector<PositionFix> fixes{};   ///< of the images that have one, sorted
 };
 
 }  // namespace orbweave

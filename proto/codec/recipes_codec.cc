@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "proto/codec/pack.h"
+#include "proto/codec/pack_matrices.h"
 
 namespace orbweave {
 namespace {
@@ -31,6 +32,37 @@ void FilesToProto(const std::vector<FeatureFile>& files, Repeated* proto) {
 bool Lists(const std::vector<FeatureFile>& files, ImageId id) {
   return std::any_of(
       files.begin(), files.end(), [&](const FeatureFile& file) { return file.image == id; });
+}
+
+using FixValues = Eigen::Matrix<double, 5, 1>;
+
+void FixesToProto(const std::vector<PositionFix>& fixes, v1::ClusterRecipe& proto) {
+  std::vector<ImageId> images;
+  std::vector<FixValues> values;
+  for (const PositionFix& fix : fixes) {
+    images.push_back(fix.image);
+    values.emplace_back();
+    values.back() << fix.position_in_enu, fix.horizontal_sigma_m, fix.vertical_sigma_m;
+  }
+  proto.set_fix_images(codec::Pack(images));
+  proto.set_fixes(codec::PackMatrices(values));
+}
+
+absl::StatusOr<std::vector<PositionFix>> FixesFromProto(const v1::ClusterRecipe& proto,
+                                                        const std::vector<FeatureFile>& files) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
+                            codec::Unpack<ImageId>(proto.fix_images(), "images with positions"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto values,
+      codec::UnpackMatrices<FixValues>(proto.fixes(), images.size(), "positions"));
+  std::vector<PositionFix> fixes;
+  for (size_t i = 0; i < images.size(); ++i) {
+    const FixValues& value = values[i];
+    if (!value.allFinite() || !(value[3] > 0.0) || !(value[4] > 0.0) || !Lists(files, images[i]))
+      return absl::InvalidArgumentError("cluster recipe: a position that is none, or of no image");
+    fixes.push_back({images[i], value.head<3>(), value[3], value[4]});
+  }
+  return fixes;
 }
 
 }  // namespace
@@ -88,6 +120,7 @@ std::string EncodeClusterRecipe(const ClusterRecipe& recipe) {
   for (const Digest& blob : recipe.matches) proto.add_matches(codec::PackDigest(blob));
   proto.set_cluster(recipe.cluster);
   proto.set_shared(codec::Pack(recipe.shared));
+  FixesToProto(recipe.fixes, proto);
   return proto.SerializeAsString();
 }
 
@@ -102,6 +135,7 @@ absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(blob));
     recipe.matches.push_back(digest);
   }
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.fixes, FixesFromProto(proto, recipe.images));
   return recipe;
 }
 

@@ -177,12 +177,14 @@ TEST(RecipesCodec, RoundTrip) {
   const ClusterRecipe cluster{.cluster = 3,
                               .images = match.images,
                               .pairs = {{ImageId(1), ImageId(4)}},
-                              .matches = {digest}};
+                              .matches = {digest},
+                              .fixes = {{ImageId(4), {1.5, -2.0, 0.25}, 3.0, 6.0}}};
   const auto cluster_out = DecodeClusterRecipe(EncodeClusterRecipe(cluster));
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 3U);
   EXPECT_EQ(cluster_out->pairs, cluster.pairs);
   EXPECT_EQ(cluster_out->matches, cluster.matches);
+  EXPECT_EQ(cluster_out->fixes, cluster.fixes);
 
   const ExtractRecipe extract{.image = digest, .mask = {}, .mask_ignores_white = false};
   const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract));
@@ -190,6 +192,16 @@ TEST(RecipesCodec, RoundTrip) {
   EXPECT_EQ(extract_out->image, digest);
   EXPECT_TRUE(extract_out->mask.IsZero());
   EXPECT_FALSE(extract_out->mask_ignores_white);
+}
+
+TEST(RecipesCodec, RefusesAPositionThatIsNoneOrOfNoImage) {
+  ClusterRecipe cluster{.images = {{ImageId(1), DigestOf("a")}},
+                        .fixes = {{ImageId(1), {1.0, 2.0, 3.0}, 3.0, 6.0}}};
+  ASSERT_TRUE(DecodeClusterRecipe(EncodeClusterRecipe(cluster)).ok());
+  cluster.fixes[0].horizontal_sigma_m = 0.0;
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster)).ok());
+  cluster.fixes[0] = {ImageId(2), {1.0, 2.0, 3.0}, 3.0, 6.0};
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster)).ok());
 }
 
 TEST(RecipesCodec, RefusesAPairWithoutItsImages) {

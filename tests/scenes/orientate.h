@@ -77,8 +77,10 @@ inline ClusterProblem Problem(const Corridor& corridor,
     if (has_both) recipe.pairs.push_back(edge.pair);
   }
   ClusterProblem problem;
-  for (const ImageId id : cluster.images)
+  for (const ImageId id : cluster.images) {
     problem.images.push_back(ToClusterImage(id, corridor.features[id.value]));
+    problem.images.back().prior = corridor.manifest.At(id).prior;
+  }
   TakePairs(recipe, geometries, problem);
   return problem;
 }
@@ -104,9 +106,6 @@ inline Orientated Orientate(const Corridor& corridor, const PartitionOptions& op
     const ClusterProblem problem =
         orientate_internal::Problem(corridor, partition.clusters[c], graph, geometries);
     ClusterReconstruction cluster = ReconstructCluster(problem, {}, {.seed = c + 1}).value();
-    cluster.components =
-        JoinComponents(std::move(cluster.components), RaysOf(problem), problem.pairs, {}, {})
-            .value();
     uint32_t component = 0;
     for (Reconstruction& each : cluster.components)
       submodels.push_back({c, component++, std::move(each)});

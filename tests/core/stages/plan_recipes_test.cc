@@ -38,12 +38,17 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
   const Partition partition{
       .clusters = {{.images = {ImageId(0), ImageId(1), ImageId(2)}, .interior = {}},
                    {.images = {ImageId(2), ImageId(3), ImageId(4)}, .interior = {}}}};
-  const auto recipes = PlanClusters(partition, graph, SomeDigests(5), blob_of_pair);
+  ImageManifest manifest;
+  for (uint32_t i = 0; i < 5; ++i) manifest.images.push_back({.id = ImageId(i)});
+  manifest.images[2].prior.position_in_enu = Eigen::Vector3d(1.0, 2.0, 3.0);
+  const auto recipes = PlanClusters(partition, graph, manifest, SomeDigests(5), blob_of_pair);
   ASSERT_EQ(recipes.size(), 2U);
   EXPECT_EQ(recipes[1].cluster, 1U);
   EXPECT_EQ(recipes[0].pairs.size(), 2U);
   EXPECT_EQ(recipes[0].matches, std::vector<Digest>{DigestOf("first")});
   EXPECT_EQ(recipes[1].matches, std::vector<Digest>{DigestOf("second")});
+  ASSERT_EQ(recipes[1].fixes.size(), 1U);
+  EXPECT_EQ(recipes[1].fixes[0].image, ImageId(2));
 }
 
 TEST(PlanSeams, GivesEachClusterItsRimAndThoseOfLaterNeighbours) {
