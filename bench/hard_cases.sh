@@ -67,6 +67,13 @@ row "30 % wrong matches" "${n[@]}" --outlier-share 0.3
 row "GNSS jump of 100 m" "${n[@]}" --gnss-jump-panoramas $((panoramas / 5))
 row "20 % of GNSS 20 to 100 m off" "${n[@]}" --gnss-outlier-share 0.2
 row "two drives, 30 % of points last, GNSS offsets of 3 m" "${n[@]}" --drives 2 --gnss-bias-m 3
+row "mount leans 12 degrees sideways, straight street" "${n[@]}" --shape straight --mount-roll-deg 12
+row "mount leans 12 degrees sideways, U-turn" "${n[@]}" --shape uturn --mount-roll-deg 12
+row "mount leans 10 degrees backwards, straight street" "${n[@]}" --shape straight --mount-pitch-deg 10
+row "GNSS errors of 5 m, alike over 150 m" --panoramas $((4 * panoramas)) --gnss-sigma-m 5 --gnss-correlation-m 150
+row "GNSS clock 0.8 s late" --panoramas $((2 * panoramas)) --gnss-delay-s 0.8
+row "antenna 3 m to the left, U-turn" "${n[@]}" --shape uturn --gnss-left-m 3
+row "second day 47 m higher" --panoramas $((2 * panoramas)) --drives 2 --gnss-datum-m 47
 row "roof of 100 features" "${n[@]}" --roof-features 100
 row "roof of 400 features" "${n[@]}" --roof-features 400
 row "lenses 4 cm off the centre" "${n[@]}" --lens-offset-m 0.04

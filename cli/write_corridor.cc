@@ -15,17 +15,19 @@ namespace orbweave {
 namespace {
 
 std::string GnssCsv(const ImageManifest& manifest) {
-  std::string csv = "name,latitude,longitude,altitude,accuracy,drive\n";
+  std::string csv = "name,latitude,longitude,altitude,accuracy,drive,time\n";
   for (const ImageRecord& image : manifest.images) {
     if (!image.prior.geodetic) continue;
-    absl::StrAppendFormat(&csv,
-                          "%s,%.9f,%.9f,%.4f,%.3f,%d\n",
-                          image.name,
-                          image.prior.geodetic->latitude_deg,
-                          image.prior.geodetic->longitude_deg,
-                          image.prior.geodetic->altitude_m,
-                          image.prior.horizontal_sigma_m,
-                          image.drive);
+    absl::StrAppendFormat(
+        &csv,
+        "%s,%.9f,%.9f,%.4f,%.3f,%d,%s\n",
+        image.name,
+        image.prior.geodetic->latitude_deg,
+        image.prior.geodetic->longitude_deg,
+        image.prior.geodetic->altitude_m,
+        image.prior.horizontal_sigma_m,
+        image.drive,
+        image.capture_time_s ? absl::StrFormat("%.3f", *image.capture_time_s) : "");
   }
   return csv;
 }

@@ -21,6 +21,13 @@ constexpr double kTrembleRad = 2e-4;  // of a carrier that stands
 constexpr double kDayS = 86400.0;
 constexpr GeodeticPosition kOrigin = {22.3, 114.17, 10.0};
 
+/// From a camera that stands upright on the carrier to one that leans with its mount.
+Eigen::Quaterniond Mount(const CorridorOptions& options) {
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+  return RotationFromVector({0.0, 0.0, -kRadPerDeg * options.mount_roll_deg}) *
+         RotationFromVector({-kRadPerDeg * options.mount_pitch_deg, 0.0, 0.0});
+}
+
 /// cam_from_world of a panorama that looks along the street, up to a degree of sway.
 Eigen::Quaterniond LookAlong(const Eigen::Vector2d& direction, bool any_rotation, Random& random) {
   if (any_rotation) {
@@ -56,6 +63,7 @@ struct GnssOffsets {
   GnssOffsets(const CorridorOptions& options, size_t num_panoramas) {
     Random random(static_cast<uint64_t>(options.seed) * 3 + 0x6e55);
     for (Eigen::Vector3d& bias : of_drive) bias = HorizontalVector(options.gnss_bias_m, random);
+    of_drive[1].z() = options.gnss_datum_m;
     of_jump = HorizontalVector(options.gnss_jump_m, random);
     const size_t length = std::min(static_cast<size_t>(options.gnss_jump_panoramas), num_panoramas);
     jump_begin = (num_panoramas - length) / 2;
@@ -68,14 +76,58 @@ struct GnssOffsets {
   }
 };
 
+/// Noise of one position after the other, of unit variance: independent, or correlated with that of
+/// the panorama before as exp(-distance / correlation) (Ornstein-Uhlenbeck).
+class GnssNoise {
+ public:
+  explicit GnssNoise(double correlation_m) : correlation_m_(correlation_m) {}
+
+  Eigen::Vector3d Next(const CorridorStation& station, Random& random) {
+    const Eigen::Vector3d fresh(random.Normal(), random.Normal(), random.Normal());
+    double kept = 0.0;
+    if (correlation_m_ > 0.0 && last_ != nullptr && last_->drive == station.drive) {
+      const double step_m = (station.place.position - last_->place.position).norm();
+      kept = std::exp(-step_m / correlation_m_);
+    }
+    noise_ = kept * noise_ + std::sqrt(1.0 - kept * kept) * fresh;
+    last_ = &station;
+    return noise_;
+  }
+
+ private:
+  double correlation_m_;
+  Eigen::Vector3d noise_ = Eigen::Vector3d::Zero();
+  const CorridorStation* last_ = nullptr;
+};
+
+/// Where the antenna was when the receiver measured what it says of station i; a drive came straight
+/// from where it begins and goes straight on from where it ends.
+Eigen::Vector2d AntennaPlace(const CorridorOptions& options, const CorridorPath& path, size_t i) {
+  const std::vector<CorridorStation>& stations = path.stations;
+  const double behind = options.gnss_delay_s * options.speed_m_per_s / options.spacing_m;
+  const double whole = std::floor(behind);
+  const auto place = [&](double steps) {
+    size_t at = i;
+    for (; steps >= 1.0 && at > 0 && stations[at - 1].drive == stations[i].drive; --steps) --at;
+    for (; steps < 0.0 && at + 1 < stations.size() && stations[at + 1].drive == stations[i].drive;
+         ++steps)
+      ++at;
+    const PathPlace& nearest = stations[at].place;
+    return Eigen::Vector2d(nearest.position - steps * options.spacing_m * nearest.direction);
+  };
+  const double rest = behind - whole;
+  return (1.0 - rest) * place(whole) + rest * place(whole + 1.0) +
+         options.gnss_left_m * stations[i].place.Left();
+}
+
 PosePrior MakePrior(const Eigen::Vector3d& biased_centre,
+                    const Eigen::Vector3d& noise,
                     const CorridorOptions& options,
                     Random& random) {
   PosePrior prior{.horizontal_sigma_m = options.gnss_sigma_m,
                   .vertical_sigma_m = 2.0 * options.gnss_sigma_m};
   Eigen::Vector3d position = biased_centre;
-  position += options.gnss_sigma_m *
-              Eigen::Vector3d(random.Normal(), random.Normal(), 2.0 * random.Normal());
+  position += options.gnss_sigma_m * Eigen::Vector3d(noise.x(), noise.y(), 2.0 * noise.z());
   if (random.Uniform() < options.gnss_outlier_share) {
     const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
     position +=
@@ -93,13 +145,15 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
   const GnssOffsets offsets(options, path.stations.size());
   const EquirectangularCamera camera{options.width_px, options.width_px / 2};
   if (options.gnss_sigma_m > 0.0) corridor.manifest.origin = kOrigin;
+  const Eigen::Quaterniond mount = Mount(options);
+  GnssNoise noise(options.gnss_correlation_m);
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the carrier that moved last
   for (size_t i = 0; i < path.stations.size(); ++i) {
     const CorridorStation& station = path.stations[i];
     const Eigen::Vector3d centre(
         station.place.position.x(), station.place.position.y(), kCameraHeightM);
     if (!station.standing)
-      attitude = LookAlong(station.place.direction, options.random_rotations, random);
+      attitude = mount * LookAlong(station.place.direction, options.random_rotations, random);
     Eigen::Quaterniond cam_from_world = attitude;
     if (station.standing) {
       const Eigen::Vector3d tremble(random.Normal(), random.Normal(), random.Normal());
@@ -110,9 +164,18 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
                       .name = ImageName(i),
                       .camera = camera,
                       .drive = station.drive};
-    if (options.gnss_sigma_m > 0.0)
-      image.prior = MakePrior(centre + offsets.At(i, station.drive), options, random);
-    if (options.drives == 2) image.capture_time_s = kDayS * station.drive + static_cast<double>(i);
+    if (options.gnss_sigma_m > 0.0) {
+      const Eigen::Vector2d antenna = AntennaPlace(options, path, i);
+      const Eigen::Vector3d measured(antenna.x(), antenna.y(), centre.z());
+      image.prior = MakePrior(measured + offsets.At(i, station.drive),
+                              noise.Next(station, random),
+                              options,
+                              random);
+    }
+    const double second_s =
+        options.gnss_delay_s == 0.0 ? 1.0 : options.spacing_m / options.speed_m_per_s;
+    if (options.drives == 2 || options.gnss_delay_s != 0.0)
+      image.capture_time_s = kDayS * station.drive + second_s * static_cast<double>(i);
     corridor.manifest.images.push_back(std::move(image));
     corridor.features.push_back({.camera = camera});
   }

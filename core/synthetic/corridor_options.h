@@ -32,6 +32,13 @@ struct CorridorOptions {
   double gnss_bias_m = 0.0;
   int gnss_jump_panoramas = 0;
   double gnss_jump_m = 100.0;
+  double gnss_correlation_m = 0.0;
+  double gnss_delay_s = 0.0;
+  double speed_m_per_s = 10.0;
+  double gnss_left_m = 0.0;
+  double gnss_datum_m = 0.0;
+  double mount_roll_deg = 0.0;
+  double mount_pitch_deg = 0.0;
   int drives = 1;
   double lasting_share = 0.3;
   int stop_panoramas = 0;
@@ -86,6 +93,31 @@ struct CorridorOptions {
           "so many positions in a row, about the middle, are off by one and the same jump",
           Range{0, 1000000});
     visit("gnss_jump_m", self.gnss_jump_m, "length of that jump", Range{0, 100000});
+    visit("gnss_correlation_m",
+          self.gnss_correlation_m,
+          "distance along the street over which GNSS noise fades to 1/e; 0: it is independent",
+          Range{0, 100000});
+    visit("gnss_delay_s",
+          self.gnss_delay_s,
+          "GNSS positions are where the carrier was so long before; images then have times",
+          Range{-100, 100});
+    visit("speed_m_per_s", self.speed_m_per_s, "speed of the carrier", Range{0.1, 100});
+    visit("gnss_left_m",
+          self.gnss_left_m,
+          "how far the antenna is to the left of the camera",
+          Range{-100, 100});
+    visit("gnss_datum_m",
+          self.gnss_datum_m,
+          "how much higher the heights of the second drive's positions are",
+          Range{-1000, 1000});
+    visit("mount_roll_deg",
+          self.mount_roll_deg,
+          "how far the cameras lean to the right of the direction of travel",
+          Range{-90, 90});
+    visit("mount_pitch_deg",
+          self.mount_pitch_deg,
+          "how far the cameras lean backwards, looking up",
+          Range{-90, 90});
     visit("drives",
           self.drives,
           "2: the second half of the panoramas drives the street again on another day, 2 m beside",
