@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/bundle/pose_covariance.h"
+#include "core/merging/gnss_variance.h"
 
 namespace orbweave {
 namespace {
@@ -161,7 +162,7 @@ AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,
       std::move(bearings),
       {.bearings = totals.correlation.Inflation() *
                    BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy),
-       .positions = PositionVarianceFactors(problem.bundle, poses.state())});
+       .positions = EstimateGnssVariance(problem, biases_m, manifest).factors});
   UncertaintyReport& report = assessed.report;
   report.reason = covariances.reason;
   report.known = covariances.reason.empty();

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/merging/estimate_gravity.h"
 #include "core/merging/find_gravity.h"
 #include "core/merging/quantile.h"
 
@@ -43,8 +44,8 @@ Sim3 ChooseLocalFrame(const Reconstruction& reconstruction, const ImageManifest&
   if (centres.empty()) return local_from_world;
   const double step = MedianStep(centres);
   if (step > 0.0) local_from_world.scale = 1.0 / step;
-  if (const auto down = FindGravity(reconstruction))
-    local_from_world.rotation = UprightFromDown(*down);
+  if (const auto down = EstimateGravity(reconstruction, manifest))
+    local_from_world.rotation = UprightFromDown(down->down_in_world);
   local_from_world.translation =
       MedianGnss(reconstruction, manifest) - local_from_world * centres.front();
   return local_from_world;

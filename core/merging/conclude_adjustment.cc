@@ -14,6 +14,7 @@
 
 #include "core/merging/assess_world.h"
 #include "core/merging/check_sequence_steps.h"
+#include "core/merging/check_gnss.h"
 #include "core/merging/choose_local_frame.h"
 #include "core/merging/global_problem.h"
 #include "core/merging/judge_gnss.h"
@@ -137,11 +138,17 @@ ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
       BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
   const SeamCertifier certifier = CertifierOf(adjusted, seams);
   const Supports supports = SupportsOf(adjusted.inspections);
+  std::vector<Eigen::Vector3d> points_about;
+  for (const BlockInspection& inspection : adjusted.inspections)
+    std::ranges::copy(inspection.points_about, std::back_inserter(points_about));
   AssessedWorld assessed =
       AssessWorld(std::move(adjusted.inspections), problem, biases_m, manifest);
   for (const auto& [id, uncertainty] : assessed.uncertainties)
     poses.images.at(id).uncertainty = uncertainty;
+  WidenByDriveErrors(georeference, manifest, poses);
   world.report.uncertainty = std::move(assessed.report);
+  std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
+                    std::back_inserter(world.report.checks));
   if (georeference.enu_from_world) {
     world.report.gnss = JudgeGnss(problem, biases_m, manifest);
     world.report.gnss.bend_m = georeference.bend_m;

@@ -98,7 +98,7 @@ void DealTracks(Reconstruction& scene,
   }
 }
 
-/// GNSS priors and biases to the blocks that own their images; a bias is the first user's.
+/// Priors and biases to the blocks that own their images; a bias is the first user's.
 void DealPriors(const GlobalProblem& problem,
                 const Owners& owners,
                 std::vector<WorldBlock>& blocks) {
@@ -127,9 +127,14 @@ void DealPriors(const GlobalProblem& problem,
       bias.is_separator = times_used.at(group) > 1;
       if (counted.insert(group).second) bias.sigma_m = problem.bundle.bias_sigma_m[group];
     }
-    if (!problem.bundle.direction_priors.empty()) {
-      block.gravity_sigma_rad = problem.bundle.direction_priors.front().sigma_rad;
-    }
+  }
+  for (const DirectionPrior& prior : problem.bundle.direction_priors) {
+    const ImageId image = problem.image_of_pose[prior.pose];
+    blocks[owners.BlockOf(image)].directions.push_back(
+        {.image = image,
+         .direction_in_world = prior.direction_in_world,
+         .direction_in_cam = prior.direction_in_cam,
+         .sigma_rad = prior.sigma_rad});
   }
 }
 

@@ -10,10 +10,6 @@
 
 namespace orbweave {
 
-/// How far the mean of the panoramas' y axes may be off the vertical: cameras are mounted askew and
-/// streets climb.
-inline constexpr double kGravitySigma_rad = 0.05;
-
 /// Unit vector down in the world, the geometric median of the panoramas' y axes: panoramas are
 /// upright on average. nullopt when they are not (median deviation above 30 degrees) or there are
 /// none.

@@ -7,13 +7,17 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
 #include "core/estimators/estimate_similarity.h"
 #include "core/geometry/rotation.h"
 #include "core/merging/cluster_spreads.h"
+#include "core/merging/estimate_gravity.h"
 #include "core/merging/find_gravity.h"
+#include "core/merging/gnss_smoothness.h"
+#include "core/merging/gnss_track.h"
 #include "core/merging/quantile.h"
 
 namespace orbweave {
@@ -26,8 +30,12 @@ constexpr double kMaxScaleUncertainty = 0.1;
 constexpr double kMinAgreeingShare = 0.7;
 constexpr size_t kMinDrive = 8;
 constexpr double kSigmaOfMad = 1.4826;
+constexpr int kErrorRounds = 4;
+// A model further from GNSS than this many times its noise is not noise's doing.
+constexpr double kContradiction = 8.0;
 
-// Camera centres and what GNSS says of them; sigma is that of one axis, for weights.
+// Camera centres and what GNSS says of them, less what is known to be wrong of it; sigma is that of
+// one axis, for weights.
 struct Positions {
   std::vector<Eigen::Vector3d> in_world{};
   std::vector<Eigen::Vector3d> in_enu{};
@@ -37,17 +45,32 @@ struct Positions {
   [[nodiscard]] size_t size() const { return in_world.size(); }
 };
 
-Positions Collect(const Reconstruction& reconstruction, const ImageManifest& manifest) {
+Positions Collect(const std::vector<GnssDrive>& drives) {
   Positions positions;
-  for (const auto& [id, image] : reconstruction.images) {
-    const PosePrior& prior = manifest.At(id).prior;
-    if (image.loose || !prior.position_in_enu) continue;
-    positions.in_world.push_back(image.cam_from_world.Centre());
-    positions.in_enu.push_back(*prior.position_in_enu);
-    positions.sigma_m.push_back(prior.horizontal_sigma_m);
-    positions.drive.push_back(manifest.At(id).drive);
+  for (const GnssDrive& drive : drives) {
+    for (const GnssFix& fix : drive.fixes) {
+      positions.in_world.push_back(fix.centre_in_world);
+      positions.in_enu.push_back(fix.position_in_enu);
+      positions.sigma_m.push_back(fix.horizontal_sigma_m);
+      positions.drive.push_back(drive.drive);
+    }
   }
   return positions;
+}
+
+void TakeOff(const std::vector<DriveErrors>& errors,
+             const std::vector<GnssDrive>& drives,
+             const Sim3& enu_from_world,
+             Positions& positions) {
+  size_t i = 0;
+  for (const GnssDrive& drive : drives) {
+    const auto of_drive = std::ranges::find(errors, drive.drive, &DriveErrors::drive);
+    for (const GnssFix& fix : drive.fixes) {
+      positions.in_enu[i] = fix.position_in_enu;
+      if (of_drive != errors.end()) positions.in_enu[i] -= ErrorAt(*of_drive, fix, enu_from_world);
+      ++i;
+    }
+  }
 }
 
 // Yaw, scale and translation from two pairs of an upright model; nullopt when either is one point.
@@ -65,14 +88,23 @@ std::optional<Sim3> UprightFromTwo(const Positions& upright, uint32_t i, uint32_
   return enu_from_world;
 }
 
-// Sum of squared residuals in sigmas, each 9 (three sigmas) at most.
+// Sum of squared horizontal residuals in sigmas, each 9 (three sigmas) at most: a mount that leans
+// lifts the ends of a model far off.
 double TruncatedCost(const Positions& positions, const Sim3& enu_from_world) {
   double cost = 0.0;
   for (size_t i = 0; i < positions.size(); ++i) {
     const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
-    cost += std::min(9.0, residual.squaredNorm() / (positions.sigma_m[i] * positions.sigma_m[i]));
+    const double squared_sigma = positions.sigma_m[i] * positions.sigma_m[i];
+    cost += std::min(9.0, residual.head<2>().squaredNorm() / squared_sigma);
   }
   return cost;
+}
+
+double MedianHeightError(const Positions& positions, const Sim3& enu_from_world) {
+  std::vector<double> errors;
+  for (size_t i = 0; i < positions.size(); ++i)
+    errors.push_back((enu_from_world * positions.in_world[i] - positions.in_enu[i]).z());
+  return Quantile(std::move(errors), 0.5);
 }
 
 absl::StatusOr<std::optional<Sim3>> EstimateUpright(const Positions& upright,
@@ -92,12 +124,13 @@ absl::StatusOr<std::optional<Sim3>> EstimateUpright(const Positions& upright,
     best = candidate;
     best_cost = cost;
   }
+  if (best) best->translation.z() -= MedianHeightError(upright, *best);
   return best;
 }
 
-// Two further pairs, up and down from the middle by the extent, that tilt costs as much as
-// kGravitySigma_rad once.
-void AddGravity(const Eigen::Vector3d& down,
+// Two further pairs, up and down from the middle by the extent, that tilt costs as much as gravity
+// says once.
+void AddGravity(const Gravity& gravity,
                 const Sim3& enu_from_world,
                 Positions& positions,
                 std::vector<double>& weights) {
@@ -105,28 +138,39 @@ void AddGravity(const Eigen::Vector3d& down,
   for (const Eigen::Vector3d& point : positions.in_world) middle += point;
   middle /= static_cast<double>(positions.size());
   const Eigen::Vector3d middle_in_enu = enu_from_world * middle;
+  const double away_rad =
+      AngleBetween(enu_from_world.rotation * gravity.down_in_world, -Eigen::Vector3d::UnitZ());
   const double extent = SpreadOf(positions.in_world).rms;
   const double extent_m = enu_from_world.scale * extent;
   for (const double side : {-1.0, 1.0}) {
-    positions.in_world.push_back(middle + side * extent * down);
+    positions.in_world.push_back(middle + side * extent * gravity.down_in_world);
     positions.in_enu.push_back(middle_in_enu - side * extent_m * Eigen::Vector3d::UnitZ());
-    weights.push_back(0.5 / std::pow(extent_m * kGravitySigma_rad, 2));
+    weights.push_back(0.5 / std::pow(extent_m * gravity.SigmaAt(away_rad), 2));
   }
 }
 
-// Seven parameters with Cauchy weights; the start when the fit is degenerate.
+// Median squared length of three normal variables.
+constexpr double kMedianChi2 = 2.366;
+
+// Seven parameters with Cauchy weights, at the scatter found where that is above the sigmas, so
+// that a start whose ends are far off comes in; the start when the fit is degenerate.
 Sim3 Refine(const Positions& positions,
-            const std::optional<Eigen::Vector3d>& down,
+            const std::optional<Gravity>& gravity,
             Sim3 enu_from_world) {
   for (int iteration = 0; iteration < kReweightings; ++iteration) {
+    std::vector<double> squares;
+    for (size_t i = 0; i < positions.size(); ++i) {
+      const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
+      squares.push_back(residual.squaredNorm());
+    }
+    const double squared_scatter = Quantile(squares, 0.5) / kMedianChi2;
     std::vector<double> weights;
     for (size_t i = 0; i < positions.size(); ++i) {
       const double squared_sigma = positions.sigma_m[i] * positions.sigma_m[i];
-      const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
-      weights.push_back(1.0 / (squared_sigma + residual.squaredNorm()));
+      weights.push_back(1.0 / (std::max(squared_sigma, squared_scatter) + squares[i]));
     }
     Positions with_gravity = positions;
-    if (down) AddGravity(*down, enu_from_world, with_gravity, weights);
+    if (gravity) AddGravity(*gravity, enu_from_world, with_gravity, weights);
     const std::optional<Sim3> fit =
         FitSimilarity(with_gravity.in_world, with_gravity.in_enu, weights);
     if (!fit) break;
@@ -136,22 +180,23 @@ Sim3 Refine(const Positions& positions,
 }
 
 absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
-                                             const std::optional<Eigen::Vector3d>& down,
+                                             const std::optional<Gravity>& gravity,
                                              const StageContext& context) {
-  if (!down) {
+  if (!gravity) {
     const double max_error_m = 3.0 * Quantile(positions.sigma_m, 0.5);
     ORBWEAVE_ASSIGN_OR_RETURN(
         const std::optional<RobustSimilarity> robust,
         EstimateSimilarity(positions.in_world, positions.in_enu, max_error_m, context));
     if (!robust) return std::optional<Sim3>();
-    return std::optional<Sim3>(Refine(positions, down, robust->b_from_a));
+    return std::optional<Sim3>(Refine(positions, gravity, robust->b_from_a));
   }
-  const Sim3 upright_from_world{1.0, UprightFromDown(*down), Eigen::Vector3d::Zero()};
+  const Sim3 upright_from_world{
+      1.0, UprightFromDown(gravity->down_in_world), Eigen::Vector3d::Zero()};
   Positions upright = positions;
   for (Eigen::Vector3d& point : upright.in_world) point = upright_from_world * point;
   ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start, EstimateUpright(upright, context));
   if (!start) return std::optional<Sim3>();
-  return std::optional<Sim3>(Refine(positions, down, *start * upright_from_world));
+  return std::optional<Sim3>(Refine(positions, gravity, *start * upright_from_world));
 }
 
 // Model minus GNSS, without the bias (median) of each drive that is long enough to have one.
@@ -224,6 +269,45 @@ void Judge(const Positions& positions, Georeference& result) {
                                       ": too much to carry its scale";
 }
 
+// What drives have wrong in common is found beside a similarity, which is fitted again without it.
+absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
+                           const std::optional<Gravity>& gravity,
+                           const StageContext& context,
+                           Positions& positions,
+                           Georeference& result) {
+  for (int round = 0; round < kErrorRounds; ++round) {
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+    FoundDriveErrors found = FindDriveErrors(drives, *result.enu_from_world);
+    const bool had_errors = !result.drive_errors.empty();
+    result.drive_errors = std::move(found.drives);
+    result.checks = std::move(found.checks);
+    if (result.drive_errors.empty() && !had_errors) break;
+    TakeOff(result.drive_errors, drives, *result.enu_from_world, positions);
+    result.enu_from_world = Refine(positions, gravity, *result.enu_from_world);
+  }
+  return absl::OkStatus();
+}
+
+// Where GNSS is smooth along the sequence and the model goes elsewhere, it is the model that is
+// wrong.
+void BlameTheRight(const std::vector<GnssDrive>& drives, Georeference& result) {
+  const GnssSmoothness gnss = MeasureGnssSmoothness(drives);
+  if (!gnss.is_known || result.horizontal_scatter_m <= kContradiction * gnss.noise_m ||
+      gnss.extent_m <= kContradiction * gnss.noise_m)
+    return;
+  result.reason = "the model contradicts GNSS, which is smooth along the sequence: they are " +
+                  Metres(result.horizontal_scatter_m) + " apart, GNSS scatters by " +
+                  Metres(gnss.noise_m);
+  result.checks.push_back(
+      {.name = "gnss_against_model",
+       .value = result.horizontal_scatter_m,
+       .limit = kContradiction * gnss.noise_m,
+       .unit = "m",
+       .level = CheckLevel::kBad,
+       .sentence = result.reason + "; parts of the model are in the wrong place, as where places "
+                                   "that look alike are taken for one"});
+}
+
 }  // namespace
 
 absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& reconstruction,
@@ -235,20 +319,23 @@ absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& re
     result.reason = "switched off";
     return result;
   }
-  const Positions positions = Collect(reconstruction, manifest);
+  const std::vector<GnssDrive> drives = GnssDrivesOf(reconstruction, manifest);
+  Positions positions = Collect(drives);
   if (positions.size() < kMinPositions) {
     result.reason = positions.size() == 0 ? "no image has a GNSS position"
                                           : std::to_string(positions.size()) +
                                                 " images with a GNSS position are too few";
     return result;
   }
-  const std::optional<Eigen::Vector3d> down = FindGravity(reconstruction);
-  ORBWEAVE_ASSIGN_OR_RETURN(result.enu_from_world, Estimate(positions, down, context));
+  const std::optional<Gravity> gravity = EstimateGravity(reconstruction, manifest);
+  ORBWEAVE_ASSIGN_OR_RETURN(result.enu_from_world, Estimate(positions, gravity, context));
   if (!result.enu_from_world) {
     result.reason = "no similarity fits the GNSS positions to the model";
     return result;
   }
+  ORBWEAVE_RETURN_IF_ERROR(FitWithErrors(drives, gravity, context, positions, result));
   Judge(positions, result);
+  if (!result.enu_from_world) BlameTheRight(drives, result);
   return result;
 }
 

@@ -5,9 +5,11 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/stage_context.h"
 #include "core/geometry/sim3.h"
+#include "core/merging/drive_errors.h"
 #include "core/merging/global_options.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
@@ -28,19 +30,24 @@ struct Georeference {
   /// Where the world was bent to GNSS (BendWorld): the farthest that an image went from where one
   /// similarity for all would put it.
   double bend_m = 0.0;
+  std::vector<DriveErrors> drive_errors{};  ///< to be taken off GNSS positions (ErrorAt)
+  std::vector<CrossCheck> checks{};         ///< of drives, and of a model that GNSS contradicts
 };
 
 /// Robust similarity from camera centres to their GNSS positions. Centres of a straight street
-/// leave the roll about the street open, so gravity takes part: first yaw, scale and translation of
-/// the upright model from random pairs of images (least squared residuals, truncated), then all
-/// seven parameters by reweighted least squares with gravity as one more observation. Without
-/// gravity the similarity comes from EstimateSimilarity.
+/// leave the roll about the street open, so gravity takes part (EstimateGravity, with its sigma):
+/// first yaw, scale and translation of the upright model from random pairs of images (least squared
+/// horizontal residuals, truncated), then all seven parameters by reweighted least squares with
+/// gravity as one more observation; then again without what drives have wrong in common
+/// (FindDriveErrors). Without gravity the similarity comes from EstimateSimilarity.
 ///
 /// GNSS carries the scale when its scatter leaves the scale uncertain by 10 % at most and is
 /// smaller than the extent of the centres (rms distance from their mean), and 70 % of the positions
 /// agree within three sigmas; a phone indoors fails. Drives of eight positions or more are judged
-/// without their bias. Loose images take no part. `use` kOff: not attempted. Cancelled when asked
-/// to stop.
+/// without their bias. Where it does not, but runs smoothly along the sequence
+/// (MeasureGnssSmoothness) and far from the model, the reason and a bad check
+/// ("gnss_against_model") say that the model is contradicted. Loose images take no part. `use`
+/// kOff: not attempted. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<Georeference> GeoreferenceReconstruction(
     const Reconstruction& reconstruction,
     const ImageManifest& manifest,

@@ -7,10 +7,15 @@
 #include <cmath>
 #include <map>
 
-#include "core/merging/find_gravity.h"
+#include "core/geometry/rotation.h"
+#include "core/merging/estimate_gravity.h"
+#include "core/merging/gnss_track.h"
 
 namespace orbweave {
 namespace {
+
+// Of the bias of a drive that is in another datum than others.
+constexpr double kUnknownBias_m = 100.0;
 
 // Drives of the images that have a position, numbered from 0 in order of their number.
 std::map<uint32_t, uint32_t> GroupsOfDrives(const GlobalProblem& problem,
@@ -24,13 +29,42 @@ std::map<uint32_t, uint32_t> GroupsOfDrives(const GlobalProblem& problem,
   return groups;
 }
 
-void AddPositions(const ImageManifest& manifest,
+// The positions of all images with what their drives have wrong taken off.
+std::map<ImageId, Eigen::Vector3d> CorrectedPositions(const Reconstruction& reconstruction,
+                                                      const ImageManifest& manifest,
+                                                      const Georeference& georeference,
+                                                      const Sim3& enu_from_world) {
+  std::map<ImageId, Eigen::Vector3d> positions;
+  for (const GnssDrive& drive : GnssDrivesOf(reconstruction, manifest)) {
+    const auto errors =
+        std::ranges::find(georeference.drive_errors, drive.drive, &DriveErrors::drive);
+    for (const GnssFix& fix : drive.fixes) {
+      positions[fix.image] = fix.position_in_enu;
+      if (errors != georeference.drive_errors.end())
+        positions[fix.image] -= ErrorAt(*errors, fix, enu_from_world);
+    }
+  }
+  return positions;
+}
+
+bool IsInAnotherDatum(const Georeference& georeference, uint32_t drive) {
+  const auto errors = std::ranges::find(georeference.drive_errors, drive, &DriveErrors::drive);
+  return errors != georeference.drive_errors.end() && !errors->offset_m.isZero();
+}
+
+void AddPositions(const Reconstruction& reconstruction,
+                  const ImageManifest& manifest,
                   const Georeference& georeference,
                   double bias_sigma_m,
                   GlobalProblem& problem) {
   const std::map<uint32_t, uint32_t> groups = GroupsOfDrives(problem, manifest);
   const bool has_biases = groups.size() > 1;
   if (has_biases) problem.bundle.bias_sigma_m.assign(groups.size(), bias_sigma_m);
+  for (const auto& [drive, group] : groups) {
+    if (has_biases && IsInAnotherDatum(georeference, drive))
+      problem.bundle.bias_sigma_m[group] = std::max(bias_sigma_m, kUnknownBias_m);
+  }
+  const auto positions = CorrectedPositions(reconstruction, manifest, georeference, {});
   for (uint32_t pose = 0; pose < problem.image_of_pose.size(); ++pose) {
     const ImageRecord& image = manifest.At(problem.image_of_pose[pose]);
     if (!image.prior.position_in_enu) continue;
@@ -40,18 +74,28 @@ void AddPositions(const ImageManifest& manifest,
         std::max(image.prior.vertical_sigma_m, georeference.vertical_scatter_m);
     PositionPrior& prior = problem.bundle.position_priors.emplace_back();
     prior.pose = pose;
-    prior.position_in_world = *image.prior.position_in_enu;
+    prior.position_in_world = positions.at(image.id);
     prior.sigma_m = {horizontal_m, horizontal_m, vertical_m};
     if (has_biases) prior.bias_group = groups.at(image.drive);
   }
 }
 
-void AddGravity(const Reconstruction& reconstruction, GlobalProblem& problem) {
-  if (!FindGravity(reconstruction)) return;
+// The world stands as `gravity` says, give or take its sigma: every image sees down where it is now
+// seen by its own attitude.
+void AddGravity(const Reconstruction& reconstruction,
+                const ImageManifest& manifest,
+                GlobalProblem& problem) {
+  const std::optional<Gravity> gravity = EstimateGravity(reconstruction, manifest);
+  if (!gravity) return;
   const auto num_poses = static_cast<uint32_t>(problem.image_of_pose.size());
-  const double sigma_rad = kGravitySigma_rad * std::sqrt(static_cast<double>(num_poses));
+  const double away_rad = AngleBetween(gravity->down_in_world, -Eigen::Vector3d::UnitZ());
+  const double sigma_rad = gravity->SigmaAt(away_rad) * std::sqrt(static_cast<double>(num_poses));
   for (uint32_t pose = 0; pose < num_poses; ++pose) {
-    problem.bundle.direction_priors.push_back({.pose = pose, .sigma_rad = sigma_rad});
+    const Eigen::Quaterniond& cam_from_world = problem.bundle.cams_from_world[pose].rotation;
+    problem.bundle.direction_priors.push_back(
+        {.pose = pose,
+         .direction_in_cam = (cam_from_world * gravity->down_in_world).normalized(),
+         .sigma_rad = sigma_rad});
   }
 }
 
@@ -67,13 +111,24 @@ GlobalProblem MakeGlobalProblem(const Reconstruction& reconstruction) {
   return problem;
 }
 
+ImageManifest WithoutDriveErrors(const Reconstruction& reconstruction,
+                                 ImageManifest manifest,
+                                 const Georeference& georeference) {
+  if (!georeference.enu_from_world || georeference.drive_errors.empty()) return manifest;
+  const auto positions =
+      CorrectedPositions(reconstruction, manifest, georeference, *georeference.enu_from_world);
+  for (const auto& [id, position] : positions)
+    manifest.images[id.value].prior.position_in_enu = position;
+  return manifest;
+}
+
 void AddGnss(const Reconstruction& reconstruction,
              const ImageManifest& manifest,
              const Georeference& georeference,
              double bias_sigma_m,
              GlobalProblem& problem) {
-  AddPositions(manifest, georeference, bias_sigma_m, problem);
-  AddGravity(reconstruction, problem);
+  AddPositions(reconstruction, manifest, georeference, bias_sigma_m, problem);
+  AddGravity(reconstruction, manifest, problem);
 }
 
 }  // namespace orbweave

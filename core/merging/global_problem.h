@@ -20,11 +20,18 @@ struct GlobalProblem {
 
 [[nodiscard]] GlobalProblem MakeGlobalProblem(const Reconstruction& reconstruction);
 
-/// GNSS as position priors for a model in east-north-up metres, no more trusted than the scatter
-/// found by georeferencing; a bias per drive when there are two drives or more (the bias of one
-/// drive cannot be told from the frame). Gravity as direction priors that together weigh as one
-/// measurement of kGravitySigma_rad, since all panoramas share the mount: they keep a straight
-/// street, whose GNSS says nothing of it, from rolling.
+/// The manifest with what georeferencing found wrong of drives taken off the positions of the
+/// images of `reconstruction`, which is in the frame that was georeferenced.
+[[nodiscard]] ImageManifest WithoutDriveErrors(const Reconstruction& reconstruction,
+                                               ImageManifest manifest,
+                                               const Georeference& georeference);
+
+/// GNSS as position priors for a model in east-north-up metres, without what georeferencing found
+/// wrong of its drives, and no more trusted than the scatter it found; a bias per drive when there
+/// are two drives or more (the bias of one drive cannot be told from the frame), about free for one
+/// in another datum. Gravity (EstimateGravity) as direction priors that together weigh as one
+/// measurement of its sigma, since all panoramas share the mount: they keep a straight street,
+/// whose GNSS says nothing of it, from rolling, and own that they may be wrong.
 void AddGnss(const Reconstruction& reconstruction,
              const ImageManifest& manifest,
              const Georeference& georeference,

@@ -9,6 +9,7 @@
 
 #include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_eliminator.h"
+#include "core/merging/scene_lean.h"
 #include "core/merging/terms_of_block.h"
 
 namespace orbweave {
@@ -155,6 +156,7 @@ BlockInspection InspectBlock(const WorldBlock& block, int num_threads) {
                              .placements = PlaceBySides(block),
                              .supports = SupportOf(block),
                              .correlation = CorrelationOf(block)};
+  inspection.points_about = PointsAboutPanoramas(block);
   AddBearings(block, num_threads, inspection);
   const auto held = std::ranges::find_if(block.images, &BlockImage::is_held);
   if (held != block.images.end()) inspection.held = held->id;

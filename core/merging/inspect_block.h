@@ -31,6 +31,7 @@ struct BlockInspection {
   std::vector<SidePlacement> placements{};
   std::vector<PatchSupport> supports{};  ///< SupportOf
   TrackCorrelation correlation{};        ///< of tracks that this block has for itself
+  std::vector<Eigen::Vector3d> points_about{};  ///< PointsAboutPanoramas
 };
 
 /// For AssessWorld and SeamCertifier. Same bytes for any `num_threads`.

@@ -12,6 +12,7 @@
 #include "core/merging/bend_world.h"
 #include "core/merging/carry_point.h"
 #include "core/merging/divide_world.h"
+#include "core/merging/global_problem.h"
 #include "core/merging/place_clusters.h"
 
 namespace orbweave {
@@ -120,9 +121,13 @@ absl::StatusOr<PlacedWorld> PlaceWorld(Reconstruction scene,
   PlacedWorld placed;
   ORBWEAVE_ASSIGN_OR_RETURN(placed.georeference,
                             GeoreferenceReconstruction(scene, manifest, use, context));
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      placed.enu_from_world,
-      PlaceClusters({scene, owners, seams}, placed.georeference, manifest, use, align, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(placed.enu_from_world,
+                            PlaceClusters({scene, owners, seams},
+                                          placed.georeference,
+                                          WithoutDriveErrors(scene, manifest, placed.georeference),
+                                          use,
+                                          align,
+                                          context));
   if (!placed.enu_from_world.empty()) {
     const Reconstruction straight{.images = scene.images};
     scene = BendWorld(std::move(scene), owners, seams, placed.enu_from_world);

@@ -11,7 +11,7 @@
 #include "core/averaging/solve_similarity_graph.h"
 #include "core/base/parallel_for.h"
 #include "core/merging/cluster_spreads.h"
-#include "core/merging/find_gravity.h"
+#include "core/merging/estimate_gravity.h"
 #include "core/merging/quantile.h"
 
 namespace orbweave {
@@ -107,7 +107,7 @@ SimilarityEdge EdgeToEarth(const Node& node, uint32_t number) {
   const double extent_m = node.enu_from_node->scale * node.extent;
   const double share = node.sigma_m / extent_m;
   Vector7d sigma = Vector7d::Constant(share);
-  sigma.head<2>().setConstant(kGravitySigma_rad);
+  sigma.head<2>().setConstant(kMountSigma_rad);
   return {.a = 0,
           .b = number,
           .measured = {.a_from_b = *node.enu_from_node, .length_in_a = extent_m},

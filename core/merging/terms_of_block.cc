@@ -53,11 +53,12 @@ void AddPriors(const WorldBlock& block, AdjustmentBlock& terms) {
     term.sigma_m = prior.sigma_m;
     if (prior.bias_group) term.bias_group = PositionOf(terms.bias_ids, *prior.bias_group);
   }
-  if (block.gravity_sigma_rad == 0.0) return;
-  for (const BlockImage& image : block.images) {
-    if (!block.Owns(image) || IsLoose(block, image.id)) continue;
+  for (const BlockDirection& direction : block.directions) {
     terms.problem.direction_priors.push_back(
-        {.pose = PositionOf(terms.pose_ids, image.id.value), .sigma_rad = block.gravity_sigma_rad});
+        {.pose = PositionOf(terms.pose_ids, direction.image.value),
+         .direction_in_world = direction.direction_in_world,
+         .direction_in_cam = direction.direction_in_cam,
+         .sigma_rad = direction.sigma_rad});
   }
 }
 

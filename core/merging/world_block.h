@@ -36,6 +36,14 @@ struct BlockPrior {
   std::optional<uint32_t> bias_group{};
 };
 
+/// What attitudes say of an image's rotation (DirectionPrior), in the world and in the camera.
+struct BlockDirection {
+  ImageId image{};
+  Eigen::Vector3d direction_in_world = -Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d direction_in_cam = Eigen::Vector3d::UnitY();
+  double sigma_rad = 0.1;
+};
+
 /// The bias of a drive, and the sigma of its own prior; infinity where another block counts it.
 struct BlockBias {
   uint32_t group = 0;
@@ -50,12 +58,12 @@ struct BlockBias {
 struct WorldBlock {
   uint32_t world = 0;
   uint32_t cluster = 0;
-  Reconstruction scene{};            ///< poses, and the tracks that this block eliminates
-  std::vector<BlockImage> images{};  ///< those of the scene, in the same order
-  std::vector<SplitTrack> split{};   ///< ascending by id
-  std::vector<BlockPrior> priors{};  ///< of owned images, ascending
-  std::vector<BlockBias> biases{};   ///< of those priors, ascending
-  double gravity_sigma_rad = 0.0;    ///< of each owned image; 0: gravity takes no part
+  Reconstruction scene{};                    ///< poses, and the tracks that this block eliminates
+  std::vector<BlockImage> images{};          ///< those of the scene, in the same order
+  std::vector<SplitTrack> split{};           ///< ascending by id
+  std::vector<BlockPrior> priors{};          ///< of owned images, ascending
+  std::vector<BlockBias> biases{};           ///< of those priors, ascending
+  std::vector<BlockDirection> directions{};  ///< of owned images
   /// The image whose distance from the held one the gauge keeps; where neither priors do.
   std::optional<ImageId> farthest{};
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/adjustment_codec.h"
 
-#include <cmath>
 #include <utility>
 
 #include "orbweave/v1/adjustment.pb.h"
@@ -20,28 +19,6 @@ void ToProto(const StepControl& control, v1::StepControl* proto) {
 
 StepControl FromProto(const v1::StepControl& proto) { return {proto.lambda(), proto.is_bent()}; }
 
-void ToProto(const CrossCheck& check, v1::CrossCheck* proto) {
-  proto->set_name(check.name);
-  proto->set_value(check.value);
-  proto->set_limit(check.limit);
-  proto->set_unit(check.unit);
-  proto->set_level(static_cast<uint32_t>(check.level));
-  proto->set_sentence(check.sentence);
-}
-
-absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
-  if (proto.level() > static_cast<uint32_t>(CheckLevel::kBad) || !std::isfinite(proto.value()) ||
-      !std::isfinite(proto.limit())) {
-    return absl::InvalidArgumentError("cross check: unknown level, or not a number");
-  }
-  return CrossCheck{.name = proto.name(),
-                    .value = proto.value(),
-                    .limit = proto.limit(),
-                    .unit = proto.unit(),
-                    .level = static_cast<CheckLevel>(proto.level()),
-                    .sentence = proto.sentence()};
-}
-
 void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   codec::ToProto(report.gnss, proto->mutable_gnss());
   for (const BundleReport& adjustment : report.adjustments)
@@ -57,7 +34,7 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   proto->set_residual_px_rms(report.residual_px_rms);
   proto->set_pattern_px(report.pattern_px);
   codec::ToProto(report.uncertainty, proto->mutable_uncertainty());
-  for (const CrossCheck& check : report.checks) ToProto(check, proto->add_checks());
+  for (const CrossCheck& check : report.checks) codec::ToProto(check, proto->add_checks());
   for (const Exclusion& image : report.weak_images) {
     v1::Exclusion* out = proto->add_weak_images();
     out->set_name(image.name);
@@ -77,7 +54,7 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
   report.residual_px_rms = proto.residual_px_rms();
   report.pattern_px = proto.pattern_px();
   for (const v1::CrossCheck& check : proto.checks()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, FromProto(check));
+    ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
     report.checks.push_back(std::move(decoded));
   }
   for (const v1::Exclusion& image : proto.weak_images())

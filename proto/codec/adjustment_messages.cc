@@ -3,6 +3,7 @@
 #include "proto/codec/adjustment_messages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -200,6 +201,28 @@ absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
   std::ranges::copy(band_ups, summary.pattern.band_up_px.begin());
   std::ranges::copy(band_counts, summary.pattern.band_count.begin());
   return summary;
+}
+
+void ToProto(const CrossCheck& check, v1::CrossCheck* proto) {
+  proto->set_name(check.name);
+  proto->set_value(check.value);
+  proto->set_limit(check.limit);
+  proto->set_unit(check.unit);
+  proto->set_level(static_cast<uint32_t>(check.level));
+  proto->set_sentence(check.sentence);
+}
+
+absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
+  if (proto.level() > static_cast<uint32_t>(CheckLevel::kBad) || !std::isfinite(proto.value()) ||
+      !std::isfinite(proto.limit())) {
+    return absl::InvalidArgumentError("cross check: unknown level, or not a number");
+  }
+  return CrossCheck{.name = proto.name(),
+                    .value = proto.value(),
+                    .limit = proto.limit(),
+                    .unit = proto.unit(),
+                    .level = static_cast<CheckLevel>(proto.level()),
+                    .sentence = proto.sentence()};
 }
 
 void ToProto(const TrialCost& trial, v1::TrialCost* proto) {

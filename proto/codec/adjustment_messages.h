@@ -6,6 +6,7 @@
 
 #include "core/base/status.h"
 #include "core/merging/adjust_block.h"
+#include "core/scene/cross_check.h"
 #include "orbweave/v1/adjustment.pb.h"
 
 /// Messages of the global adjustment that several artifacts hold.
@@ -28,6 +29,9 @@ void ToProto(const std::vector<ShortenedPoint>& points, v1::ShortenedPoints* pro
 
 void ToProto(const BlockSummary& summary, v1::BlockSummary* proto);
 [[nodiscard]] absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto);
+
+void ToProto(const CrossCheck& check, v1::CrossCheck* proto);
+[[nodiscard]] absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto);
 
 void ToProto(const TrialCost& trial, v1::TrialCost* proto);
 [[nodiscard]] absl::StatusOr<TrialCost> FromProto(const v1::TrialCost& proto);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/block_codec.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "orbweave/v1/adjustment.pb.h"
@@ -119,6 +121,92 @@ absl::Status PriorsFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
   return absl::OkStatus();
 }
 
+using DirectionBytes = std::array<double, 7>;
+
+void DirectionsToProto(const WorldBlock& block, v1::WorldBlock* proto) {
+  std::vector<ImageId> images;
+  std::vector<DirectionBytes> directions;
+  for (const BlockDirection& direction : block.directions) {
+    const Eigen::Vector3d& in_world = direction.direction_in_world;
+    const Eigen::Vector3d& in_cam = direction.direction_in_cam;
+    images.push_back(direction.image);
+    directions.push_back({in_world.x(),
+                          in_world.y(),
+                          in_world.z(),
+                          in_cam.x(),
+                          in_cam.y(),
+                          in_cam.z(),
+                          direction.sigma_rad});
+  }
+  proto->set_direction_images(codec::Pack(images));
+  proto->set_directions(codec::Pack(directions));
+}
+
+absl::Status DirectionsFromProto(const v1::WorldBlock& proto, WorldBlock& block) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
+                            codec::Unpack<ImageId>(proto.direction_images(), "directions"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto directions,
+      codec::UnpackExactly<DirectionBytes>(proto.directions(), images.size(), "directions"));
+  for (size_t i = 0; i < images.size(); ++i) {
+    const DirectionBytes& d = directions[i];
+    if (!block.scene.images.contains(images[i]))
+      return absl::InvalidArgumentError("world block: a direction of an image it does not hold");
+    block.directions.push_back({.image = images[i],
+                                .direction_in_world = {d[0], d[1], d[2]},
+                                .direction_in_cam = {d[3], d[4], d[5]},
+                                .sigma_rad = d[6]});
+  }
+  return absl::OkStatus();
+}
+
+using DriveErrorBytes = std::array<double, 7>;
+
+void ErrorsToProto(const Georeference& georeference, v1::Georeference* proto) {
+  std::vector<std::array<uint32_t, 2>> drives;
+  std::vector<DriveErrorBytes> values;
+  for (const DriveErrors& errors : georeference.drive_errors) {
+    drives.push_back({errors.drive, errors.has_times ? 1U : 0U});
+    const Eigen::Vector3d& offset_m = errors.offset_m;
+    values.push_back({errors.ahead,
+                      errors.left_m,
+                      errors.ahead_sigma,
+                      errors.left_sigma_m,
+                      offset_m.x(),
+                      offset_m.y(),
+                      offset_m.z()});
+  }
+  proto->set_drives_with_errors(codec::Pack(drives));
+  proto->set_drive_errors(codec::Pack(values));
+  for (const CrossCheck& check : georeference.checks) codec::ToProto(check, proto->add_checks());
+}
+
+absl::Status ErrorsFromProto(const v1::Georeference& proto, Georeference& georeference) {
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto drives,
+      (codec::Unpack<std::array<uint32_t, 2>>(proto.drives_with_errors(), "drives")));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto values,
+      codec::UnpackExactly<DriveErrorBytes>(proto.drive_errors(), drives.size(), "drive errors"));
+  for (size_t i = 0; i < drives.size(); ++i) {
+    const DriveErrorBytes& v = values[i];
+    if (!std::ranges::all_of(v, [](double value) { return std::isfinite(value); }))
+      return absl::InvalidArgumentError("drive errors: not a number");
+    georeference.drive_errors.push_back({.drive = drives[i][0],
+                                         .has_times = drives[i][1] != 0,
+                                         .ahead = v[0],
+                                         .left_m = v[1],
+                                         .ahead_sigma = v[2],
+                                         .left_sigma_m = v[3],
+                                         .offset_m = {v[4], v[5], v[6]}});
+  }
+  for (const v1::CrossCheck& check : proto.checks()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
+    georeference.checks.push_back(std::move(decoded));
+  }
+  return absl::OkStatus();
+}
+
 void ToProto(const WorldBlock& block, v1::WorldBlock* proto) {
   proto->set_world(block.world);
   proto->set_cluster(block.cluster);
@@ -127,18 +215,17 @@ void ToProto(const WorldBlock& block, v1::WorldBlock* proto) {
   SplitToProto(block, proto);
   PriorsToProto(block, proto);
   codec::ToProto(block.biases, proto->mutable_biases());
-  proto->set_gravity_sigma_rad(block.gravity_sigma_rad);
+  DirectionsToProto(block, proto);
   if (block.farthest) proto->set_farthest(block.farthest->value);
 }
 
 absl::StatusOr<WorldBlock> FromProto(const v1::WorldBlock& proto) {
-  WorldBlock block{.world = proto.world(),
-                   .cluster = proto.cluster(),
-                   .gravity_sigma_rad = proto.gravity_sigma_rad()};
+  WorldBlock block{.world = proto.world(), .cluster = proto.cluster()};
   ORBWEAVE_ASSIGN_OR_RETURN(block.scene, codec::FromProto(proto.scene()));
   ORBWEAVE_RETURN_IF_ERROR(ImagesFromProto(proto, block));
   ORBWEAVE_RETURN_IF_ERROR(SplitFromProto(proto, block));
   ORBWEAVE_RETURN_IF_ERROR(PriorsFromProto(proto, block));
+  ORBWEAVE_RETURN_IF_ERROR(DirectionsFromProto(proto, block));
   ORBWEAVE_ASSIGN_OR_RETURN(block.biases, codec::FromProto(proto.biases()));
   if (proto.has_farthest()) block.farthest = ImageId(proto.farthest());
   return block;
@@ -197,6 +284,7 @@ std::string EncodeJoinedWorlds(const std::vector<JoinedWorld>& worlds) {
     georeference->set_vertical_scatter_m(world.georeference.vertical_scatter_m);
     georeference->set_scale_uncertainty(world.georeference.scale_uncertainty);
     georeference->set_bend_m(world.georeference.bend_m);
+    ErrorsToProto(world.georeference, georeference);
     out->set_united_tracks(world.merge.united_tracks);
     out->set_conflicting_tracks(world.merge.conflicting_tracks);
     out->set_num_images(world.num_images);
@@ -221,6 +309,7 @@ absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view byt
     out.georeference.vertical_scatter_m = georeference.vertical_scatter_m();
     out.georeference.scale_uncertainty = georeference.scale_uncertainty();
     out.georeference.bend_m = georeference.bend_m();
+    ORBWEAVE_RETURN_IF_ERROR(ErrorsFromProto(georeference, out.georeference));
     out.merge = {world.united_tracks(), world.conflicting_tracks()};
     out.num_images = world.num_images();
     out.num_blocks = world.num_blocks();

@@ -9,6 +9,7 @@
 #include "proto/codec/adjustment_messages.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
+#include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
 namespace {
@@ -130,6 +131,10 @@ std::string EncodeBlockInspection(const BlockInspection& inspection) {
   const TrackCorrelation& correlation = inspection.correlation;
   proto.set_correlation(codec::Pack(std::vector<CorrelationBytes>{
       correlation.products, correlation.squares, correlation.tracks}));
+  std::vector<codec::Vector3Bytes> points_about;
+  for (const Eigen::Vector3d& point : inspection.points_about)
+    points_about.push_back(codec::ToArray(point));
+  proto.set_points_about(codec::Pack(points_about));
   return proto.SerializeAsString();
 }
 
@@ -148,6 +153,10 @@ absl::StatusOr<BlockInspection> DecodeBlockInspection(std::string_view bytes) {
       const auto correlation,
       codec::UnpackExactly<CorrelationBytes>(proto.correlation(), 3, "track correlation"));
   inspection.correlation = {correlation[0], correlation[1], correlation[2]};
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto points_about,
+                            codec::Unpack<codec::Vector3Bytes>(proto.points_about(), "points"));
+  for (const codec::Vector3Bytes& point : points_about)
+    inspection.points_about.push_back(codec::ToVector(point));
   return inspection;
 }
 

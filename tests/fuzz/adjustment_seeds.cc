@@ -11,7 +11,8 @@ namespace orbweave {
 namespace {
 
 WorldBlock SmallBlock() {
-  WorldBlock block{.cluster = 3, .scene = TwoViewsOfAPoint(), .gravity_sigma_rad = 0.1};
+  WorldBlock block{.cluster = 3, .scene = TwoViewsOfAPoint()};
+  block.directions = {{.image = ImageId(2), .sigma_rad = 0.1}};
   block.images = {{.id = ImageId(0), .camera = {64, 32}, .owner = 3, .is_held = true},
                   {.id = ImageId(2), .camera = {64, 32}, .is_separator = true}};
   block.split = {{.id = 5, .part = block.scene.tracks[0]}};

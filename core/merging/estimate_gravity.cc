@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/estimate_gravity.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/rotation.h"
+#include "core/merging/find_gravity.h"
+#include "core/merging/quantile.h"
+#include "core/scene/sequence_of_drive.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+// What a drive can know of down in its cameras: roads slope and bank by some per cent, for long.
+constexpr double kRoadSigma_rad = 0.02;
+constexpr double kLeastScatter_rad = 1e-3;
+constexpr double kMinStatedShare = 0.5;
+constexpr int kRounds = 10;
+constexpr int kSteps = 30;
+
+// The attitudes of a drive: from the world to the cameras, made level where that is stated.
+struct Attitudes {
+  uint32_t drive = 0;
+  std::vector<Eigen::Matrix3d> level_from_world{};
+  double sigma_rad = kMountSigma_rad;  // of d_k about y
+};
+
+bool StatesTilt(const PosePrior& prior) { return prior.pitch_deg && prior.roll_deg; }
+
+Eigen::Matrix3d LevelFromCamera(const PosePrior& prior) {
+  const Eigen::Vector3d down =
+      DownInCamera(kRadPerDeg * *prior.pitch_deg, kRadPerDeg * *prior.roll_deg);
+  return Eigen::Quaterniond::FromTwoVectors(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
+}
+
+Attitudes AttitudesOf(const Reconstruction& reconstruction,
+                      const ImageManifest& manifest,
+                      uint32_t drive,
+                      const std::vector<ImageId>& images) {
+  const auto num_stating = static_cast<double>(
+      std::ranges::count_if(images, [&](ImageId id) { return StatesTilt(manifest.At(id).prior); }));
+  const bool is_stated = num_stating >= kMinStatedShare * static_cast<double>(images.size());
+  Attitudes attitudes{.drive = drive};
+  double sigma_deg = 0.0;
+  for (const ImageId id : images) {
+    const Eigen::Matrix3d R =
+        reconstruction.images.at(id).cam_from_world.rotation.toRotationMatrix();
+    const PosePrior& prior = manifest.At(id).prior;
+    if (!is_stated) {
+      attitudes.level_from_world.push_back(R);
+    } else if (StatesTilt(prior)) {
+      attitudes.level_from_world.push_back(LevelFromCamera(prior) * R);
+      sigma_deg = std::max(sigma_deg, prior.tilt_sigma_deg);
+    }
+  }
+  if (is_stated) attitudes.sigma_rad = kRadPerDeg * sigma_deg;
+  return attitudes;
+}
+
+std::vector<Attitudes> AllAttitudes(const Reconstruction& reconstruction,
+                                    const ImageManifest& manifest) {
+  std::vector<Attitudes> drives;
+  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
+    std::vector<ImageId> images;
+    for (const ImageId id : sequence) {
+      const auto image = reconstruction.images.find(id);
+      if (image != reconstruction.images.end() && !image->second.loose) images.push_back(id);
+    }
+    if (!images.empty()) drives.push_back(AttitudesOf(reconstruction, manifest, drive, images));
+  }
+  return drives;
+}
+
+// A drive's part of the cost with d_k eliminated: constant - |S g + u y|^2 / (W + u).
+struct DriveTerm {
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  // sum of w_i R_i
+  double W = 0.0;                               // sum of w_i
+  double u = 1.0;
+
+  [[nodiscard]] Eigen::Vector3d DownInMount(const Eigen::Vector3d& down) const {
+    return (S * down + u * Eigen::Vector3d::UnitY()) / (W + u);
+  }
+};
+
+double CostOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
+  double cost = 0.0;
+  for (const DriveTerm& term : terms)
+    cost -= term.DownInMount(down).squaredNorm() * (term.W + term.u);
+  return cost;
+}
+
+// Half the second derivative on the sphere: information about `down` in its tangent plane.
+Eigen::Matrix2d InformationOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
+  const Eigen::Matrix<double, 3, 2> basis = TangentBasis(down);
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  double radial = 0.0;
+  for (const DriveTerm& term : terms) {
+    hessian -= term.S.transpose() * term.S / (term.W + term.u);
+    radial += down.dot(term.S.transpose() * term.DownInMount(down));
+  }
+  return basis.transpose() * hessian * basis + radial * Eigen::Matrix2d::Identity();
+}
+
+// Levenberg-Marquardt on the sphere; two unknowns.
+Eigen::Vector3d Minimise(const std::vector<DriveTerm>& terms, Eigen::Vector3d down) {
+  double damping = 1e-6;
+  double cost = CostOf(terms, down);
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::Matrix<double, 3, 2> basis = TangentBasis(down);
+    Eigen::Vector3d ascent = Eigen::Vector3d::Zero();
+    double weight = 0.0;
+    for (const DriveTerm& term : terms) {
+      ascent += term.S.transpose() * term.DownInMount(down);
+      weight += term.W;
+    }
+    const Eigen::Matrix2d A =
+        InformationOf(terms, down) + damping * weight * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d move = A.ldlt().solve(basis.transpose() * ascent);
+    const Eigen::Vector3d candidate = (down + basis * move).normalized();
+    const double candidate_cost = CostOf(terms, candidate);
+    if (candidate.allFinite() && candidate_cost <= cost) {
+      down = candidate;
+      cost = candidate_cost;
+      damping *= 0.1;
+      if (move.norm() < 1e-12) break;
+    } else {
+      damping = std::max(10.0 * damping, 1e-9);
+    }
+  }
+  return down;
+}
+
+class Estimate {
+ public:
+  Estimate(const std::vector<Attitudes>& drives, const Eigen::Vector3d& start)
+      : drives_(drives), down_(start) {
+    for (const Attitudes& drive : drives) {
+      terms_.push_back({.u = 1.0 / (drive.sigma_rad * drive.sigma_rad)});
+      in_mount_.push_back(MeanDown(drive));
+    }
+  }
+
+  Gravity Run() {
+    for (int round = 0; round < kRounds; ++round) {
+      Reweigh();
+      down_ = Minimise(terms_, down_);
+      for (size_t k = 0; k < terms_.size(); ++k) in_mount_[k] = terms_[k].DownInMount(down_);
+    }
+    Gravity gravity{.down_in_world = down_};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(InformationOf(terms_, down_));
+    gravity.sigma_rad = 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1.0));
+    for (size_t k = 0; k < drives_.size(); ++k)
+      gravity.down_in_mount[drives_[k].drive] = in_mount_[k].normalized();
+    return gravity;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d MeanDown(const Attitudes& drive) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Matrix3d& R : drive.level_from_world) sum += R * down_;
+    return sum / static_cast<double>(drive.level_from_world.size());
+  }
+
+  // Cauchy's weights at the scatter of all, no drive heavier than its slopes allow.
+  void Reweigh() {
+    std::vector<double> errors;
+    for (size_t k = 0; k < drives_.size(); ++k) {
+      for (const Eigen::Matrix3d& R : drives_[k].level_from_world)
+        errors.push_back((R * down_ - in_mount_[k]).norm());
+    }
+    const double scatter = std::max(Quantile(std::move(errors), 0.5), kLeastScatter_rad);
+    for (size_t k = 0; k < drives_.size(); ++k) {
+      DriveTerm& term = terms_[k];
+      term.S.setZero();
+      term.W = 0.0;
+      for (const Eigen::Matrix3d& R : drives_[k].level_from_world) {
+        const double error = (R * down_ - in_mount_[k]).norm();
+        const double weight = 1.0 / (scatter * scatter + error * error);
+        term.S += weight * R;
+        term.W += weight;
+      }
+      const double scale = std::min(1.0, 1.0 / (kRoadSigma_rad * kRoadSigma_rad * term.W));
+      term.S *= scale;
+      term.W *= scale;
+    }
+  }
+
+  const std::vector<Attitudes>& drives_;
+  Eigen::Vector3d down_;
+  std::vector<DriveTerm> terms_{};
+  std::vector<Eigen::Vector3d> in_mount_{};
+};
+
+}  // namespace
+
+Eigen::Vector3d DownInCamera(double pitch_rad, double roll_rad) {
+  return {std::sin(roll_rad) * std::cos(pitch_rad),
+          std::cos(roll_rad) * std::cos(pitch_rad),
+          -std::sin(pitch_rad)};
+}
+
+std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,
+                                       const ImageManifest& manifest) {
+  const std::vector<Attitudes> drives = AllAttitudes(reconstruction, manifest);
+  Reconstruction level;
+  uint32_t next = 0;
+  for (const Attitudes& drive : drives) {
+    for (const Eigen::Matrix3d& R : drive.level_from_world)
+      level.images[ImageId(next++)].cam_from_world.rotation = Eigen::Quaterniond(R);
+  }
+  const std::optional<Eigen::Vector3d> start = FindGravity(level);
+  if (!start) return std::nullopt;
+  return Estimate(drives, *start).Run();
+}
+
+}  // namespace orbweave

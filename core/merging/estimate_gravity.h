@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/scene/image_manifest.h"
+#include "core/scene/reconstruction.h"
+
+namespace orbweave {
+
+/// How far a mount may lean whose lean nobody states: poles on roofs and in hands stand within some
+/// degrees, and one that leans by 12 is no marvel.
+inline constexpr double kMountSigma_rad = 0.1;
+
+/// Where down is, as the attitudes of the panoramas alone say.
+struct Gravity {
+  Eigen::Vector3d down_in_world = -Eigen::Vector3d::UnitZ();
+  /// In any direction: kMountSigma_rad where all panoramas look the same way, little where drives
+  /// turn.
+  double sigma_rad = kMountSigma_rad;
+  /// Per drive the mean of down in the cameras, unit: what its mount makes of it, after what is
+  /// stated of each panorama is taken off.
+  std::map<uint32_t, Eigen::Vector3d> down_in_mount{};
+
+  /// Where GNSS finds down `away_rad` from here, mounts lean more than most: as with Cauchy's loss
+  /// attitudes then count for less.
+  [[nodiscard]] double SigmaAt(double away_rad) const { return std::hypot(sigma_rad, away_rad); }
+};
+
+/// Down in a camera whose pitch (up) and roll (clockwise) are stated.
+[[nodiscard]] Eigen::Vector3d DownInCamera(double pitch_rad, double roll_rad);
+
+/// The carrier of a drive keeps upright but for slopes, its mount leans by an unknown but constant
+/// rotation: so down, seen from the cameras of a drive, is one direction d_k, wherever they look,
+/// and the one direction g of the world that stays where the cameras turn is down. Minimises
+///   sum_i rho(|R_i g - d_k|^2) + sum_k |d_k - y|^2 / kMountSigma_rad^2,   |g| = 1,
+/// over g and all d_k; rho is Cauchy's at the scatter found. In a street without turns the second
+/// term decides ("cameras are upright"), with its sigma. Slopes keep a drive from knowing d_k to
+/// better than a degree. Where half a drive's panoramas or more state pitch and roll, R_i is that
+/// from the world into a level camera, and d_k is within their tilt_sigma_deg.
+///
+/// nullopt where panoramas are not upright on average (FindGravity) or there are none.
+[[nodiscard]] std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,
+                                                     const ImageManifest& manifest);
+
+}  // namespace orbweave

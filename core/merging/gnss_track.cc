@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/gnss_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/merging/quantile.h"
+#include "core/scene/sequence_of_drive.h"
+
+namespace orbweave {
+namespace {
+
+// A carrier that went less than this share of its usual way between neighbours stands.
+constexpr double kStandingShare = 0.3;
+
+bool HasTimes(const GnssDrive& drive, const ImageManifest& manifest) {
+  const auto time = [&](const GnssFix& fix) {
+    return manifest.At(fix.image).capture_time_s.value_or(NAN);
+  };
+  const bool all = std::ranges::all_of(
+      drive.fixes, [&](const GnssFix& fix) { return std::isfinite(time(fix)); });
+  return all && time(drive.fixes.front()) < time(drive.fixes.back());
+}
+
+void MeasureWays(GnssDrive& drive) {
+  for (size_t i = 1; i < drive.fixes.size(); ++i) {
+    const GnssFix& before = drive.fixes[i - 1];
+    drive.fixes[i].way =
+        before.way + (drive.fixes[i].centre_in_world - before.centre_in_world).norm();
+  }
+}
+
+double MedianStep(const GnssDrive& drive) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < drive.fixes.size(); ++i)
+    steps.push_back(drive.fixes[i].way - drive.fixes[i - 1].way);
+  return Quantile(std::move(steps), 0.5);
+}
+
+// From the fix before to the fix after, which halves what a tremble adds.
+void MeasureTravel(const ImageManifest& manifest, GnssDrive& drive) {
+  const double least = kStandingShare * MedianStep(drive);
+  for (size_t i = 0; i < drive.fixes.size(); ++i) {
+    const size_t first = i > 0 ? i - 1 : i;
+    const size_t last = std::min(i + 1, drive.fixes.size() - 1);
+    const GnssFix& before = drive.fixes[first];
+    const GnssFix& after = drive.fixes[last];
+    const Eigen::Vector3d moved = after.centre_in_world - before.centre_in_world;
+    const double steps = static_cast<double>(last - first);
+    if (steps == 0.0 || moved.norm() <= steps * least) continue;
+    if (!drive.has_times) {
+      drive.fixes[i].travel = moved.normalized();
+      continue;
+    }
+    const double seconds =
+        *manifest.At(after.image).capture_time_s - *manifest.At(before.image).capture_time_s;
+    if (seconds > 0.0) drive.fixes[i].travel = moved / seconds;
+  }
+}
+
+}  // namespace
+
+std::vector<GnssDrive> GnssDrivesOf(const Reconstruction& reconstruction,
+                                    const ImageManifest& manifest) {
+  std::vector<GnssDrive> drives;
+  for (const auto& [number, sequence] : SequenceOfDrives(manifest)) {
+    GnssDrive drive{.drive = number};
+    for (const ImageId id : sequence) {
+      const auto image = reconstruction.images.find(id);
+      const PosePrior& prior = manifest.At(id).prior;
+      if (image == reconstruction.images.end() || image->second.loose) continue;
+      if (!prior.position_in_enu) continue;
+      drive.fixes.push_back({.image = id,
+                             .centre_in_world = image->second.cam_from_world.Centre(),
+                             .position_in_enu = *prior.position_in_enu,
+                             .horizontal_sigma_m = prior.horizontal_sigma_m,
+                             .vertical_sigma_m = prior.vertical_sigma_m});
+    }
+    if (drive.fixes.empty()) continue;
+    drive.has_times = HasTimes(drive, manifest);
+    MeasureWays(drive);
+    MeasureTravel(manifest, drive);
+    drives.push_back(std::move(drive));
+  }
+  return drives;
+}
+
+}  // namespace orbweave
