@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/drive_errors.h"
+
+#include <gtest/gtest.h>
+
+#include "core/merging/georeference_reconstruction.h"
+#include "core/merging/gnss_smoothness.h"
+#include "tests/core/merging/driven_street.h"
+
+namespace orbweave {
+namespace {
+
+using testing::AddDrive;
+using testing::Drive;
+using testing::DrivenStreet;
+
+FoundDriveErrors Find(const DrivenStreet& street) {
+  return FindDriveErrors(GnssDrivesOf(street.model, street.manifest), Sim3{});
+}
+
+// As of a clock that is late or an antenna beside the camera.
+void Shift(double ahead_m, double left_m, DrivenStreet& street) {
+  for (ImageRecord& image : street.manifest.images) {
+    const ImageId next(std::min(image.id.value + 1, uint32_t(street.manifest.images.size()) - 1));
+    const ImageId before(next.value - 1);
+    const Eigen::Vector3d way = (street.model.images.at(next).cam_from_world.Centre() -
+                                 street.model.images.at(before).cam_from_world.Centre())
+                                    .normalized();
+    *image.prior.position_in_enu +=
+        ahead_m * way + left_m * Eigen::Vector3d(-way.y(), way.x(), 0.0);
+  }
+}
+
+TEST(FindDriveErrors, FindsNothingInPlainNoise) {
+  for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const FoundDriveErrors found =
+        Find(Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 2.0}, seed));
+    EXPECT_TRUE(found.drives.empty()) << seed;
+  }
+}
+
+TEST(FindDriveErrors, FindsAShiftAlongTheWay) {
+  DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 1.0}, 1);
+  Shift(-8.0, 0.0, street);
+  const FoundDriveErrors found = Find(street);
+  ASSERT_EQ(found.drives.size(), 1U);
+  EXPECT_NEAR(found.drives[0].ahead, -8.0, 1.5);
+  EXPECT_GT(found.drives[0].ahead_sigma, 0.0);
+  EXPECT_EQ(found.checks.at(0).name, "gnss_clock");
+  EXPECT_EQ(found.checks.at(0).level, CheckLevel::kGood);
+}
+
+TEST(FindDriveErrors, MeasuresAShiftInSecondsWhereTimesAreKnown) {
+  DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 1.0}, 2);
+  for (ImageRecord& image : street.manifest.images) image.capture_time_s = 0.3 * image.id.value;
+  Shift(-8.0, 0.0, street);
+  const FoundDriveErrors found = Find(street);
+  ASSERT_EQ(found.drives.size(), 1U);
+  EXPECT_TRUE(found.drives[0].has_times);
+  EXPECT_NEAR(found.drives[0].ahead, -0.8, 0.15);
+}
+
+TEST(FindDriveErrors, FindsAnAntennaBesideTheCamera) {
+  DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 0.5}, 3);
+  Shift(0.0, 3.0, street);
+  const FoundDriveErrors found = Find(street);
+  ASSERT_EQ(found.drives.size(), 1U);
+  EXPECT_NEAR(found.drives[0].left_m, 3.0, 0.8);
+  EXPECT_EQ(found.drives[0].ahead, 0.0);
+}
+
+TEST(FindDriveErrors, SaysThatAStraightStreetHidesAShift) {
+  DrivenStreet street = Drive({.panoramas = 100, .sigma_m = 1.0}, 4);
+  Shift(-8.0, 0.0, street);
+  const FoundDriveErrors found = Find(street);
+  EXPECT_TRUE(found.drives.empty());
+  ASSERT_EQ(found.checks.size(), 1U);
+  EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
+}
+
+TEST(FindDriveErrors, TakesOffWhatItFound) {
+  DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 1.0}, 1);
+  Shift(-8.0, 0.0, street);
+  const Georeference georeference =
+      GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
+  ASSERT_TRUE(georeference.enu_from_world.has_value());
+  EXPECT_LT(georeference.enu_from_world->translation.norm(), 2.0);
+}
+
+// Three drives the same way; drive `odd` has heights over another datum.
+DrivenStreet ThreeDrives(uint32_t odd, uint32_t num_drives) {
+  Random random(9);
+  DrivenStreet street;
+  for (uint32_t drive = 0; drive < num_drives; ++drive)
+    AddDrive({.turn_rad = 1.0, .sigma_m = 1.0}, random, street);
+  for (ImageRecord& image : street.manifest.images) {
+    if (image.drive == odd) image.prior.position_in_enu->z() += 47.0;
+  }
+  return street;
+}
+
+TEST(FindDriveErrors, MovesTheOddDriveToTheDatumOfTheOthers) {
+  for (const uint32_t odd : {0U, 1U, 2U}) {
+    const DrivenStreet street = ThreeDrives(odd, 3);
+    const Georeference georeference =
+        GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
+    ASSERT_TRUE(georeference.enu_from_world.has_value());
+    EXPECT_LT(std::abs(georeference.enu_from_world->translation.z()), 1.0);
+    ASSERT_EQ(georeference.drive_errors.size(), 1U);
+    EXPECT_EQ(georeference.drive_errors[0].drive, odd);
+    EXPECT_NEAR(georeference.drive_errors[0].offset_m.z(), 47.0, 1.0);
+    ASSERT_FALSE(georeference.checks.empty());
+    EXPECT_EQ(georeference.checks.back().name, "gnss_datum");
+    EXPECT_EQ(georeference.checks.back().level, CheckLevel::kGood);
+  }
+}
+
+TEST(FindDriveErrors, CannotTellWhichOfTwoDatumsIsRight) {
+  const DrivenStreet street = ThreeDrives(1, 2);
+  const Georeference georeference =
+      GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
+  ASSERT_TRUE(georeference.enu_from_world.has_value());
+  EXPECT_LT(std::abs(georeference.enu_from_world->translation.z()), 1.0);  // the first one's
+  EXPECT_EQ(georeference.checks.back().level, CheckLevel::kDoubtful);
+}
+
+TEST(MeasureGnssSmoothness, FindsTheNoiseWhateverTheSteps) {
+  for (const double step_m : {0.5, 3.0, 12.0}) {
+    const DrivenStreet street =
+        Drive({.panoramas = 400, .step_m = step_m, .turn_rad = 1.0, .sigma_m = 2.0}, 6);
+    const GnssSmoothness smoothness =
+        MeasureGnssSmoothness(GnssDrivesOf(street.model, street.manifest));
+    ASSERT_TRUE(smoothness.is_known);
+    EXPECT_GT(smoothness.noise_m, 1.0) << step_m;
+    EXPECT_LT(smoothness.noise_m, 3.0) << step_m;
+  }
+}
+
+TEST(GeoreferenceReconstruction, BlamesAModelThatFoldsWhereGnssRunsOn) {
+  DrivenStreet street = Drive({.panoramas = 90, .sigma_m = 2.0}, 7);
+  // The facades repeat: every thirty panoramas the model is back where it was.
+  for (auto& [id, image] : street.model.images)
+    image.cam_from_world = street.model.images.at(ImageId(id.value % 30)).cam_from_world;
+  const Georeference georeference =
+      GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
+  EXPECT_FALSE(georeference.enu_from_world.has_value());
+  ASSERT_EQ(georeference.checks.size(), 1U);
+  EXPECT_EQ(georeference.checks[0].name, "gnss_against_model");
+  EXPECT_EQ(georeference.checks[0].level, CheckLevel::kBad);
+  EXPECT_NE(georeference.reason.find("the model contradicts GNSS"), std::string::npos)
+      << georeference.reason;
+}
+
+}  // namespace
+}  // namespace orbweave

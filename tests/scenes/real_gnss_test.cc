@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What receivers and mounts of real carriers do to a model: it comes out right, or a check says
+// truly why it may not be; and what it claims of its errors holds.
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "tests/scenes/orientate.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kDeg = 180.0 / std::numbers::pi;
+
+/// A scene's model against the truth, nothing aligned.
+struct Outcome {
+  Eigen::Vector3d mean_error_m = Eigen::Vector3d::Zero();
+  /// Squared error over claimed variance per axis, mean over images.
+  Eigen::Vector3d ratio = Eigen::Vector3d::Zero();
+  double rotation_deg = 0.0;  ///< largest
+  double rotation_sigma_deg = 0.0;
+  double rms_m = 0.0;
+  std::vector<CrossCheck> checks{};
+
+  [[nodiscard]] const CrossCheck* Find(const std::string& name) const {
+    const auto check = std::ranges::find(checks, name, &CrossCheck::name);
+    return check == checks.end() ? nullptr : &*check;
+  }
+  [[nodiscard]] bool IsGood() const {
+    return std::ranges::all_of(
+        checks, [](const CrossCheck& check) { return check.level == CheckLevel::kGood; });
+  }
+};
+
+Outcome OutcomeOf(CorridorOptions options) {
+  options.features_per_panorama = 200;
+  const Corridor corridor = MakeCorridor(options);
+  const Orientated result = Orientate(corridor);
+  Outcome outcome;
+  EXPECT_EQ(result.worlds.size(), 1U);
+  if (result.worlds.empty()) return outcome;
+  const testing::GloballyAdjusted& world = result.worlds.front();
+  EXPECT_TRUE(world.report.gnss.used) << world.report.gnss.reason;
+  const auto n = static_cast<double>(world.reconstruction.images.size());
+  for (const auto& [id, image] : world.reconstruction.images) {
+    const Rigid3& truth = corridor.cams_from_world[id.value];
+    const Eigen::Vector3d error = image.cam_from_world.Centre() - truth.Centre();
+    outcome.mean_error_m += error / n;
+    outcome.rms_m += error.squaredNorm() / n;
+    outcome.rotation_deg = std::max(
+        outcome.rotation_deg, kDeg * image.cam_from_world.rotation.angularDistance(truth.rotation));
+    if (!image.uncertainty) continue;
+    outcome.ratio +=
+        error.cwiseAbs2().cwiseQuotient(image.uncertainty->position_covariance.diagonal()) / n;
+    outcome.rotation_sigma_deg =
+        std::max(outcome.rotation_sigma_deg, image.uncertainty->RotationSigma_deg());
+  }
+  outcome.rms_m = std::sqrt(outcome.rms_m);
+  outcome.checks = world.report.checks;
+  return outcome;
+}
+
+TEST(RealGnss, PlainStreetsAreGoodAndClaimWhatTheyAreOffBy) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const CorridorShape shape : {CorridorShape::kStraight,
+                                    CorridorShape::kBends,
+                                    CorridorShape::kLoop,
+                                    CorridorShape::kUturn}) {
+    for (const int seed : {1, 2, 3, 4, 5}) {
+      SCOPED_TRACE(std::to_string(static_cast<int>(shape)) + " " + std::to_string(seed));
+      const Outcome outcome = OutcomeOf({.panoramas = 60, .shape = shape, .seed = seed});
+      EXPECT_TRUE(outcome.IsGood());
+      sum += outcome.ratio.sum();
+      count += 3.0;
+    }
+  }
+  EXPECT_GT(sum / count, 0.5);
+  EXPECT_LT(sum / count, 2.0);
+}
+
+TEST(RealGnss, AMountThatLeansToTheSideOfAStraightStreetIsNamed) {
+  for (const int seed : {1, 2, 3}) {
+    for (const double roll_deg : {12.0, -9.0}) {
+      const Outcome outcome = OutcomeOf({.panoramas = 60,
+                                         .shape = CorridorShape::kStraight,
+                                         .mount_roll_deg = roll_deg,
+                                         .seed = seed});
+      const CrossCheck* check = outcome.Find("mount_tilt");
+      ASSERT_NE(check, nullptr);
+      EXPECT_EQ(check->level, CheckLevel::kDoubtful) << check->sentence;
+      EXPECT_NEAR(check->value, std::abs(roll_deg), 2.0);
+    }
+  }
+}
+
+TEST(RealGnss, AMountThatLeansIsSetUprightWhereTheStreetTurns) {
+  for (const int seed : {1, 2}) {
+    for (const CorridorShape shape : {CorridorShape::kUturn, CorridorShape::kLoop}) {
+      const Outcome outcome =
+          OutcomeOf({.panoramas = 80, .shape = shape, .mount_roll_deg = 12.0, .seed = seed});
+      EXPECT_LT(outcome.rotation_deg, 1.5);
+      EXPECT_TRUE(outcome.IsGood());
+    }
+  }
+}
+
+TEST(RealGnss, AMountThatLeansBackwardsDoesNotMakeAStreetClimb) {
+  for (const int seed : {1, 2, 3}) {
+    const Outcome outcome = OutcomeOf({.panoramas = 60,
+                                       .shape = CorridorShape::kStraight,
+                                       .mount_pitch_deg = 10.0,
+                                       .seed = seed});
+    EXPECT_LT(outcome.rotation_deg, 1.5);
+    EXPECT_LT(outcome.ratio.z(), 4.0);
+    EXPECT_TRUE(outcome.IsGood());
+  }
+}
+
+TEST(RealGnss, ErrorsThatNeighboursShareAreInTheSigmas) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const int seed : {1, 2, 3, 4, 5, 6}) {
+    const Outcome outcome = OutcomeOf(
+        {.panoramas = 200, .gnss_sigma_m = 5.0, .gnss_correlation_m = 150.0, .seed = seed});
+    sum += outcome.ratio.sum();
+    count += 3.0;
+    const CrossCheck* check = outcome.Find("gnss_correlation");
+    ASSERT_NE(check, nullptr);
+    EXPECT_GT(check->value, 10.0);
+  }
+  EXPECT_GT(sum / count, 0.5);
+  EXPECT_LT(sum / count, 3.0);  // of some dozen independent errors: 2 and what those scatter by
+}
+
+TEST(RealGnss, AClockThatIsLateIsTakenOff) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const int seed : {1, 3, 4}) {
+    const Outcome outcome = OutcomeOf({.panoramas = 120, .gnss_delay_s = 0.8, .seed = seed});
+    const CrossCheck* check = outcome.Find("gnss_clock");
+    ASSERT_NE(check, nullptr);
+    EXPECT_NEAR(check->value, 0.8, 0.25);
+    EXPECT_LT(outcome.rms_m, 3.0);  // of 8
+    sum += outcome.ratio.sum();
+    count += 3.0;
+  }
+  EXPECT_LT(sum / count, 3.0);
+}
+
+TEST(RealGnss, AnAntennaBesideTheCameraIsTakenOff) {
+  for (const int seed : {1, 2}) {
+    const Outcome outcome = OutcomeOf(
+        {.panoramas = 80, .shape = CorridorShape::kUturn, .gnss_left_m = 3.0, .seed = seed});
+    const CrossCheck* check = outcome.Find("gnss_lever_arm");
+    ASSERT_NE(check, nullptr);
+    EXPECT_NEAR(check->value, 3.0, 1.5);
+    EXPECT_TRUE(outcome.IsGood());
+  }
+}
+
+TEST(RealGnss, AShiftAlongAStreetOfOneWayIsSaidToBeUnknown) {
+  const Outcome outcome =
+      OutcomeOf({.panoramas = 60, .shape = CorridorShape::kStraight, .gnss_delay_s = 0.8});
+  const CrossCheck* check = outcome.Find("gnss_clock");
+  ASSERT_NE(check, nullptr);
+  EXPECT_NE(check->sentence.find("cannot be told"), std::string::npos) << check->sentence;
+}
+
+TEST(RealGnss, TwoDrivesOverDifferentDatumsAreDoubtful) {
+  for (const int seed : {1, 2}) {
+    const Outcome outcome =
+        OutcomeOf({.panoramas = 100, .gnss_datum_m = 47.0, .drives = 2, .seed = seed});
+    const CrossCheck* check = outcome.Find("gnss_datum");
+    ASSERT_NE(check, nullptr);
+    EXPECT_EQ(check->level, CheckLevel::kDoubtful);
+    EXPECT_NEAR(check->value, 47.0, 3.0);
+    EXPECT_LT(std::abs(outcome.mean_error_m.z()), 4.0);  // follows one of them, not the middle
+  }
+}
+
+}  // namespace
+}  // namespace orbweave
