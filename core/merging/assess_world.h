@@ -19,9 +19,11 @@ struct AssessedWorld {
 };
 
 /// The uncertainty of the poses of an adjusted world: what its blocks' bearings say of poses
-/// (InspectBlock), in their order, is added, and the normal equations of all poses with GNSS and
-/// gravity terms give the covariances (CovariancesOfSystem). Memory grows with the panoramas, not
-/// with the points. GNSS errors count as correlated as they are found along the sequence
+/// (InspectBlock), in their order, is added - every panorama's bearings weighted by their own
+/// scatter, so that a place where they scatter more claims less, and all by how errors go together
+/// along tracks (TrackCorrelation) -, and the normal equations of all poses with GNSS and gravity
+/// terms give the covariances (CovariancesOfSystem). Memory grows with the panoramas, not with the
+/// points. GNSS errors count as correlated as they are found along the sequence
 /// (EstimateGnssVariance): an offset common to all positions shows nowhere. `problem` holds the
 /// world's poses and GNSS terms (AddGnss), `biases_m` are those of its drives.
 [[nodiscard]] AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/merging/assess_world.h"
-#include "core/merging/check_sequence_steps.h"
 #include "core/merging/check_gnss.h"
+#include "core/merging/check_sequence_steps.h"
 #include "core/merging/choose_local_frame.h"
 #include "core/merging/global_problem.h"
 #include "core/merging/judge_gnss.h"

@@ -29,8 +29,8 @@ struct BlockInspection {
   std::optional<ImageId> held{};
   std::optional<ImageId> farthest{};
   std::vector<SidePlacement> placements{};
-  std::vector<PatchSupport> supports{};  ///< SupportOf
-  TrackCorrelation correlation{};        ///< of tracks that this block has for itself
+  std::vector<PatchSupport> supports{};         ///< SupportOf
+  TrackCorrelation correlation{};               ///< of tracks that this block has for itself
   std::vector<Eigen::Vector3d> points_about{};  ///< PointsAboutPanoramas
 };
 

@@ -24,8 +24,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"join_submodels", "4"},
     {"assemble_block", "4"},
     {"steer_adjustment", "3"},
-    {"adjust_block", "3"},
-    {"conclude_adjustment", "4"},
+    {"adjust_block", "4"},
+    {"conclude_adjustment", "5"},
 }};
 
 }  // namespace

@@ -100,8 +100,8 @@ class GnssNoise {
   const CorridorStation* last_ = nullptr;
 };
 
-/// Where the antenna was when the receiver measured what it says of station i; a drive came straight
-/// from where it begins and goes straight on from where it ends.
+/// Where the antenna was when the receiver measured what it says of station i; a drive came
+/// straight from where it begins and goes straight on from where it ends.
 Eigen::Vector2d AntennaPlace(const CorridorOptions& options, const CorridorPath& path, size_t i) {
   const std::vector<CorridorStation>& stations = path.stations;
   const double behind = options.gnss_delay_s * options.speed_m_per_s / options.spacing_m;
@@ -167,10 +167,8 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
     if (options.gnss_sigma_m > 0.0) {
       const Eigen::Vector2d antenna = AntennaPlace(options, path, i);
       const Eigen::Vector3d measured(antenna.x(), antenna.y(), centre.z());
-      image.prior = MakePrior(measured + offsets.At(i, station.drive),
-                              noise.Next(station, random),
-                              options,
-                              random);
+      image.prior = MakePrior(
+          measured + offsets.At(i, station.drive), noise.Next(station, random), options, random);
     }
     const double second_s =
         options.gnss_delay_s == 0.0 ? 1.0 : options.spacing_m / options.speed_m_per_s;

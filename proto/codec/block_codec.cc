@@ -152,6 +152,8 @@ absl::Status DirectionsFromProto(const v1::WorldBlock& proto, WorldBlock& block)
     const DirectionBytes& d = directions[i];
     if (!block.scene.images.contains(images[i]))
       return absl::InvalidArgumentError("world block: a direction of an image it does not hold");
+    if (!std::ranges::all_of(d, [](double value) { return std::isfinite(value); }) || !(d[6] > 0.0))
+      return absl::InvalidArgumentError("world block: a direction is not a number");
     block.directions.push_back({.image = images[i],
                                 .direction_in_world = {d[0], d[1], d[2]},
                                 .direction_in_cam = {d[3], d[4], d[5]},

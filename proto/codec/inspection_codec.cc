@@ -155,8 +155,12 @@ absl::StatusOr<BlockInspection> DecodeBlockInspection(std::string_view bytes) {
   inspection.correlation = {correlation[0], correlation[1], correlation[2]};
   ORBWEAVE_ASSIGN_OR_RETURN(const auto points_about,
                             codec::Unpack<codec::Vector3Bytes>(proto.points_about(), "points"));
-  for (const codec::Vector3Bytes& point : points_about)
-    inspection.points_about.push_back(codec::ToVector(point));
+  for (const codec::Vector3Bytes& coordinates : points_about) {
+    const Eigen::Vector3d point = codec::ToVector(coordinates);
+    if (!point.allFinite())
+      return absl::InvalidArgumentError("block inspection: a point is not a number");
+    inspection.points_about.push_back(point);
+  }
   return inspection;
 }
 

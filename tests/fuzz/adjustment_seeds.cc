@@ -61,7 +61,11 @@ void AddAdjustmentSeeds(Seeds& seeds) {
                             .cluster_result = digest,
                             .shared = {ImageId(2)}})};
   seeds["joined_worlds"] = {EncodeJoinedWorlds(
-      {{.georeference = {.enu_from_world = Sim3{}, .reason = "r"}, .num_images = 2},
+      {{.georeference = {.enu_from_world = Sim3{},
+                         .reason = "r",
+                         .drive_errors = {{.drive = 3, .ahead = -0.8, .ahead_sigma = 0.1}},
+                         .checks = SmallReport().checks},
+        .num_images = 2},
        {.num_blocks = 1}})};
   EvaluatedState state;
   state.variables.poses = {{}, {}};
@@ -86,7 +90,8 @@ void AddAdjustmentSeeds(Seeds& seeds) {
        .redundancy = 9.0,
        .held = ImageId(0),
        .placements = {{.image = ImageId(2), .cluster = 3, .num_points = 7}},
-       .supports = {{.image = ImageId(2), .patch = 5, .observations = 8, .equations = 16}}})};
+       .supports = {{.image = ImageId(2), .patch = 5, .observations = 8, .equations = 16}},
+       .points_about = {{1, 2, 3}}})};
   AdjustmentProgress progress{.worlds = {{.phase = 1, .report = SmallReport()}}, .is_asked = {1}};
   progress.worlds[0].path.separators_of_block = {SmallSystem().variables};
   progress.blocks = {

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the adjustment knows of GNSS and of attitudes survives bytes, and nonsense does not.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "proto/codec/block_codec.h"
+#include "proto/codec/inspection_codec.h"
+
+namespace orbweave {
+namespace {
+
+std::vector<JoinedWorld> WorldWithErrors(double left_m) {
+  JoinedWorld world;
+  world.georeference.drive_errors = {{.drive = 7,
+                                      .has_times = true,
+                                      .ahead = -0.8,
+                                      .left_m = left_m,
+                                      .ahead_sigma = 0.1,
+                                      .left_sigma_m = 0.2,
+                                      .offset_m = {1.0, -2.0, 47.0}},
+                                     {.drive = 9}};
+  world.georeference.checks = {
+      {"gnss_datum", 47.0, 12.0, "m", CheckLevel::kDoubtful, "another datum"}};
+  return {world};
+}
+
+TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
+  const auto worlds = DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(3.0)));
+  ASSERT_TRUE(worlds.ok()) << worlds.status();
+  const Georeference& georeference = worlds->at(0).georeference;
+  ASSERT_EQ(georeference.drive_errors.size(), 2U);
+  const DriveErrors& errors = georeference.drive_errors[0];
+  EXPECT_EQ(errors.drive, 7U);
+  EXPECT_TRUE(errors.has_times);
+  EXPECT_EQ(errors.ahead, -0.8);
+  EXPECT_EQ(errors.left_m, 3.0);
+  EXPECT_EQ(errors.ahead_sigma, 0.1);
+  EXPECT_EQ(errors.left_sigma_m, 0.2);
+  EXPECT_EQ(errors.offset_m, Eigen::Vector3d(1.0, -2.0, 47.0));
+  EXPECT_FALSE(georeference.drive_errors[1].has_times);
+  ASSERT_EQ(georeference.checks.size(), 1U);
+  EXPECT_EQ(georeference.checks[0].name, "gnss_datum");
+  EXPECT_EQ(georeference.checks[0].level, CheckLevel::kDoubtful);
+}
+
+TEST(JoinedWorldsCodec, RefusesErrorsThatAreNoNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(nan))).ok());
+}
+
+TEST(BlockInspectionCodec, CarriesPointsAboutPanoramas) {
+  BlockInspection inspection;
+  inspection.points_about = {{1.0, 2.0, 3.0}, {-4.0, 5.0, -6.0}};
+  const auto decoded = DecodeBlockInspection(EncodeBlockInspection(inspection));
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_EQ(decoded->points_about, inspection.points_about);
+  inspection.points_about[0].x() = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(DecodeBlockInspection(EncodeBlockInspection(inspection)).ok());
+}
+
+WorldBlock BlockWithDirection(ImageId of, double sigma_rad) {
+  WorldBlock block;
+  block.scene.images[ImageId(2)] = {};
+  block.images = {{.id = ImageId(2)}};
+  block.directions = {{.image = of,
+                       .direction_in_world = {0.0, 0.6, -0.8},
+                       .direction_in_cam = {0.0, 0.8, 0.6},
+                       .sigma_rad = sigma_rad}};
+  return block;
+}
+
+TEST(WorldBlockCodec, CarriesDirectionsOfImagesThatItHolds) {
+  const auto block = DecodeWorldBlock(EncodeWorldBlock(BlockWithDirection(ImageId(2), 0.1)));
+  ASSERT_TRUE(block.ok()) << block.status();
+  ASSERT_EQ(block->directions.size(), 1U);
+  const BlockDirection& direction = block->directions[0];
+  EXPECT_EQ(direction.image, ImageId(2));
+  EXPECT_EQ(direction.direction_in_world, Eigen::Vector3d(0.0, 0.6, -0.8));
+  EXPECT_EQ(direction.direction_in_cam, Eigen::Vector3d(0.0, 0.8, 0.6));
+  EXPECT_EQ(direction.sigma_rad, 0.1);
+  EXPECT_FALSE(DecodeWorldBlock(EncodeWorldBlock(BlockWithDirection(ImageId(3), 0.1))).ok());
+  EXPECT_FALSE(DecodeWorldBlock(EncodeWorldBlock(BlockWithDirection(ImageId(2), 0.0))).ok());
+}
+
+}  // namespace
+}  // namespace orbweave
