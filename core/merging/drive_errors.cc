@@ -38,7 +38,7 @@ Eigen::Vector2d LeftOf(const Eigen::Vector3d& travel) {
   return {-travel.y() / length, travel.x() / length};
 }
 
-Eigen::Vector3d TravelInEnu(const GnssFix& fix, bool has_times, const Sim3& enu_from_world) {
+Eigen::Vector3d TravelInEnu(const DrivenFix& fix, bool has_times, const Sim3& enu_from_world) {
   return (has_times ? enu_from_world.scale : 1.0) * (enu_from_world.rotation * fix.travel);
 }
 
@@ -57,14 +57,14 @@ class Regression {
  public:
   Regression(const GnssDrive& drive, const Sim3& enu_from_world) : drive_(drive) {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const GnssFix& fix : drive.fixes)
+    for (const DrivenFix& fix : drive.fixes)
       centres_.emplace_back((enu_from_world * fix.centre_in_world).head<2>());
     for (const Eigen::Vector2d& centre : centres_) middle += centre;
     middle /= static_cast<double>(centres_.size());
     for (size_t i = 0; i < centres_.size(); ++i) extent_m_ += (centres_[i] - middle).squaredNorm();
     extent_m_ = std::max(std::sqrt(extent_m_ / static_cast<double>(centres_.size())), 1e-6);
     for (size_t i = 0; i < centres_.size(); ++i) {
-      const GnssFix& fix = drive.fixes[i];
+      const DrivenFix& fix = drive.fixes[i];
       const Eigen::Vector2d at = (centres_[i] - middle) / extent_m_;
       const Eigen::Vector2d travel = TravelInEnu(fix, drive.has_times, enu_from_world).head<2>();
       const Eigen::Vector2d left =
@@ -232,7 +232,7 @@ Eigen::Vector3d MedianOffset(const GnssDrive& drive,
                              const DriveErrors& errors,
                              const Sim3& enu_from_world) {
   std::vector<double> axes[3];
-  for (const GnssFix& fix : drive.fixes) {
+  for (const DrivenFix& fix : drive.fixes) {
     const Eigen::Vector3d residual = fix.position_in_enu - ErrorAt(errors, fix, enu_from_world) -
                                      enu_from_world * fix.centre_in_world;
     for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(residual[axis]);
@@ -332,7 +332,9 @@ void FindDatum(std::span<const GnssDrive> drives,
 
 }  // namespace
 
-Eigen::Vector3d ErrorAt(const DriveErrors& errors, const GnssFix& fix, const Sim3& enu_from_world) {
+Eigen::Vector3d ErrorAt(const DriveErrors& errors,
+                        const DrivenFix& fix,
+                        const Sim3& enu_from_world) {
   const Eigen::Vector3d travel = TravelInEnu(fix, errors.has_times, enu_from_world);
   Eigen::Vector3d error = errors.offset_m + errors.ahead * travel;
   error.head<2>() += errors.left_m * LeftOf(travel);
@@ -346,7 +348,7 @@ std::vector<Eigen::Matrix3d> CovariancesOfErrors(std::span<const DriveErrors> er
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double count = 0.0;
   for (const GnssDrive& drive : drives) {
-    for (const GnssFix& fix : drive.fixes) middle += fix.centre_in_world.head<2>();
+    for (const DrivenFix& fix : drive.fixes) middle += fix.centre_in_world.head<2>();
     count += static_cast<double>(drive.fixes.size());
   }
   if (count > 0.0) middle /= count;
@@ -364,7 +366,7 @@ std::vector<Eigen::Matrix3d> CovariancesOfErrors(std::span<const DriveErrors> er
       Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
       Eigen::Vector4d b = Eigen::Vector4d::Zero();
       for (const GnssDrive& drive : drives) {
-        for (const GnssFix& fix : drive.fixes) {
+        for (const DrivenFix& fix : drive.fixes) {
           const FrameRow row = row_at(fix.centre_in_world);
           A += row.transpose() * row;
           if (drive.drive == of_drive.drive)

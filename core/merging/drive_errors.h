@@ -33,7 +33,7 @@ struct FoundDriveErrors {
 /// Where GNSS would put the centre of `fix`, whose drive is wrong by `errors`: take it off its
 /// position.
 [[nodiscard]] Eigen::Vector3d ErrorAt(const DriveErrors& errors,
-                                      const GnssFix& fix,
+                                      const DrivenFix& fix,
                                       const Sim3& enu_from_world);
 
 /// What not knowing `errors` exactly adds to the covariance of every centre of a frame that was

@@ -48,7 +48,7 @@ struct Positions {
 Positions Collect(const std::vector<GnssDrive>& drives) {
   Positions positions;
   for (const GnssDrive& drive : drives) {
-    for (const GnssFix& fix : drive.fixes) {
+    for (const DrivenFix& fix : drive.fixes) {
       positions.in_world.push_back(fix.centre_in_world);
       positions.in_enu.push_back(fix.position_in_enu);
       positions.sigma_m.push_back(fix.horizontal_sigma_m);
@@ -65,7 +65,7 @@ void TakeOff(const std::vector<DriveErrors>& errors,
   size_t i = 0;
   for (const GnssDrive& drive : drives) {
     const auto of_drive = std::ranges::find(errors, drive.drive, &DriveErrors::drive);
-    for (const GnssFix& fix : drive.fixes) {
+    for (const DrivenFix& fix : drive.fixes) {
       positions.in_enu[i] = fix.position_in_enu;
       if (of_drive != errors.end()) positions.in_enu[i] -= ErrorAt(*of_drive, fix, enu_from_world);
       ++i;

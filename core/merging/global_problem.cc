@@ -38,7 +38,7 @@ std::map<ImageId, Eigen::Vector3d> CorrectedPositions(const Reconstruction& reco
   for (const GnssDrive& drive : GnssDrivesOf(reconstruction, manifest)) {
     const auto errors =
         std::ranges::find(georeference.drive_errors, drive.drive, &DriveErrors::drive);
-    for (const GnssFix& fix : drive.fixes) {
+    for (const DrivenFix& fix : drive.fixes) {
       positions[fix.image] = fix.position_in_enu;
       if (errors != georeference.drive_errors.end())
         positions[fix.image] -= ErrorAt(*errors, fix, enu_from_world);

@@ -17,17 +17,17 @@ namespace {
 constexpr double kStandingShare = 0.3;
 
 bool HasTimes(const GnssDrive& drive, const ImageManifest& manifest) {
-  const auto time = [&](const GnssFix& fix) {
+  const auto time = [&](const DrivenFix& fix) {
     return manifest.At(fix.image).capture_time_s.value_or(NAN);
   };
   const bool all = std::ranges::all_of(
-      drive.fixes, [&](const GnssFix& fix) { return std::isfinite(time(fix)); });
+      drive.fixes, [&](const DrivenFix& fix) { return std::isfinite(time(fix)); });
   return all && time(drive.fixes.front()) < time(drive.fixes.back());
 }
 
 void MeasureWays(GnssDrive& drive) {
   for (size_t i = 1; i < drive.fixes.size(); ++i) {
-    const GnssFix& before = drive.fixes[i - 1];
+    const DrivenFix& before = drive.fixes[i - 1];
     drive.fixes[i].way =
         before.way + (drive.fixes[i].centre_in_world - before.centre_in_world).norm();
   }
@@ -46,8 +46,8 @@ void MeasureTravel(const ImageManifest& manifest, GnssDrive& drive) {
   for (size_t i = 0; i < drive.fixes.size(); ++i) {
     const size_t first = i > 0 ? i - 1 : i;
     const size_t last = std::min(i + 1, drive.fixes.size() - 1);
-    const GnssFix& before = drive.fixes[first];
-    const GnssFix& after = drive.fixes[last];
+    const DrivenFix& before = drive.fixes[first];
+    const DrivenFix& after = drive.fixes[last];
     const Eigen::Vector3d moved = after.centre_in_world - before.centre_in_world;
     const double steps = static_cast<double>(last - first);
     if (steps == 0.0 || moved.norm() <= steps * least) continue;

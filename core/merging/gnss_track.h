@@ -12,7 +12,7 @@
 namespace orbweave {
 
 /// An image of a model that has a GNSS position.
-struct GnssFix {
+struct DrivenFix {
   ImageId image{};
   Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d position_in_enu = Eigen::Vector3d::Zero();
@@ -28,7 +28,7 @@ struct GnssFix {
 struct GnssDrive {
   uint32_t drive = 0;
   bool has_times = false;
-  std::vector<GnssFix> fixes{};
+  std::vector<DrivenFix> fixes{};
 };
 
 /// Drives that have fixes, by number. Loose images take no part. Linear in the images.
