@@ -22,9 +22,12 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // What a drive can know of down in its cameras: roads slope and bank by some per cent, for long.
 constexpr double kRoadSigma_rad = 0.02;
+// Of the ground as a whole: carriers stand at right angles to it, and hillsides slope by as much as
+// towns are built on.
+constexpr double kGroundSigma_rad = 0.05;
 constexpr double kLeastScatter_rad = 1e-3;
 constexpr double kMinStatedShare = 0.5;
-constexpr int kRounds = 10;
+constexpr int kRounds = 20;
 constexpr int kSteps = 30;
 
 // The attitudes of a drive: from the world to the cameras, made level where that is stated.
@@ -32,6 +35,7 @@ struct Attitudes {
   uint32_t drive = 0;
   std::vector<Eigen::Matrix3d> level_from_world{};
   double sigma_rad = kMountSigma_rad;  // of d_k about y
+  bool is_stated = false;
 };
 
 bool StatesTilt(const PosePrior& prior) { return prior.pitch_deg && prior.roll_deg; }
@@ -49,7 +53,7 @@ Attitudes AttitudesOf(const Reconstruction& reconstruction,
   const auto num_stating = static_cast<double>(
       std::ranges::count_if(images, [&](ImageId id) { return StatesTilt(manifest.At(id).prior); }));
   const bool is_stated = num_stating >= kMinStatedShare * static_cast<double>(images.size());
-  Attitudes attitudes{.drive = drive};
+  Attitudes attitudes{.drive = drive, .is_stated = is_stated};
   double sigma_deg = 0.0;
   for (const ImageId id : images) {
     const Eigen::Matrix3d R =
@@ -110,6 +114,11 @@ Eigen::Matrix2d InformationOf(const std::vector<DriveTerm>& terms, const Eigen::
   return basis.transpose() * hessian * basis + radial * Eigen::Matrix2d::Identity();
 }
 
+double SigmaOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(InformationOf(terms, down));
+  return 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1.0));
+}
+
 // Levenberg-Marquardt on the sphere; two unknowns.
 Eigen::Vector3d Minimise(const std::vector<DriveTerm>& terms, Eigen::Vector3d down) {
   double damping = 1e-6;
@@ -154,10 +163,10 @@ class Estimate {
       Reweigh();
       down_ = Minimise(terms_, down_);
       for (size_t k = 0; k < terms_.size(); ++k) in_mount_[k] = terms_[k].DownInMount(down_);
+      Forgive();
     }
     Gravity gravity{.down_in_world = down_};
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(InformationOf(terms_, down_));
-    gravity.sigma_rad = 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1.0));
+    gravity.sigma_rad = Sigma_rad();
     for (size_t k = 0; k < drives_.size(); ++k)
       gravity.down_in_mount[drives_[k].drive] = in_mount_[k].normalized();
     return gravity;
@@ -168,6 +177,17 @@ class Estimate {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Matrix3d& R : drive.level_from_world) sum += R * down_;
     return sum / static_cast<double>(drive.level_from_world.size());
+  }
+
+  // Ground that slopes as a whole looks level to everything that drives on it, not to what states
+  // pitch and roll.
+  [[nodiscard]] double Sigma_rad() const {
+    std::vector<DriveTerm> stated;
+    for (size_t k = 0; k < terms_.size(); ++k) {
+      if (drives_[k].is_stated) stated.push_back(terms_[k]);
+    }
+    const double sigma_rad = std::max(SigmaOf(terms_, down_), kGroundSigma_rad);
+    return stated.empty() ? sigma_rad : std::min(sigma_rad, SigmaOf(stated, down_));
   }
 
   // Cauchy's weights at the scatter of all, no drive heavier than its slopes allow.
@@ -191,6 +211,15 @@ class Estimate {
       const double scale = std::min(1.0, 1.0 / (kRoadSigma_rad * kRoadSigma_rad * term.W));
       term.S *= scale;
       term.W *= scale;
+    }
+  }
+
+  // Cauchy's weights of the mounts: one that leans more than most pulls less than those that do
+  // not, and attitudes that turn outweigh it.
+  void Forgive() {
+    for (size_t k = 0; k < drives_.size(); ++k) {
+      const double lean = (in_mount_[k] - Eigen::Vector3d::UnitY()).norm();
+      terms_[k].u = 1.0 / (drives_[k].sigma_rad * drives_[k].sigma_rad + lean * lean);
     }
   }
 

@@ -19,13 +19,13 @@
 #include "core/merging/gnss_smoothness.h"
 #include "core/merging/gnss_track.h"
 #include "core/merging/quantile.h"
+#include "core/merging/refine_georeference.h"
 
 namespace orbweave {
 namespace {
 
 constexpr size_t kMinPositions = 4;
 constexpr int kTrials = 500;
-constexpr int kReweightings = 20;
 constexpr double kMaxScaleUncertainty = 0.1;
 constexpr double kMinAgreeingShare = 0.7;
 constexpr size_t kMinDrive = 8;
@@ -128,55 +128,11 @@ absl::StatusOr<std::optional<Sim3>> EstimateUpright(const Positions& upright,
   return best;
 }
 
-// Two further pairs, up and down from the middle by the extent, that tilt costs as much as gravity
-// says once.
-void AddGravity(const Gravity& gravity,
-                const Sim3& enu_from_world,
-                Positions& positions,
-                std::vector<double>& weights) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : positions.in_world) middle += point;
-  middle /= static_cast<double>(positions.size());
-  const Eigen::Vector3d middle_in_enu = enu_from_world * middle;
-  const double away_rad =
-      AngleBetween(enu_from_world.rotation * gravity.down_in_world, -Eigen::Vector3d::UnitZ());
-  const double extent = SpreadOf(positions.in_world).rms;
-  const double extent_m = enu_from_world.scale * extent;
-  for (const double side : {-1.0, 1.0}) {
-    positions.in_world.push_back(middle + side * extent * gravity.down_in_world);
-    positions.in_enu.push_back(middle_in_enu - side * extent_m * Eigen::Vector3d::UnitZ());
-    weights.push_back(0.5 / std::pow(extent_m * gravity.SigmaAt(away_rad), 2));
-  }
-}
-
-// Median squared length of three normal variables.
-constexpr double kMedianChi2 = 2.366;
-
-// Seven parameters with Cauchy weights, at the scatter found where that is above the sigmas, so
-// that a start whose ends are far off comes in; the start when the fit is degenerate.
 Sim3 Refine(const Positions& positions,
             const std::optional<Gravity>& gravity,
-            Sim3 enu_from_world) {
-  for (int iteration = 0; iteration < kReweightings; ++iteration) {
-    std::vector<double> squares;
-    for (size_t i = 0; i < positions.size(); ++i) {
-      const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
-      squares.push_back(residual.squaredNorm());
-    }
-    const double squared_scatter = Quantile(squares, 0.5) / kMedianChi2;
-    std::vector<double> weights;
-    for (size_t i = 0; i < positions.size(); ++i) {
-      const double squared_sigma = positions.sigma_m[i] * positions.sigma_m[i];
-      weights.push_back(1.0 / (std::max(squared_sigma, squared_scatter) + squares[i]));
-    }
-    Positions with_gravity = positions;
-    if (gravity) AddGravity(*gravity, enu_from_world, with_gravity, weights);
-    const std::optional<Sim3> fit =
-        FitSimilarity(with_gravity.in_world, with_gravity.in_enu, weights);
-    if (!fit) break;
-    enu_from_world = *fit;
-  }
-  return enu_from_world;
+            const Sim3& enu_from_world) {
+  return RefineGeoreference(
+      {positions.in_world, positions.in_enu, positions.sigma_m}, gravity, enu_from_world);
 }
 
 absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
@@ -335,7 +291,12 @@ absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& re
   }
   ORBWEAVE_RETURN_IF_ERROR(FitWithErrors(drives, gravity, context, positions, result));
   Judge(positions, result);
-  if (!result.enu_from_world) BlameTheRight(drives, result);
+  if (!result.enu_from_world) {
+    // What was found beside a similarity that does not hold says nothing.
+    result.drive_errors.clear();
+    result.checks.clear();
+    BlameTheRight(drives, result);
+  }
   return result;
 }
 

@@ -80,6 +80,45 @@ TEST(FindDriveErrors, SaysThatAStraightStreetHidesAShift) {
   EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
 }
 
+// Along a circle a shift is a turn about its middle, and an antenna beside the camera a change of
+// scale, which are the frame's own.
+TEST(FindDriveErrors, SaysThatACircleHidesAShift) {
+  DrivenStreet street =
+      Drive({.panoramas = 100, .turn_rad = 2.0, .turn_share = 1.0, .sigma_m = 1.0}, 5);
+  Shift(-8.0, 3.0, street);
+  const FoundDriveErrors found = Find(street);
+  EXPECT_TRUE(found.drives.empty());
+  ASSERT_EQ(found.checks.size(), 1U);
+  EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
+}
+
+// A drive whose speed is between 2 and 14 m/s, a panorama every half second.
+DrivenStreet AtVaryingSpeed(double delay_s, double sigma_m, uint64_t seed) {
+  DrivenStreet street = Drive({.panoramas = 150, .sigma_m = sigma_m}, seed);
+  constexpr double kEvery_s = 0.5;
+  double way_m = 0.0;
+  for (ImageRecord& image : street.manifest.images) {
+    const double speed = 8.0 + 6.0 * std::sin(0.15 * image.id.value);
+    way_m += kEvery_s * speed;
+    const Eigen::Vector3d forward(std::cos(0.3), std::sin(0.3), 0.0);
+    Rigid3& pose = street.model.images.at(image.id).cam_from_world;
+    const Eigen::Vector3d noise = *image.prior.position_in_enu - pose.Centre();
+    pose = Rigid3::FromCentre(pose.rotation, way_m * forward);
+    image.prior.position_in_enu = (way_m - delay_s * speed) * forward + noise;
+    image.capture_time_s = kEvery_s * image.id.value;
+  }
+  return street;
+}
+
+TEST(FindDriveErrors, FindsAClockByTheSpeedOnAStraightStreet) {
+  for (const uint64_t seed : {1U, 2U, 3U}) {
+    const FoundDriveErrors found = Find(AtVaryingSpeed(0.4, 1.0, seed));
+    ASSERT_EQ(found.drives.size(), 1U) << seed;
+    EXPECT_NEAR(found.drives[0].ahead, -0.4, 0.1);
+    EXPECT_TRUE(Find(AtVaryingSpeed(0.0, 1.0, seed)).drives.empty()) << seed;
+  }
+}
+
 TEST(FindDriveErrors, TakesOffWhatItFound) {
   DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 1.0}, 1);
   Shift(-8.0, 0.0, street);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct DrivenStreet {
 struct DriveOptions {
   int panoramas = 60;
   double step_m = 3.0;
-  double turn_rad = 0.0;  ///< of the heading, over the whole drive
-  double sigma_m = 0.0;   ///< of GNSS, per axis
+  double turn_rad = 0.0;    ///< of the heading
+  double turn_share = 0.3;  ///< of the drive, in the middle, over which it turns; 1: an arc
+  double sigma_m = 0.0;     ///< of GNSS, per axis
   Eigen::Quaterniond mount = Eigen::Quaterniond::Identity();  ///< from an upright camera
   double sway_rad = 0.0;
 };
@@ -33,7 +35,8 @@ inline void AddDrive(const DriveOptions& options, Random& random, DrivenStreet& 
       street.manifest.images.empty() ? 0 : street.manifest.images.back().drive + 1;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (int i = 0; i < options.panoramas; ++i) {
-    const double heading = 0.3 + options.turn_rad * i / options.panoramas;
+    const double way = (static_cast<double>(i) / options.panoramas - 0.5) / options.turn_share;
+    const double heading = 0.3 + options.turn_rad * std::clamp(way + 0.5, 0.0, 1.0);
     const Eigen::Vector3d forward(std::cos(heading), std::sin(heading), 0.0);
     Eigen::Matrix3d upright;  // cam_from_world
     upright.row(0) = Eigen::Vector3d(forward.y(), -forward.x(), 0.0);

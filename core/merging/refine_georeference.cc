@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/refine_georeference.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/rotation.h"
+#include "core/merging/quantile.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kSteps = 30;
+constexpr double kConverged = 1e-12;  // of shift over extent, angles and log scale
+// Median squared length of three normal variables.
+constexpr double kMedianChi2 = 2.366;
+// Of what is known best: holds what nothing tells.
+constexpr double kDamping = 1e-12;
+
+// Unknowns: shift over extent, turn about the axes, log scale, about the middle.
+using Step = Eigen::Matrix<double, 7, 1>;
+using Rows = Eigen::Matrix<double, 3, 7>;
+
+struct NormalEquations {
+  Eigen::Matrix<double, 7, 7> A = Eigen::Matrix<double, 7, 7>::Zero();
+  Step b = Step::Zero();
+
+  void Add(const Rows& J, const Eigen::Vector3d& residual, double weight) {
+    A.noalias() += weight * J.transpose() * J;
+    b.noalias() -= weight * J.transpose() * residual;
+  }
+};
+
+// Where the model stands now.
+struct Placed {
+  std::vector<Eigen::Vector3d> in_enu{};
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double extent_m = 0.0;  // rms distance from the middle
+};
+
+Placed Place(const PositionPairs& pairs, const Sim3& enu_from_world) {
+  Placed placed;
+  const auto n = static_cast<double>(pairs.in_world.size());
+  for (const Eigen::Vector3d& point : pairs.in_world) {
+    placed.in_enu.push_back(enu_from_world * point);
+    placed.middle += placed.in_enu.back() / n;
+  }
+  for (const Eigen::Vector3d& point : placed.in_enu)
+    placed.extent_m += (point - placed.middle).squaredNorm() / n;
+  placed.extent_m = std::sqrt(placed.extent_m);
+  return placed;
+}
+
+void AddPositions(const PositionPairs& pairs, const Placed& placed, NormalEquations& equations) {
+  std::vector<double> squares;
+  for (size_t i = 0; i < pairs.in_enu.size(); ++i)
+    squares.push_back((placed.in_enu[i] - pairs.in_enu[i]).squaredNorm());
+  const double squared_scatter = Quantile(squares, 0.5) / kMedianChi2;
+  for (size_t i = 0; i < squares.size(); ++i) {
+    const double squared_sigma = pairs.sigma_m[i] * pairs.sigma_m[i];
+    const Eigen::Vector3d from_middle = placed.in_enu[i] - placed.middle;
+    Rows J;
+    J << placed.extent_m * Eigen::Matrix3d::Identity(), -SkewSymmetric(from_middle), from_middle;
+    equations.Add(J,
+                  placed.in_enu[i] - pairs.in_enu[i],
+                  1.0 / (std::max(squared_sigma, squared_scatter) + squares[i]));
+  }
+}
+
+void AddGravity(const Gravity& gravity, const Sim3& enu_from_world, NormalEquations& equations) {
+  const Eigen::Vector3d down = enu_from_world.rotation * gravity.down_in_world;
+  const double sigma_rad = gravity.SigmaAt(AngleBetween(down, -Eigen::Vector3d::UnitZ()));
+  Rows J = Rows::Zero();
+  J.middleCols<3>(3) = -SkewSymmetric(down);
+  equations.Add(J, down + Eigen::Vector3d::UnitZ(), 1.0 / (sigma_rad * sigma_rad));
+}
+
+Sim3 Moved(const Sim3& enu_from_world, const Placed& placed, const Step& step) {
+  Sim3 move{std::exp(step[6]),
+            RotationFromVector(Eigen::Vector3d(step.segment<3>(3))),
+            Eigen::Vector3d::Zero()};
+  move.translation = placed.middle + placed.extent_m * step.head<3>() - move * placed.middle;
+  return move * enu_from_world;
+}
+
+}  // namespace
+
+Sim3 RefineGeoreference(const PositionPairs& pairs,
+                        const std::optional<Gravity>& gravity,
+                        const Sim3& start) {
+  Sim3 enu_from_world = start;
+  for (int iteration = 0; iteration < kSteps; ++iteration) {
+    const Placed placed = Place(pairs, enu_from_world);
+    if (!(placed.extent_m > 0.0)) break;
+    NormalEquations equations;
+    AddPositions(pairs, placed, equations);
+    if (gravity) AddGravity(*gravity, enu_from_world, equations);
+    equations.A.diagonal().array() += kDamping * equations.A.diagonal().maxCoeff();
+    const Step step = equations.A.ldlt().solve(equations.b);
+    const Sim3 moved = Moved(enu_from_world, placed, step);
+    if (!step.allFinite() || !(moved.scale > 0.0) || !moved.translation.allFinite()) break;
+    enu_from_world = moved;
+    if (step.norm() < kConverged) break;
+  }
+  return enu_from_world;
+}
+
+}  // namespace orbweave
