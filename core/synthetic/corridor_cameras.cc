@@ -100,11 +100,19 @@ class GnssNoise {
   const CorridorStation* last_ = nullptr;
 };
 
+/// The carrier slows down and hurries on, as from one light to the next.
+double SpeedAt(const CorridorOptions& options, size_t i) {
+  constexpr double kWave_m = 120.0;
+  const double phase =
+      2.0 * std::numbers::pi * static_cast<double>(i) * options.spacing_m / kWave_m;
+  return options.speed_m_per_s * (1.0 + options.speed_spread * std::sin(phase));
+}
+
 /// Where the antenna was when the receiver measured what it says of station i; a drive came
 /// straight from where it begins and goes straight on from where it ends.
 Eigen::Vector2d AntennaPlace(const CorridorOptions& options, const CorridorPath& path, size_t i) {
   const std::vector<CorridorStation>& stations = path.stations;
-  const double behind = options.gnss_delay_s * options.speed_m_per_s / options.spacing_m;
+  const double behind = options.gnss_delay_s * SpeedAt(options, i) / options.spacing_m;
   const double whole = std::floor(behind);
   const auto place = [&](double steps) {
     size_t at = i;
@@ -148,6 +156,8 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
   const Eigen::Quaterniond mount = Mount(options);
   GnssNoise noise(options.gnss_correlation_m);
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the carrier that moved last
+  const bool is_timed = options.gnss_delay_s != 0.0 || options.speed_spread != 0.0;
+  double time_s = 0.0;
   for (size_t i = 0; i < path.stations.size(); ++i) {
     const CorridorStation& station = path.stations[i];
     const Eigen::Vector3d centre(
@@ -170,10 +180,9 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
       image.prior = MakePrior(
           measured + offsets.At(i, station.drive), noise.Next(station, random), options, random);
     }
-    const double second_s =
-        options.gnss_delay_s == 0.0 ? 1.0 : options.spacing_m / options.speed_m_per_s;
-    if (options.drives == 2 || options.gnss_delay_s != 0.0)
-      image.capture_time_s = kDayS * station.drive + second_s * static_cast<double>(i);
+    if (options.drives == 2 || is_timed) image.capture_time_s = kDayS * station.drive + time_s;
+    const double speed = 0.5 * (SpeedAt(options, i) + SpeedAt(options, i + 1));
+    time_s += is_timed ? options.spacing_m / speed : 1.0;
     corridor.manifest.images.push_back(std::move(image));
     corridor.features.push_back({.camera = camera});
   }

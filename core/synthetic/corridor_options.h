@@ -35,6 +35,7 @@ struct CorridorOptions {
   double gnss_correlation_m = 0.0;
   double gnss_delay_s = 0.0;
   double speed_m_per_s = 10.0;
+  double speed_spread = 0.0;
   double gnss_left_m = 0.0;
   double gnss_datum_m = 0.0;
   double mount_roll_deg = 0.0;
@@ -102,6 +103,10 @@ struct CorridorOptions {
           "GNSS positions are where the carrier was so long before; images then have times",
           Range{-100, 100});
     visit("speed_m_per_s", self.speed_m_per_s, "speed of the carrier", Range{0.1, 100});
+    visit("speed_spread",
+          self.speed_spread,
+          "by what share the speed rises and falls along the way; images then have times",
+          Range{0, 0.9});
     visit("gnss_left_m",
           self.gnss_left_m,
           "how far the antenna is to the left of the camera",

@@ -152,6 +152,25 @@ TEST(RealGnss, AClockThatIsLateIsTakenOff) {
   EXPECT_LT(sum / count, 3.0);
 }
 
+TEST(RealGnss, AClockThatIsLateIsToldByTheSpeed) {
+  for (const int seed : {1, 2, 3}) {
+    for (const double delay_s : {0.4, 0.0}) {
+      const Outcome outcome = OutcomeOf({.panoramas = 120,
+                                         .shape = CorridorShape::kStraight,
+                                         .gnss_sigma_m = 1.0,
+                                         .gnss_delay_s = delay_s,
+                                         .speed_spread = 0.6,
+                                         .seed = seed});
+      const CrossCheck* check = outcome.Find("gnss_clock");
+      EXPECT_EQ(check != nullptr, delay_s > 0.0);
+      if (check != nullptr) {
+        EXPECT_NEAR(check->value, delay_s, 0.1);
+      }
+      EXPECT_LT(outcome.rms_m, 1.0);
+    }
+  }
+}
+
 TEST(RealGnss, AnAntennaBesideTheCameraIsTakenOff) {
   for (const int seed : {1, 2}) {
     const Outcome outcome = OutcomeOf(
