@@ -133,7 +133,7 @@ ConcludedWorld ConcludeAdjustment(AdjustedWorld adjusted,
   Reconstruction poses = PosesOf(summaries);
   GlobalProblem problem = MakeGlobalProblem(poses);
   if (georeference.enu_from_world)
-    AddGnss(poses, manifest, georeference, options.gnss_bias_sigma_m, problem);
+    AddGnss(poses, manifest, georeference, options.gnss_bias_sigma_m, 1.0, problem);
   const std::vector<Eigen::Vector3d> biases_m =
       BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
   const SeamCertifier certifier = CertifierOf(adjusted, seams);

@@ -231,7 +231,7 @@ std::vector<WorldBlock> DivideWorld(Reconstruction scene,
   scene.tracks.clear();
   if (uses_gnss) {
     GlobalProblem problem = MakeGlobalProblem(scene);
-    AddGnss(scene, manifest, georeference, bias_sigma_m, problem);
+    AddGnss(scene, manifest, georeference, bias_sigma_m, georeference.gnss_inflation, problem);
     DealPriors(problem, owners, blocks);
   }
   DealImages(scene, owners, gauge, manifest, blocks);

@@ -119,6 +119,13 @@ double SigmaOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down)
   return 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1.0));
 }
 
+// What would be known less if mounts leaned anyhow, as a share; of the direction known worst.
+double MountShare(std::vector<DriveTerm> terms, const Eigen::Vector3d& down) {
+  const double sigma_rad = SigmaOf(terms, down);
+  for (DriveTerm& term : terms) term.u = 0.0;
+  return 1.0 - std::clamp(std::pow(sigma_rad / SigmaOf(terms, down), 2), 0.0, 1.0);
+}
+
 // Levenberg-Marquardt on the sphere; two unknowns.
 Eigen::Vector3d Minimise(const std::vector<DriveTerm>& terms, Eigen::Vector3d down) {
   double damping = 1e-6;
@@ -167,6 +174,7 @@ class Estimate {
     }
     Gravity gravity{.down_in_world = down_};
     gravity.sigma_rad = Sigma_rad();
+    gravity.mount_share = MountShare(terms_, down_);
     for (size_t k = 0; k < drives_.size(); ++k)
       gravity.down_in_mount[drives_[k].drive] = in_mount_[k].normalized();
     return gravity;

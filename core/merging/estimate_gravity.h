@@ -19,16 +19,20 @@ inline constexpr double kMountSigma_rad = 0.1;
 /// Where down is, as the attitudes of the panoramas alone say.
 struct Gravity {
   Eigen::Vector3d down_in_world = -Eigen::Vector3d::UnitZ();
-  /// In any direction: kMountSigma_rad where all panoramas look the same way, little where drives
+  /// In any direction: kMountSigma_rad where all panoramas look the same way, less where drives
   /// turn.
   double sigma_rad = kMountSigma_rad;
+  /// What share of the information that mounts stand upright is; 1 where nothing turns.
+  double mount_share = 1.0;
   /// Per drive the mean of down in the cameras, unit: what its mount makes of it, after what is
   /// stated of each panorama is taken off.
   std::map<uint32_t, Eigen::Vector3d> down_in_mount{};
 
   /// Where GNSS finds down `away_rad` from here, mounts lean more than most: as with Cauchy's loss
-  /// attitudes then count for less.
-  [[nodiscard]] double SigmaAt(double away_rad) const { return std::hypot(sigma_rad, away_rad); }
+  /// they then count for less. What turns tell counts as before.
+  [[nodiscard]] double SigmaAt(double away_rad) const {
+    return std::hypot(sigma_rad, mount_share * away_rad);
+  }
 };
 
 /// Down in a camera whose pitch (up) and roll (clockwise) are stated.

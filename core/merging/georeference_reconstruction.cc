@@ -18,6 +18,7 @@
 #include "core/merging/find_gravity.h"
 #include "core/merging/gnss_smoothness.h"
 #include "core/merging/gnss_track.h"
+#include "core/merging/height_inflation.h"
 #include "core/merging/quantile.h"
 #include "core/merging/refine_georeference.h"
 
@@ -130,9 +131,12 @@ absl::StatusOr<std::optional<Sim3>> EstimateUpright(const Positions& upright,
 
 Sim3 Refine(const Positions& positions,
             const std::optional<Gravity>& gravity,
+            double inflation,
             const Sim3& enu_from_world) {
-  return RefineGeoreference(
-      {positions.in_world, positions.in_enu, positions.sigma_m}, gravity, enu_from_world);
+  return RefineGeoreference({positions.in_world, positions.in_enu, positions.sigma_m},
+                            gravity,
+                            inflation,
+                            enu_from_world);
 }
 
 absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
@@ -144,7 +148,7 @@ absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
         const std::optional<RobustSimilarity> robust,
         EstimateSimilarity(positions.in_world, positions.in_enu, max_error_m, context));
     if (!robust) return std::optional<Sim3>();
-    return std::optional<Sim3>(Refine(positions, gravity, robust->b_from_a));
+    return std::optional<Sim3>(Refine(positions, gravity, 1.0, robust->b_from_a));
   }
   const Sim3 upright_from_world{
       1.0, UprightFromDown(gravity->down_in_world), Eigen::Vector3d::Zero()};
@@ -152,7 +156,7 @@ absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
   for (Eigen::Vector3d& point : upright.in_world) point = upright_from_world * point;
   ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start, EstimateUpright(upright, context));
   if (!start) return std::optional<Sim3>();
-  return std::optional<Sim3>(Refine(positions, gravity, *start * upright_from_world));
+  return std::optional<Sim3>(Refine(positions, gravity, 1.0, *start * upright_from_world));
 }
 
 // Model minus GNSS, without the bias (median) of each drive that is long enough to have one.
@@ -225,7 +229,8 @@ void Judge(const Positions& positions, Georeference& result) {
                                       ": too much to carry its scale";
 }
 
-// What drives have wrong in common is found beside a similarity, which is fitted again without it.
+// What drives have wrong in common, and how errors of neighbours hang together, are found beside a
+// similarity, which is fitted again with them.
 absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
                            const std::optional<Gravity>& gravity,
                            const StageContext& context,
@@ -234,12 +239,13 @@ absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
   for (int round = 0; round < kErrorRounds; ++round) {
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     FoundDriveErrors found = FindDriveErrors(drives, *result.enu_from_world);
-    const bool had_errors = !result.drive_errors.empty();
     result.drive_errors = std::move(found.drives);
     result.checks = std::move(found.checks);
-    if (result.drive_errors.empty() && !had_errors) break;
     TakeOff(result.drive_errors, drives, *result.enu_from_world, positions);
-    result.enu_from_world = Refine(positions, gravity, *result.enu_from_world);
+    result.gnss_inflation =
+        HeightInflation(drives, positions.in_enu, gravity, *result.enu_from_world);
+    result.enu_from_world =
+        Refine(positions, gravity, result.gnss_inflation, *result.enu_from_world);
   }
   return absl::OkStatus();
 }

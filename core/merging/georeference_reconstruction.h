@@ -27,6 +27,8 @@ struct Georeference {
   double vertical_scatter_m = 0.0;
   /// Standard deviation of the scale over the scale, from scatter and extent.
   double scale_uncertainty = 0.0;
+  /// So many heights are worth one independent one (EstimateHeightNoise).
+  double gnss_inflation = 1.0;
   /// Where the world was bent to GNSS (BendWorld): the farthest that an image went from where one
   /// similarity for all would put it.
   double bend_m = 0.0;
@@ -38,8 +40,10 @@ struct Georeference {
 /// leave the roll about the street open, so gravity takes part (EstimateGravity, with its sigma):
 /// first yaw, scale and translation of the upright model from random pairs of images (least squared
 /// horizontal residuals, truncated), then all seven parameters by reweighted least squares with
-/// gravity as one more observation; then again without what drives have wrong in common
-/// (FindDriveErrors). Without gravity the similarity comes from EstimateSimilarity.
+/// gravity as one more observation (RefineGeoreference); then again without what drives have wrong
+/// in common (FindDriveErrors), gravity weighing as much more as errors of heights that neighbours
+/// share make GNSS weigh less: over a narrow street they would lay the model on its side. Without
+/// gravity the similarity comes from EstimateSimilarity.
 ///
 /// GNSS carries the scale when its scatter leaves the scale uncertain by 10 % at most and is
 /// smaller than the extent of the centres (rms distance from their mean), and 70 % of the positions

@@ -84,12 +84,14 @@ void AddPositions(const Reconstruction& reconstruction,
 // seen by its own attitude.
 void AddGravity(const Reconstruction& reconstruction,
                 const ImageManifest& manifest,
+                double weight,
                 GlobalProblem& problem) {
   const std::optional<Gravity> gravity = EstimateGravity(reconstruction, manifest);
   if (!gravity) return;
   const auto num_poses = static_cast<uint32_t>(problem.image_of_pose.size());
   const double away_rad = AngleBetween(gravity->down_in_world, -Eigen::Vector3d::UnitZ());
-  const double sigma_rad = gravity->SigmaAt(away_rad) * std::sqrt(static_cast<double>(num_poses));
+  const double sigma_rad =
+      gravity->SigmaAt(away_rad) * std::sqrt(static_cast<double>(num_poses) / weight);
   for (uint32_t pose = 0; pose < num_poses; ++pose) {
     const Eigen::Quaterniond& cam_from_world = problem.bundle.cams_from_world[pose].rotation;
     problem.bundle.direction_priors.push_back(
@@ -126,9 +128,10 @@ void AddGnss(const Reconstruction& reconstruction,
              const ImageManifest& manifest,
              const Georeference& georeference,
              double bias_sigma_m,
+             double gravity_weight,
              GlobalProblem& problem) {
   AddPositions(reconstruction, manifest, georeference, bias_sigma_m, problem);
-  AddGravity(reconstruction, manifest, problem);
+  AddGravity(reconstruction, manifest, gravity_weight, problem);
 }
 
 }  // namespace orbweave

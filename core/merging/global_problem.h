@@ -31,11 +31,14 @@ struct GlobalProblem {
 /// are two drives or more (the bias of one drive cannot be told from the frame), about free for one
 /// in another datum. Gravity (EstimateGravity) as direction priors that together weigh as one
 /// measurement of its sigma, since all panoramas share the mount: they keep a straight street,
-/// whose GNSS says nothing of it, from rolling, and own that they may be wrong.
+/// whose GNSS says nothing of it, from rolling, and own that they may be wrong. `gravity_weight`:
+/// by how much gravity counts more than its sigma says, as positions count as independent
+/// (Georeference::gnss_inflation).
 void AddGnss(const Reconstruction& reconstruction,
              const ImageManifest& manifest,
              const Georeference& georeference,
              double bias_sigma_m,
+             double gravity_weight,
              GlobalProblem& problem);
 
 }  // namespace orbweave

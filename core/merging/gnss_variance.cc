@@ -17,17 +17,8 @@ namespace {
 
 constexpr double kOutlierSigmas = 3.37;  // 99 % of three normal variables
 
-// A position that takes part.
-struct Measured {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();        // from the middle, over the extent
-  Eigen::Vector3d residual = Eigen::Vector3d::Zero();  // over sigma
-  Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
-  double way_m = 0.0;
-};
-using Run = std::vector<Measured>;
-
 struct Runs {
-  std::vector<Run> runs{};  // per drive, in sequence
+  std::vector<MeasuredRun> runs{};  // per drive, in sequence
   double extent_m = 1.0;
 };
 
@@ -45,7 +36,7 @@ Runs CollectRuns(const GlobalProblem& problem,
   Runs result;
   double squares = 0.0;
   for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    Run run;
+    MeasuredRun run;
     double way_m = 0.0;
     const PositionPrior* before = nullptr;
     for (const ImageId id : sequence) {
@@ -65,18 +56,18 @@ Runs CollectRuns(const GlobalProblem& problem,
     if (!run.empty()) result.runs.push_back(std::move(run));
   }
   result.extent_m = std::max(std::sqrt(squares / static_cast<double>(priors.size())), 1e-9);
-  for (Run& run : result.runs) {
-    for (Measured& measured : run) measured.at /= result.extent_m;
+  for (MeasuredRun& run : result.runs) {
+    for (MeasuredFix& measured : run) measured.at /= result.extent_m;
   }
   return result;
 }
 
-NoiseRun AxisOf(const Run& run, int axis) {
+NoiseRun AxisOf(const MeasuredRun& run, int axis) {
   const auto m = static_cast<Eigen::Index>(run.size());
   NoiseRun noise{.design = Eigen::MatrixXd::Zero(m, axis == 2 ? 3 : 4),
                  .residuals = Eigen::VectorXd(m)};
   for (Eigen::Index i = 0; i < m; ++i) {
-    const Measured& measured = run[static_cast<size_t>(i)];
+    const MeasuredFix& measured = run[static_cast<size_t>(i)];
     const Eigen::Vector3d& at = measured.at;
     noise.places.push_back(measured.way_m);
     noise.residuals[i] = measured.residual[axis];
@@ -98,6 +89,13 @@ double GravityInformation(const GlobalProblem& problem, double extent_m) {
 
 }  // namespace
 
+CorrelatedNoise EstimateHeightNoise(const std::vector<MeasuredRun>& runs, double tilt_information) {
+  std::vector<NoiseRun> vertical;
+  for (const MeasuredRun& run : runs) vertical.push_back(AxisOf(run, 2));
+  return EstimateCorrelatedNoise(vertical,
+                                 Eigen::Vector3d(0.0, tilt_information, tilt_information));
+}
+
 GnssVariance EstimateGnssVariance(const GlobalProblem& problem,
                                   const std::vector<Eigen::Vector3d>& biases_m,
                                   const ImageManifest& manifest) {
@@ -110,15 +108,13 @@ GnssVariance EstimateGnssVariance(const GlobalProblem& problem,
   if (runs.runs.empty()) return variance;
 
   std::vector<NoiseRun> horizontal;
-  std::vector<NoiseRun> vertical;
-  for (const Run& run : runs.runs) {
+  for (const MeasuredRun& run : runs.runs) {
     horizontal.push_back(AxisOf(run, 0));
     horizontal.push_back(AxisOf(run, 1));
-    vertical.push_back(AxisOf(run, 2));
   }
   variance.horizontal = EstimateCorrelatedNoise(horizontal, Eigen::VectorXd::Zero(4));
   const double tilt = variance.factors.z() * GravityInformation(problem, runs.extent_m);
-  variance.vertical = EstimateCorrelatedNoise(vertical, Eigen::Vector3d(0.0, tilt, tilt));
+  variance.vertical = EstimateHeightNoise(runs.runs, tilt);
   variance.factors.head<2>() *= variance.horizontal.inflation;
   variance.factors.z() *= variance.vertical.inflation;
   return variance;

@@ -11,6 +11,21 @@
 
 namespace orbweave {
 
+/// A position that takes part, and those of a drive in sequence.
+struct MeasuredFix {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();        ///< from the middle, over the extent
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();  ///< over sigma
+  Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
+  double way_m = 0.0;
+};
+using MeasuredRun = std::vector<MeasuredFix>;
+
+/// How errors of heights hang together (EstimateCorrelatedNoise), with shift and tilt as unknowns.
+/// `tilt_information`: what is known of the tilt besides, 1 / rad^2 over the squared extent in
+/// metres, times the variance of the residuals.
+[[nodiscard]] CorrelatedNoise EstimateHeightNoise(const std::vector<MeasuredRun>& runs,
+                                                  double tilt_information);
+
 /// How far GNSS is to be believed about a whole adjusted model.
 struct GnssVariance {
   /// Per world axis, x and y equal: by what claimed variances are to be multiplied

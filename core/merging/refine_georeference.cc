@@ -72,12 +72,15 @@ void AddPositions(const PositionPairs& pairs, const Placed& placed, NormalEquati
   }
 }
 
-void AddGravity(const Gravity& gravity, const Sim3& enu_from_world, NormalEquations& equations) {
+void AddGravity(const Gravity& gravity,
+                double inflation,
+                const Sim3& enu_from_world,
+                NormalEquations& equations) {
   const Eigen::Vector3d down = enu_from_world.rotation * gravity.down_in_world;
   const double sigma_rad = gravity.SigmaAt(AngleBetween(down, -Eigen::Vector3d::UnitZ()));
   Rows J = Rows::Zero();
   J.middleCols<3>(3) = -SkewSymmetric(down);
-  equations.Add(J, down + Eigen::Vector3d::UnitZ(), 1.0 / (sigma_rad * sigma_rad));
+  equations.Add(J, down + Eigen::Vector3d::UnitZ(), inflation / (sigma_rad * sigma_rad));
 }
 
 Sim3 Moved(const Sim3& enu_from_world, const Placed& placed, const Step& step) {
@@ -92,6 +95,7 @@ Sim3 Moved(const Sim3& enu_from_world, const Placed& placed, const Step& step) {
 
 Sim3 RefineGeoreference(const PositionPairs& pairs,
                         const std::optional<Gravity>& gravity,
+                        double inflation,
                         const Sim3& start) {
   Sim3 enu_from_world = start;
   for (int iteration = 0; iteration < kSteps; ++iteration) {
@@ -99,7 +103,7 @@ Sim3 RefineGeoreference(const PositionPairs& pairs,
     if (!(placed.extent_m > 0.0)) break;
     NormalEquations equations;
     AddPositions(pairs, placed, equations);
-    if (gravity) AddGravity(*gravity, enu_from_world, equations);
+    if (gravity) AddGravity(*gravity, inflation, enu_from_world, equations);
     equations.A.diagonal().array() += kDamping * equations.A.diagonal().maxCoeff();
     const Step step = equations.A.ldlt().solve(equations.b);
     const Sim3 moved = Moved(enu_from_world, placed, step);

@@ -286,6 +286,7 @@ std::string EncodeJoinedWorlds(const std::vector<JoinedWorld>& worlds) {
     georeference->set_vertical_scatter_m(world.georeference.vertical_scatter_m);
     georeference->set_scale_uncertainty(world.georeference.scale_uncertainty);
     georeference->set_bend_m(world.georeference.bend_m);
+    georeference->set_gnss_inflation(world.georeference.gnss_inflation);
     ErrorsToProto(world.georeference, georeference);
     out->set_united_tracks(world.merge.united_tracks);
     out->set_conflicting_tracks(world.merge.conflicting_tracks);
@@ -311,6 +312,7 @@ absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view byt
     out.georeference.vertical_scatter_m = georeference.vertical_scatter_m();
     out.georeference.scale_uncertainty = georeference.scale_uncertainty();
     out.georeference.bend_m = georeference.bend_m();
+    out.georeference.gnss_inflation = georeference.gnss_inflation();
     ORBWEAVE_RETURN_IF_ERROR(ErrorsFromProto(georeference, out.georeference));
     out.merge = {world.united_tracks(), world.conflicting_tracks()};
     out.num_images = world.num_images();
