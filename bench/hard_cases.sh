@@ -72,6 +72,7 @@ row "mount leans 12 degrees sideways, U-turn" "${n[@]}" --shape uturn --mount-ro
 row "mount leans 10 degrees backwards, straight street" "${n[@]}" --shape straight --mount-pitch-deg 10
 row "GNSS errors of 5 m, alike over 150 m" --panoramas $((4 * panoramas)) --gnss-sigma-m 5 --gnss-correlation-m 150
 row "GNSS clock 0.8 s late" --panoramas $((2 * panoramas)) --gnss-delay-s 0.8
+row "GNSS clock 0.4 s late at 4 to 16 m/s, straight street" --panoramas $((2 * panoramas)) --shape straight --gnss-delay-s 0.4 --speed-spread 0.6
 row "antenna 3 m to the left, U-turn" "${n[@]}" --shape uturn --gnss-left-m 3
 row "second day 47 m higher" --panoramas $((2 * panoramas)) --drives 2 --gnss-datum-m 47
 row "roof of 100 features" "${n[@]}" --roof-features 100

@@ -45,9 +45,10 @@ struct FoundDriveErrors {
 
 /// Clock and lever arm: per drive a robust regression of GNSS minus model on velocity and on the
 /// direction to the left of it, beside shift, turn and scale of that drive. Both are believed from
-/// five sigmas on, errors of neighbours taken as correlated as they are (EstimateCorrelatedNoise);
-/// a shift along a street that goes one way is not to be told from an offset of all positions, and
-/// the check says so ("gnss_clock", "gnss_lever_arm").
+/// four sigmas on, errors of neighbours taken as correlated as they are (EstimateCorrelatedNoise);
+/// a clock between three and four that matters is doubtful. A shift along a street that goes one
+/// way at one speed, or along a circle, is not to be told from an offset or a turn of all
+/// positions, and the check says so ("gnss_clock", "gnss_lever_arm").
 ///
 /// Datum: drives whose positions are all off by more than receivers are, against each other. Where
 /// more than half of the drives agree, the others are corrected ("gnss_datum", good); else nobody

@@ -119,6 +119,36 @@ TEST(FindDriveErrors, FindsAClockByTheSpeedOnAStraightStreet) {
   }
 }
 
+// As little as noise may do, and as much as matters: said either way, never nothing.
+TEST(FindDriveErrors, DoubtsWhatItHalfBelieves) {
+  int doubted = 0;
+  int believed = 0;
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
+    const FoundDriveErrors found = Find(AtVaryingSpeed(0.4, 7.0, seed));
+    believed += found.drives.empty() ? 0 : 1;
+    for (const CrossCheck& check : found.checks) {
+      if (check.level != CheckLevel::kDoubtful) continue;
+      EXPECT_TRUE(found.drives.empty());
+      EXPECT_GT(check.value, 0.2);
+      ++doubted;
+    }
+  }
+  EXPECT_GT(doubted, 2);
+  EXPECT_LT(believed, 15);
+}
+
+TEST(FindDriveErrors, DoubtsNoPlainNoise) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    for (const double turn_rad : {0.0, 0.5, 2.0}) {
+      const FoundDriveErrors found =
+          Find(Drive({.panoramas = 80, .turn_rad = turn_rad, .sigma_m = 3.0}, seed));
+      EXPECT_TRUE(found.drives.empty()) << seed;
+      for (const CrossCheck& check : found.checks)
+        EXPECT_EQ(check.level, CheckLevel::kGood) << seed << " " << check.sentence;
+    }
+  }
+}
+
 TEST(FindDriveErrors, TakesOffWhatItFound) {
   DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 2.0, .sigma_m = 1.0}, 1);
   Shift(-8.0, 0.0, street);
