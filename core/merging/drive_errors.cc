@@ -16,7 +16,8 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kMinFixes = 12;  // twice the unknowns of a regression
+constexpr size_t kMinFixes = 12;       // twice the unknowns of a regression
+constexpr size_t kMinOffsetFixes = 5;  // two that are far off do not carry a median of so many away
 // Estimates over their sigmas are normal to 10 % (960 corridors without such errors, independent
 // and alike over 50 to 400 m: none above 2.9 ahead, 3.8 to the side).
 constexpr double kBelievedSigmas = 4.0;
@@ -309,8 +310,9 @@ CrossCheck DatumCheck(std::span<const GnssDrive> drives,
                    .unit = "m",
                    .level = is_majority ? CheckLevel::kGood : CheckLevel::kDoubtful};
   check.sentence = "GNSS positions of drives " + Numbers(drives, others) + " lie " +
-                   Fixed(apart_m.head<2>().norm(), "m") + " beside and " + Fixed(apart_m.z(), "m") +
-                   " above those of drives " + Numbers(drives, party) +
+                   Fixed(apart_m.head<2>().norm(), "m") + " beside and " +
+                   Fixed(std::abs(apart_m.z()), "m") + (apart_m.z() < 0.0 ? " below" : " above") +
+                   " those of drives " + Numbers(drives, party) +
                    ": another datum or a receiver that is off. ";
   check.sentence +=
       is_majority ? "They are moved to where most drives are"
@@ -325,7 +327,7 @@ void FindDatum(std::span<const GnssDrive> drives,
                std::vector<CrossCheck>& checks) {
   std::vector<Offset> offsets;
   for (size_t i = 0; i < drives.size(); ++i) {
-    if (drives[i].fixes.size() < kMinFixes) continue;
+    if (drives[i].fixes.size() < kMinOffsetFixes) continue;
     offsets.push_back(
         {i, MedianOffset(drives[i], errors[i], enu_from_world), drives[i].fixes.size()});
   }

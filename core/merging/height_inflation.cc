@@ -87,7 +87,8 @@ double HeightInflation(std::span<const GnssDrive> drives,
   std::erase_if(runs, [](const MeasuredRun& run) { return run.empty(); });
   TakeOffPlane(runs);
   const double information = scatter * scatter * GravityInformation(gravity, enu_from_world);
-  return EstimateHeightNoise(runs, information / squared_extent_m2).inflation;
+  const double inflation = EstimateHeightNoise(runs, information / squared_extent_m2).inflation;
+  return std::max(1.0, std::min(n, inflation));
 }
 
 }  // namespace orbweave

@@ -251,6 +251,9 @@ std::optional<CrossCheck> CheckGnssUse(const JobResults& results, const JobRepor
     check.value = ShareOf(report.gnss.num_inliers, report.gnss.num_priors);
     check.sentence = CountOf(
         report.gnss.num_inliers, report.gnss.num_priors, "GNSS positions agree with the model");
+    if (2 * report.gnss.num_inliers >= report.gnss.num_priors) return check;
+    check.level = CheckLevel::kDoubtful;
+    check.sentence += ": where it stands on earth follows the fewer of them";
     return check;
   }
   check.sentence =

@@ -180,6 +180,7 @@ void ErrorsToProto(const Georeference& georeference, v1::Georeference* proto) {
   }
   proto->set_drives_with_errors(codec::Pack(drives));
   proto->set_drive_errors(codec::Pack(values));
+  proto->set_gnss_inflation(georeference.gnss_inflation);
   for (const CrossCheck& check : georeference.checks) codec::ToProto(check, proto->add_checks());
 }
 
@@ -202,6 +203,9 @@ absl::Status ErrorsFromProto(const v1::Georeference& proto, Georeference& georef
                                          .left_sigma_m = v[3],
                                          .offset_m = {v[4], v[5], v[6]}});
   }
+  if (!std::isfinite(proto.gnss_inflation()) || !(proto.gnss_inflation() >= 1.0))
+    return absl::InvalidArgumentError("georeference: positions worth more than they are");
+  georeference.gnss_inflation = proto.gnss_inflation();
   for (const v1::CrossCheck& check : proto.checks()) {
     ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
     georeference.checks.push_back(std::move(decoded));
@@ -286,7 +290,6 @@ std::string EncodeJoinedWorlds(const std::vector<JoinedWorld>& worlds) {
     georeference->set_vertical_scatter_m(world.georeference.vertical_scatter_m);
     georeference->set_scale_uncertainty(world.georeference.scale_uncertainty);
     georeference->set_bend_m(world.georeference.bend_m);
-    georeference->set_gnss_inflation(world.georeference.gnss_inflation);
     ErrorsToProto(world.georeference, georeference);
     out->set_united_tracks(world.merge.united_tracks);
     out->set_conflicting_tracks(world.merge.conflicting_tracks);
@@ -312,7 +315,6 @@ absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view byt
     out.georeference.vertical_scatter_m = georeference.vertical_scatter_m();
     out.georeference.scale_uncertainty = georeference.scale_uncertainty();
     out.georeference.bend_m = georeference.bend_m();
-    out.georeference.gnss_inflation = georeference.gnss_inflation();
     ORBWEAVE_RETURN_IF_ERROR(ErrorsFromProto(georeference, out.georeference));
     out.merge = {world.united_tracks(), world.conflicting_tracks()};
     out.num_images = world.num_images();

@@ -23,6 +23,7 @@ std::vector<JoinedWorld> WorldWithErrors(double left_m) {
                                       .left_sigma_m = 0.2,
                                       .offset_m = {1.0, -2.0, 47.0}},
                                      {.drive = 9}};
+  world.georeference.gnss_inflation = 12.5;
   world.georeference.checks = {
       {"gnss_datum", 47.0, 12.0, "m", CheckLevel::kDoubtful, "another datum"}};
   return {world};
@@ -42,6 +43,7 @@ TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
   EXPECT_EQ(errors.left_sigma_m, 0.2);
   EXPECT_EQ(errors.offset_m, Eigen::Vector3d(1.0, -2.0, 47.0));
   EXPECT_FALSE(georeference.drive_errors[1].has_times);
+  EXPECT_EQ(georeference.gnss_inflation, 12.5);
   ASSERT_EQ(georeference.checks.size(), 1U);
   EXPECT_EQ(georeference.checks[0].name, "gnss_datum");
   EXPECT_EQ(georeference.checks[0].level, CheckLevel::kDoubtful);
@@ -50,6 +52,11 @@ TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
 TEST(JoinedWorldsCodec, RefusesErrorsThatAreNoNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(nan))).ok());
+  for (const double inflation : {nan, 0.0, 0.9, std::numeric_limits<double>::infinity()}) {
+    std::vector<JoinedWorld> worlds = WorldWithErrors(3.0);
+    worlds[0].georeference.gnss_inflation = inflation;
+    EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(worlds)).ok()) << inflation;
+  }
 }
 
 TEST(BlockInspectionCodec, CarriesPointsAboutPanoramas) {

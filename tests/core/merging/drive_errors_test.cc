@@ -195,6 +195,23 @@ TEST(FindDriveErrors, CannotTellWhichOfTwoDatumsIsRight) {
   EXPECT_EQ(georeference.checks.back().level, CheckLevel::kDoubtful);
 }
 
+TEST(FindDriveErrors, NamesAFewPositionsOverAnotherDatum) {
+  Random random(11);
+  DrivenStreet street;
+  AddDrive({.turn_rad = 1.0, .sigma_m = 2.0}, random, street);
+  AddDrive({.panoramas = 6, .sigma_m = 2.0}, random, street);
+  for (ImageRecord& image : street.manifest.images) {
+    if (image.drive == 1) image.prior.position_in_enu->z() -= 40.0;
+  }
+  const Georeference georeference =
+      GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
+  ASSERT_TRUE(georeference.enu_from_world.has_value());
+  EXPECT_LT(std::abs(georeference.enu_from_world->translation.z()), 1.5);
+  ASSERT_FALSE(georeference.checks.empty());
+  EXPECT_EQ(georeference.checks.back().name, "gnss_datum");
+  EXPECT_NEAR(georeference.checks.back().value, 40.0, 3.0);
+}
+
 TEST(MeasureGnssSmoothness, FindsTheNoiseWhateverTheSteps) {
   for (const double step_m : {0.5, 3.0, 12.0}) {
     const DrivenStreet street =

@@ -120,6 +120,15 @@ TEST(JudgeModel, ModelsThatGnssPutsIntoOneFrameAreOneMapButAPartThatFellApartIsT
   EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
 }
 
+TEST(JudgeModel, GnssThatMostlyDisagreesIsDoubted) {
+  JobResults results = Street(40, {{0, 40}}, true);
+  GnssReport& gnss = results.models.front().report.gnss;
+  gnss = {.used = true, .num_priors = 40, .num_inliers = 30};
+  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  gnss.num_inliers = 15;
+  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kDoubtful);
+}
+
 TEST(JudgeModel, GnssThatIsGivenAndNotUsedIsDoubtedUnlessItCouldNotTell) {
   JobResults results = Street(40, {{0, 40}}, true);
   GnssReport& gnss = results.models.front().report.gnss;
