@@ -137,6 +137,22 @@ TEST(RealGnss, ErrorsThatNeighboursShareAreInTheSigmas) {
   EXPECT_LT(sum / count, 3.0);  // of some dozen independent errors: 2 and what those scatter by
 }
 
+// Heights that wander by 8 m would turn a street of a few metres' breadth by tens of degrees.
+TEST(RealGnss, ErrorsThatNeighboursShareDoNotLayANarrowStreetOnItsSide) {
+  for (const int seed : {11, 12}) {
+    for (const CorridorShape shape : {CorridorShape::kBends, CorridorShape::kUturn}) {
+      const Outcome outcome = OutcomeOf({.panoramas = 80,
+                                         .shape = shape,
+                                         .gnss_sigma_m = 4.0,
+                                         .gnss_correlation_m = 50.0,
+                                         .seed = seed});
+      EXPECT_LT(outcome.rotation_deg, 7.5);
+      EXPECT_LT(outcome.rotation_deg, 2.0 * outcome.rotation_sigma_deg);
+      EXPECT_TRUE(outcome.IsGood());
+    }
+  }
+}
+
 TEST(RealGnss, AClockThatIsLateIsTakenOff) {
   double sum = 0.0;
   double count = 0.0;
