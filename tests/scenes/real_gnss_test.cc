@@ -36,9 +36,12 @@ struct Outcome {
   }
 };
 
-Outcome OutcomeOf(CorridorOptions options) {
+Corridor CorridorOf(CorridorOptions options) {
   options.features_per_panorama = 200;
-  const Corridor corridor = MakeCorridor(options);
+  return MakeCorridor(options);
+}
+
+Outcome OutcomeOf(const Corridor& corridor) {
   const Orientated result = Orientate(corridor);
   Outcome outcome;
   EXPECT_EQ(result.worlds.size(), 1U);
@@ -63,6 +66,8 @@ Outcome OutcomeOf(CorridorOptions options) {
   outcome.checks = world.report.checks;
   return outcome;
 }
+
+Outcome OutcomeOf(const CorridorOptions& options) { return OutcomeOf(CorridorOf(options)); }
 
 TEST(RealGnss, PlainStreetsAreGoodAndClaimWhatTheyAreOffBy) {
   double sum = 0.0;
@@ -96,6 +101,20 @@ TEST(RealGnss, AMountThatLeansToTheSideOfAStraightStreetIsNamed) {
       EXPECT_NEAR(check->value, std::abs(roll_deg), 2.0);
     }
   }
+}
+
+TEST(RealGnss, PitchAndRollThatAreStatedSetAStraightStreetUpright) {
+  Corridor corridor = CorridorOf(
+      {.panoramas = 60, .shape = CorridorShape::kStraight, .mount_roll_deg = 12.0, .seed = 1});
+  Random random(8);
+  for (ImageRecord& image : corridor.manifest.images) {
+    image.prior.pitch_deg = random.Normal();
+    image.prior.roll_deg = 12.0 + random.Normal();
+    image.prior.tilt_sigma_deg = 1.0;
+  }
+  const Outcome outcome = OutcomeOf(corridor);
+  EXPECT_LT(outcome.rotation_deg, 1.0);
+  EXPECT_TRUE(outcome.IsGood());
 }
 
 TEST(RealGnss, AMountThatLeansIsSetUprightWhereTheStreetTurns) {
