@@ -60,7 +60,7 @@ class TriangleLedger {
   // Takes suspects away, worst first, until none is left.
   void RemoveSuspects(std::vector<DroppedEdge>& dropped) {
     while (!suspects_.empty()) {
-      const uint32_t worst = std::get<3>(*suspects_.begin());
+      const uint32_t worst = std::get<2>(*suspects_.begin());
       const TriangleCount& count = counts_[worst];
       dropped.push_back({edges_[worst].pair,
                          std::to_string(count.total - count.closing) + " of " +
@@ -80,15 +80,13 @@ class TriangleLedger {
   }
 
  private:
-  // Worst first: closing share, open triangles (negative), inliers, edge in pair order.
-  using Suspect = std::tuple<double, int64_t, uint32_t, uint32_t>;
+  // Worst first: closing share, inliers, edge in pair order. Of an open triangle the weakest edge
+  // is to blame: a strong one whose neighbours are poor is in as many open triangles as they
+  // together.
+  using Suspect = std::tuple<double, uint32_t, uint32_t>;
 
   [[nodiscard]] Suspect SuspectOf(uint32_t e) const {
-    const TriangleCount& count = counts_[e];
-    return {count.ClosingShare(),
-            -static_cast<int64_t>(count.total - count.closing),
-            edges_[e].num_inliers,
-            e};
+    return {counts_[e].ClosingShare(), edges_[e].num_inliers, e};
   }
   [[nodiscard]] bool IsSuspect(uint32_t e) const {
     return is_gone_[e] == 0 && counts_[e].total > 0 &&

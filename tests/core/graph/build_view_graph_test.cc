@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
@@ -77,6 +79,35 @@ TEST(BuildViewGraph, DropsTheWeakestSideOfALonelyTriangle) {
   ASSERT_EQ(filtered.dropped.size(), 1U);
   EXPECT_EQ(filtered.dropped[0].pair, (ImagePair{ImageId(0), ImageId(2)}));
   EXPECT_EQ(filtered.dropped[0].reason, "1 of 1 triplets do not close");
+}
+
+TEST(BuildViewGraph, BlamesTheWeakEdgesRoundAStrongOneThatIsInAllTheirTriangles) {
+  // Images 0 ... 5 in a row; 2-3 is seen well, and everything that reaches across it is wrong.
+  ViewGraph row{.num_images = 6};
+  for (const auto& [a, b, inliers] : std::vector<std::array<uint32_t, 3>>{{0, 1, 200},
+                                                                          {0, 2, 100},
+                                                                          {1, 2, 200},
+                                                                          {1, 3, 29},
+                                                                          {2, 3, 276},
+                                                                          {2, 4, 175},
+                                                                          {2, 5, 24},
+                                                                          {3, 4, 341},
+                                                                          {3, 5, 220},
+                                                                          {4, 5, 418}}) {
+    row.edges.push_back({.pair = MakePair(ImageId(a), ImageId(b)), .num_inliers = inliers});
+  }
+  row = WithRotations(row, 0.002);
+  Spoil(row, 1, 3);
+  Spoil(row, 2, 4);
+  Spoil(row, 2, 5);
+  for (ViewEdge& edge : row.edges) {  // each wrong in its own way
+    if (edge.pair == MakePair(ImageId(2), ImageId(4)))
+      edge.b_from_a.rotation = RotationFromVector({0.5, 0.0, 0.2}) * edge.b_from_a.rotation;
+  }
+  const std::set<ImagePair> wrong = {MakePair(ImageId(1), ImageId(3)),
+                                     MakePair(ImageId(2), ImageId(4)),
+                                     MakePair(ImageId(2), ImageId(5))};
+  EXPECT_EQ(PairsOf(BuildViewGraph(6, row.edges, {}).dropped), wrong);
 }
 
 TEST(BuildViewGraph, KeepsEdgesInNoTriangle) {
