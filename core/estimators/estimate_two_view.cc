@@ -4,7 +4,10 @@
 #include "core/estimators/estimate_two_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "core/base/status.h"
 #include "core/estimators/bearing_pairs.h"
@@ -12,6 +15,7 @@
 #include "core/estimators/match_evidence.h"
 #include "core/estimators/refine_two_view.h"
 #include "core/estimators/resolve_cheirality.h"
+#include "core/estimators/split_by_height.h"
 #include "core/estimators/split_by_motion.h"
 #include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
@@ -25,6 +29,10 @@ using Eigen::Vector3d;
 constexpr double kDegenerateShare = 0.9;  // of the inliers: a rotation or a plane explains the pair
 constexpr double kNotedShare = 0.1;       // of the matches: fewer that are fixed do no harm
 constexpr double kCarrierSpread = 0.25;   // the carrier covers no more of the sphere
+constexpr double kMostlySky = 0.5;        // of the inliers: the sky outvotes the scene
+constexpr double kLowFeatures = 0.1;      // of all features: a common scene has matches there
+constexpr double kFarBaselines = 5.0;     // houses lie within five steps of 5 m across a street
+constexpr double kAsEvident = 0.8;        // sky and scene then agree in one geometry
 constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
 
@@ -103,6 +111,23 @@ absl::StatusOr<Verdict> Classify(const BearingPairs& pairs,
   return verdict;
 }
 
+/// Takes over what the inliers are, and what follows from them.
+void SetInliers(const BearingPairs& inliers,
+                std::span<const FeatureMatch> matches,
+                TwoViewGeometry& geometry) {
+  geometry.inliers.clear();
+  std::vector<Vector3d> a;
+  std::vector<Vector3d> b;
+  for (size_t i = 0; i < inliers.Size(); ++i) {
+    geometry.inliers.push_back(matches[inliers.order[i]]);
+    a.push_back(inliers.A(i));
+    b.push_back(inliers.B(i));
+  }
+  std::sort(geometry.inliers.begin(), geometry.inliers.end());
+  geometry.spread = SphereSpread(a);
+  geometry.median_angle_rad = MedianAngle({std::move(a), std::move(b)}, geometry.b_from_a.rotation);
+}
+
 /// The geometry of the given matches, whatever they show.
 absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
                                              std::span<const Vector3d> bearings_a,
@@ -129,16 +154,7 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
   if (geometry.log10_false_alarms > options.max_log10_false_alarms) return geometry;
   geometry.kind = verdict.kind;
   geometry.b_from_a = verdict.b_from_a;
-  for (const uint32_t i : verdict.inliers.order) geometry.inliers.push_back(matches[i]);
-  std::sort(geometry.inliers.begin(), geometry.inliers.end());
-  std::vector<Vector3d> a;
-  std::vector<Vector3d> b;
-  for (size_t i = 0; i < verdict.inliers.Size(); ++i) {
-    a.push_back(verdict.inliers.A(i));
-    b.push_back(verdict.inliers.B(i));
-  }
-  geometry.spread = SphereSpread(a);
-  geometry.median_angle_rad = MedianAngle({std::move(a), std::move(b)}, geometry.b_from_a.rotation);
+  SetInliers(verdict.inliers, matches, geometry);
   return geometry;
 }
 
@@ -147,6 +163,116 @@ bool ShowsTheCarrierAlone(const TwoViewGeometry& geometry, double max_error_rad)
   return geometry.kind == TwoViewKind::kPureRotation && geometry.spread <= kCarrierSpread &&
          RotationAngle(geometry.b_from_a.rotation) <= max_error_rad;
 }
+
+/// Estimates from what two panoramas match, and looks below the sky.
+struct PairView {
+  ImagePair pair{};
+  std::span<const Vector3d> bearings_a;
+  std::span<const Vector3d> bearings_b;
+  double max_error_rad = 0.0;
+  const TwoViewOptions& options;
+  const StageContext& context;
+
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> From(std::span<const FeatureMatch> matches) const {
+    return EstimateFrom(pair, bearings_a, bearings_b, matches, max_error_rad, options, context);
+  }
+
+  /// The geometry of the scene where that of all matches is the sky's; none where the sky alone
+  /// matches.
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> BelowSky(
+      std::span<const FeatureMatch> matches) const {
+    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry all, From(matches));
+    if (all.kind == TwoViewKind::kNone) return all;
+    const std::vector<FeatureMatch> sky = SkyOf(all);
+    if (static_cast<double>(sky.size()) < kMostlySky * static_cast<double>(all.inliers.size()))
+      return DropSky(all);
+    std::vector<FeatureMatch> rest;
+    std::ranges::copy_if(matches, std::back_inserter(rest), [&](const FeatureMatch& match) {
+      return !std::ranges::binary_search(sky, match);
+    });
+    const double evidence_of_all =
+        EvidenceOf(Arranged(rest), all.b_from_a, max_error_rad).log10_false_alarms;
+    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry scene, From(rest));
+    const bool is_scene =
+        scene.kind != TwoViewKind::kNone && !ShowsTheCarrierAlone(scene, max_error_rad);
+    if (is_scene && kAsEvident * scene.log10_false_alarms < evidence_of_all)
+      return DropSky(Extended(scene, matches));
+    if (evidence_of_all <= options.max_log10_false_alarms || !SeesTheGround()) return DropSky(all);
+    return TwoViewGeometry{.pair = pair, .num_putative = all.num_putative};
+  }
+
+ private:
+  [[nodiscard]] BearingPairs Arranged(std::span<const FeatureMatch> matches) const {
+    return ArrangePairs(bearings_a, bearings_b, matches, context.seed);
+  }
+
+  /// Inliers that are high up and too far away for the houses around, sorted.
+  [[nodiscard]] std::vector<FeatureMatch> SkyOf(const TwoViewGeometry& geometry) const {
+    if (geometry.kind == TwoViewKind::kPureRotation)
+      return SplitByHeight(bearings_a, bearings_b, geometry.inliers).high;
+    std::vector<FeatureMatch> sky;
+    for (const FeatureMatch& match : geometry.inliers) {
+      const Vector3d& a = bearings_a[match.a];
+      const Vector3d& b = bearings_b[match.b];
+      if ((IsHigh(a) || IsHigh(b)) && InverseDepth(a, b, geometry.b_from_a) < 1.0 / kFarBaselines)
+        sky.push_back(match);
+    }
+    return sky;
+  }
+
+  /// Whether both panoramas have features below, so that a scene in common would have matches
+  /// there.
+  [[nodiscard]] bool SeesTheGround() const {
+    return std::ranges::all_of(std::array{bearings_a, bearings_b}, [](const auto& bearings) {
+      const auto high = static_cast<double>(std::ranges::count_if(bearings, IsHigh));
+      return high <= (1.0 - kLowFeatures) * static_cast<double>(bearings.size());
+    });
+  }
+
+  /// With all matches that agree with the geometry of some.
+  [[nodiscard]] TwoViewGeometry Extended(TwoViewGeometry geometry,
+                                         std::span<const FeatureMatch> matches) const {
+    geometry.num_putative = static_cast<uint32_t>(matches.size());
+    const BearingPairs pairs = Arranged(matches);
+    const std::vector<uint32_t> inliers = Agreeing(pairs, geometry);
+    SetInliers(Subset(pairs, inliers), matches, geometry);
+    return geometry;
+  }
+
+  [[nodiscard]] std::vector<uint32_t> Agreeing(const BearingPairs& pairs,
+                                               const TwoViewGeometry& geometry) const {
+    const Rigid3& pose = geometry.b_from_a;
+    if (geometry.kind != TwoViewKind::kPureRotation)
+      return InFrontOfBoth(pairs, EpipolarInliers(pairs, pose, max_error_rad), pose, max_error_rad);
+    std::vector<uint32_t> inliers;
+    for (uint32_t i = 0; i < pairs.Size(); ++i) {
+      if (AngleBetween(pose.rotation * pairs.A(i), pairs.B(i)) <= max_error_rad)
+        inliers.push_back(i);
+    }
+    return inliers;
+  }
+
+  /// Without what is far and high, which draws the pose along when it drifts.
+  [[nodiscard]] TwoViewGeometry DropSky(TwoViewGeometry geometry) const {
+    if (geometry.kind == TwoViewKind::kNone || geometry.kind == TwoViewKind::kPureRotation)
+      return geometry;
+    const std::vector<FeatureMatch> matches = geometry.inliers;
+    const BearingPairs pairs = Arranged(matches);
+    std::vector<uint32_t> inliers(pairs.Size());
+    std::iota(inliers.begin(), inliers.end(), 0U);
+    const std::vector<uint32_t> kept = WithoutSky(pairs, inliers, geometry.b_from_a, max_error_rad);
+    const auto most = (1.0 - kNotedShare) * static_cast<double>(matches.size());
+    if (kept.size() < static_cast<size_t>(options.min_inliers) ||
+        static_cast<double>(kept.size()) > most) {
+      return geometry;
+    }
+    const SelectedBearings selected = SelectPairs(pairs, kept);
+    geometry.b_from_a = MinimiseEpipolarResiduals(
+        geometry.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
+    SetInliers(Subset(pairs, kept), matches, geometry);
+    return geometry;
+  }
+};
 
 }  // namespace
 
@@ -157,17 +283,15 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
                                                 double max_error_rad,
                                                 const TwoViewOptions& options,
                                                 const StageContext& context) {
-  const auto estimate_from = [&](std::span<const FeatureMatch> chosen) {
-    return EstimateFrom(pair, bearings_a, bearings_b, chosen, max_error_rad, options, context);
-  };
+  const PairView view{pair, bearings_a, bearings_b, max_error_rad, options, context};
   const auto num_putative = static_cast<uint32_t>(matches.size());
   const MatchesByMotion split = SplitByMotion(bearings_a, bearings_b, matches, max_error_rad);
   if (static_cast<double>(split.fixed.size()) >= kNotedShare * static_cast<double>(num_putative)) {
-    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry moved, estimate_from(split.moved));
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry moved, view.BelowSky(split.moved));
     moved.num_putative = num_putative;
     if (moved.kind != TwoViewKind::kNone && moved.spread > split.fixed_spread) return moved;
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, estimate_from(matches));
+  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, view.BelowSky(matches));
   if (ShowsTheCarrierAlone(geometry, max_error_rad)) {
     return TwoViewGeometry{.pair = pair, .num_putative = num_putative};
   }

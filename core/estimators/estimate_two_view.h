@@ -60,7 +60,12 @@ struct TwoViewOptions {
 /// on both spheres (paper 3.3), refined over all inliers; flags pure rotation and planes. Matches
 /// at the same place of both panoramas are set aside where the others have a geometry of their own
 /// that covers more of the sphere: they show the carrier, not the scene. A pair in which nothing
-/// but the carrier matches has no geometry. Neither has one whose inliers are no evidence
+/// but the carrier matches has no geometry. Nor does the sky count: clouds drift, and have more
+/// features than a street. Where half of the inliers are high up and further away than five
+/// baselines, what is left without them decides; where that shows nothing although both panoramas
+/// have features below, there is no geometry. What is high and far beyond the rest is left out
+/// (WithoutSky). Cameras are taken to stand upright to a few degrees; turned otherwise they lose
+/// far matches of one side at most. No geometry has a pair whose inliers are no evidence
 /// (EvidenceOf): that a share of the matches agrees says nothing, since wrong ones are found in any
 /// number.
 /// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera

@@ -191,11 +191,13 @@ TEST(EstimateTwoView, FlagsScenesThatAreNothingButAPlane) {
   }
 }
 
-TEST(EstimateTwoView, KeepsFarPointsWithoutParallax) {
+TEST(EstimateTwoView, KeepsFarPointsWithoutParallaxThatAreNoSky) {
   TwoViewWorld world = MakeTwoViewWorld(8, 200, 0.0, kSigmaRad);
   Random random(4);
   for (size_t i = 0; i < 60; ++i) {
-    const Vector3d X = 1e4 * RandomDirection(random);
+    Vector3d X = 1e4 * RandomDirection(random);
+    while (X.y() < 0.0 || (world.b_from_a.rotation * X).y() < 0.0)
+      X = 1e4 * RandomDirection(random);
     world.bearings_a[i] = WithNoise(random, X.normalized(), kSigmaRad);
     world.bearings_b[i] = WithNoise(random, BearingOf(world.b_from_a, X), kSigmaRad);
   }
@@ -312,6 +314,96 @@ TEST(EstimateTwoView, KeepsTheRotationOfACameraThatStandsWhenABusDrivesBy) {
   const TwoViewGeometry geometry = Estimate(world);
   EXPECT_LT(RotationError(geometry.b_from_a.rotation, Eigen::Quaterniond::Identity()), 1e-3);
   EXPECT_GE(geometry.inliers.size(), 145U);
+}
+
+/// A camera that goes 8 m down a street: facades 8 m to both sides from the ground to 12 m up.
+TwoViewWorld MakeStreet(uint64_t seed, size_t count) {
+  Random random(seed);
+  TwoViewWorld world;
+  world.b_from_a = Rigid3::FromCentre(RotationFromVector({0.01, random.Uniform(-0.3, 0.3), -0.02}),
+                                      Vector3d(0.0, 0.0, 8.0));
+  world.b_from_a.translation.normalize();
+  for (size_t i = 0; i < count; ++i) {
+    const Vector3d X(random.Uniform() < 0.5 ? -8.0 : 8.0,
+                     random.Uniform(-12.0, 2.0),
+                     random.Uniform(-20.0, 28.0));
+    world.points_in_a.push_back(X / 8.0);
+    world.bearings_a.push_back(WithNoise(random, X.normalized(), kSigmaRad));
+    world.bearings_b.push_back(WithNoise(random, BearingOf(world.b_from_a, X / 8.0), kSigmaRad));
+  }
+  return world;
+}
+
+/// Clouds in a layer, which have gone by `drift` of its height between the two panoramas.
+void AddClouds(size_t count, const Vector3d& drift, TwoViewWorld& world) {
+  Random random(78);
+  for (size_t i = 0; i < count; ++i) {
+    const Vector3d X(random.Uniform(-2.0, 2.0), -1.0, random.Uniform(-2.0, 2.0));
+    world.bearings_a.push_back(WithNoise(random, X.normalized(), kSigmaRad));
+    world.bearings_b.push_back(
+        WithNoise(random, (world.b_from_a.rotation * (X + drift)).normalized(), kSigmaRad));
+  }
+}
+
+TEST(EstimateTwoView, IsNotMisledByCloudsThatMatchMoreThanTheScene) {
+  for (const double drift : {0.0, 0.01, 0.05, 0.1}) {
+    for (uint64_t seed = 0; seed < 10; ++seed) {
+      TwoViewWorld world = MakeStreet(seed, 100);
+      AddClouds(300, drift * Vector3d(0.8, 0.0, 0.6), world);
+      const TwoViewGeometry geometry = Estimate(world);
+      EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral) << drift << " " << seed;
+      EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 1e-3);
+      EXPECT_LT(DirectionError(geometry, world), 5e-3) << drift << " " << seed;
+      const auto scene = std::ranges::count_if(
+          geometry.inliers, [](const FeatureMatch& match) { return match.a < 100; });
+      EXPECT_GT(scene, 90) << drift << " " << seed;
+      EXPECT_LT(static_cast<double>(geometry.inliers.size()), 1.2 * static_cast<double>(scene));
+      EXPECT_EQ(geometry.num_putative, 400U);
+    }
+  }
+}
+
+TEST(EstimateTwoView, KnowsNothingOfAPairInWhichOnlyTheSkyMatches) {
+  for (const double drift : {0.0, 0.02, 0.1}) {
+    TwoViewWorld world = MakeStreet(3, 0);
+    AddClouds(300, drift * Vector3d(0.8, 0.0, 0.6), world);
+    const TwoViewWorld street = MakeStreet(4, 300);  // features without a match
+    world.bearings_a.insert(
+        world.bearings_a.end(), street.bearings_a.begin(), street.bearings_a.end());
+    world.bearings_b.insert(
+        world.bearings_b.end(), street.bearings_b.begin(), street.bearings_b.end());
+    const auto geometry = EstimateTwoView(kPair,
+                                          world.bearings_a,
+                                          world.bearings_b,
+                                          MatchesInOrder(300),
+                                          kMaxErrorRad,
+                                          {},
+                                          {.seed = 1});
+    ASSERT_TRUE(geometry.ok());
+    EXPECT_EQ(geometry->kind, TwoViewKind::kNone) << drift;
+    EXPECT_EQ(geometry->num_putative, 300U);
+  }
+}
+
+TEST(EstimateTwoView, TakesWhatIsHighForTheSceneWhereNothingElseIsSeen) {
+  TwoViewWorld world = MakeStreet(3, 0);
+  AddClouds(300, Vector3d(0.02, 0.0, 0.0), world);
+  EXPECT_NE(Estimate(world).kind, TwoViewKind::kNone);
+}
+
+TEST(EstimateTwoView, KeepsAllMatchesOfACameraThatStandsUnderAHighCeiling) {
+  TwoViewWorld world = MakeStreet(5, 0);
+  AddClouds(300, Vector3d::Zero(), world);
+  Random random(9);
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d ray(random.Uniform(-1.0, 1.0), random.Uniform(0.0, 0.5), 1.0);
+    world.bearings_a.push_back(WithNoise(random, ray.normalized(), kSigmaRad));
+    world.bearings_b.push_back(
+        WithNoise(random, world.b_from_a.rotation * ray.normalized(), kSigmaRad));
+  }
+  const TwoViewGeometry geometry = Estimate(world);
+  EXPECT_EQ(geometry.kind, TwoViewKind::kPureRotation);
+  EXPECT_GT(geometry.inliers.size(), 345U);
 }
 
 }  // namespace
