@@ -10,6 +10,7 @@
 #include "core/graph/build_view_graph.h"
 #include "core/graph/drop_edges_against_chain.h"
 #include "core/graph/drop_edges_against_gnss.h"
+#include "core/graph/drop_edges_against_headings.h"
 #include "core/graph/partition_view_graph.h"
 #include "core/merging/review_seams.h"
 #include "core/merging/rim.h"
@@ -102,10 +103,13 @@ absl::StatusOr<TaskResult> RunPartitionViewGraph(const TaskSpec& spec,
   ORBWEAVE_ASSIGN_OR_RETURN(CollectedEdges collected, CollectEdges(match_blobs, blobs));
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(collected.edges, manifest);
   EdgesByChain by_chain = DropEdgesAgainstChain(by_gnss.kept, manifest);
-  const FilteredViewGraph filtered = BuildViewGraph(
+  FilteredViewGraph filtered = BuildViewGraph(
       static_cast<uint32_t>(manifest.images.size()), std::move(by_chain.kept), options.view_graph);
+  EdgesByGnss by_heading = DropEdgesAgainstHeadings(filtered.graph.edges, manifest);
+  filtered.graph.edges = std::move(by_heading.kept);
   DividedViewGraph divided{.dropped = std::move(by_gnss.dropped)};
   std::ranges::move(by_chain.dropped, std::back_inserter(divided.dropped));
+  std::ranges::move(by_heading.dropped, std::back_inserter(divided.dropped));
   divided.dropped.insert(divided.dropped.end(), filtered.dropped.begin(), filtered.dropped.end());
   ORBWEAVE_ASSIGN_OR_RETURN(
       divided.partition, DivideOrWiden(spec, filtered.graph, manifest, options.partition, blobs));
