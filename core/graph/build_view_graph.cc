@@ -86,7 +86,9 @@ class TriangleLedger {
   using Suspect = std::tuple<double, uint32_t, uint32_t>;
 
   [[nodiscard]] Suspect SuspectOf(uint32_t e) const {
-    return {counts_[e].ClosingShare(), edges_[e].num_inliers, e};
+    const TriangleCount& count = counts_[e];
+    const double num_inliers = edges_[e].num_inliers;
+    return {count.ClosingShare(), num_inliers / (count.total - count.closing), e};
   }
   [[nodiscard]] bool IsSuspect(uint32_t e) const {
     return is_gone_[e] == 0 && counts_[e].total > 0 &&

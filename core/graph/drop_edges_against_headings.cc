@@ -8,20 +8,24 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace orbweave {
 namespace {
 
 using Eigen::Vector3d;
 
-// A direction by positions so far apart is good to twenty degrees.
-constexpr double kTellingSigmas = 3.0;
+// A direction by positions so far apart is good to 23 degrees.
+constexpr double kTellingSigmas = 2.5;
 // Twice that, and the tilt of a car; what two wrong pairs agree to by chance one time in four.
 constexpr double kAgree_rad = std::numbers::pi / 4.0;
 constexpr double kAgainst_rad = std::numbers::pi / 2.0;
 constexpr size_t kFewest = 3;
 // One edge of four may be wrong; a position that is off by a step turns a third.
 constexpr double kTrusted = 0.75;
+// Of a position that lies between its neighbours' as a street goes; two wrong pairs of four.
+constexpr double kTrustedIfSmooth = 0.5;
+constexpr double kSmoothSigmas = 3.0;
 
 /// Clockwise from the axis that looks forward, seen from above; y points down.
 double AzimuthInCamera(const Vector3d& direction) {
@@ -100,9 +104,27 @@ std::optional<double> HeadingOf(uint32_t image, const Links& links) {
   return best;
 }
 
+/// Whether the position lies halfway between those of the images before and after, as far as they
+/// are exact.
+bool IsSmooth(uint32_t image, const ImageManifest& manifest) {
+  if (image == 0 || image + 1 >= manifest.images.size()) return false;
+  const ImageRecord& here = manifest.images[image];
+  const ImageRecord& before = manifest.images[image - 1];
+  const ImageRecord& after = manifest.images[image + 1];
+  if (before.drive != here.drive || after.drive != here.drive) return false;
+  const auto& [p, g, n] = std::tie(
+      before.prior.position_in_enu, here.prior.position_in_enu, after.prior.position_in_enu);
+  if (!p || !g || !n) return false;
+  const double sigma_m = std::hypot(here.prior.horizontal_sigma_m,
+                                    0.5 * before.prior.horizontal_sigma_m,
+                                    0.5 * after.prior.horizontal_sigma_m);
+  return (*g - 0.5 * (*p + *n)).head<2>().norm() <= kSmoothSigmas * sigma_m;
+}
+
 bool IsTrusted(uint32_t image,
                const Links& links,
-               const std::vector<std::optional<double>>& headings) {
+               const std::vector<std::optional<double>>& headings,
+               const ImageManifest& manifest) {
   size_t all = 0;
   size_t agreeing = 0;
   for (const Link& link : links[image]) {
@@ -111,7 +133,8 @@ bool IsTrusted(uint32_t image,
     const double there = *link.heading - link.turn_rad;
     agreeing += AngleBetween(there, *headings[link.other]) < kAgree_rad ? 1U : 0U;
   }
-  return all > 0 && static_cast<double>(agreeing) >= kTrusted * static_cast<double>(all);
+  const double share = IsSmooth(image, manifest) ? kTrustedIfSmooth : kTrusted;
+  return all > 0 && static_cast<double>(agreeing) >= share * static_cast<double>(all);
 }
 
 }  // namespace
@@ -124,7 +147,7 @@ EdgesByGnss DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
     headings.push_back(HeadingOf(image, links));
   std::vector<int> against(edges.size(), 0);
   for (uint32_t image = 0; image < links.size(); ++image) {
-    if (!headings[image] || !IsTrusted(image, links, headings)) continue;
+    if (!headings[image] || !IsTrusted(image, links, headings, manifest)) continue;
     for (const Link& link : links[image]) {
       if (link.heading && AngleBetween(*link.heading, *headings[image]) > kAgainst_rad)
         ++against[link.edge];

@@ -14,7 +14,7 @@ namespace orbweave {
 /// matches of neighbours may join each window with the next: a motion that is consistent, with the
 /// right rotation and the wrong direction, and that no triangle of rotations tells from the truth.
 ///
-/// An edge of two images three standard deviations apart by GNSS says how either camera is headed:
+/// An edge of two images 2.5 standard deviations apart by GNSS says how either camera is headed:
 /// azimuth of the step by GNSS less azimuth of the step in the camera, which stands upright to some
 /// degrees. Headings go over to neighbours by the rotation of edges. An image has a heading where
 /// more than half of all that it is told lie within 45 degrees of one, and three at least; its

@@ -99,6 +99,18 @@ TEST(DropEdgesAgainstHeadings, DropsExactlyThoseThatLeadTheOtherWay) {
   EXPECT_GE(of_thin_streets, 58U) << "of 60";
 }
 
+TEST(DropEdgesAgainstHeadings, DropsBothEdgesOfAnImageThatLeadTheOtherWayWherePositionsAreSmooth) {
+  const std::set<ImagePair> backward = {{ImageId(14), ImageId(15)}, {ImageId(15), ImageId(16)}};
+  size_t found = 0;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const Drive drive(30, seed);
+    const std::set<ImagePair> dropped = DroppedOf(drive.Edges(3, backward), drive.manifest);
+    EXPECT_TRUE(std::ranges::includes(backward, dropped)) << seed;
+    found += dropped.size();
+  }
+  EXPECT_GE(found, 36U) << "of 40";
+}
+
 TEST(DropEdgesAgainstHeadings, KeepsTheEdgesOfPositionsThatAreOff) {
   Random random(3);
   size_t lost = 0;
