@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -15,6 +16,9 @@ namespace orbweave {
 /// How far a mount may lean whose lean nobody states: poles on roofs and in hands stand within some
 /// degrees, and one that leans by 12 is no marvel.
 inline constexpr double kMountSigma_rad = 0.1;
+
+/// Mounts that lean further are not upright on average (FindGravity knows no 30 degrees).
+inline constexpr double kMaxLean_rad = 0.35;
 
 /// Where down is, as the attitudes of the panoramas alone say.
 struct Gravity {
@@ -29,9 +33,10 @@ struct Gravity {
   std::map<uint32_t, Eigen::Vector3d> down_in_mount{};
 
   /// Where GNSS finds down `away_rad` from here, mounts lean more than most: as with Cauchy's loss
-  /// they then count for less. What turns tell counts as before.
+  /// they then count for less, down to a third: none leans much further than kMaxLean_rad. What
+  /// turns tell counts as before.
   [[nodiscard]] double SigmaAt(double away_rad) const {
-    return std::hypot(sigma_rad, mount_share * away_rad);
+    return std::hypot(sigma_rad, mount_share * std::min(away_rad, kMaxLean_rad));
   }
 };
 

@@ -139,6 +139,19 @@ Sim3 Refine(const Positions& positions,
                             enu_from_world);
 }
 
+// With down where gravity says.
+absl::StatusOr<std::optional<Sim3>> EstimateLevel(const Positions& positions,
+                                                  const Gravity& gravity,
+                                                  const StageContext& context) {
+  const Sim3 upright_from_world{
+      1.0, UprightFromDown(gravity.down_in_world), Eigen::Vector3d::Zero()};
+  Positions upright = positions;
+  for (Eigen::Vector3d& point : upright.in_world) point = upright_from_world * point;
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start, EstimateUpright(upright, context));
+  if (!start) return std::optional<Sim3>();
+  return std::optional<Sim3>(*start * upright_from_world);
+}
+
 absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
                                              const std::optional<Gravity>& gravity,
                                              const StageContext& context) {
@@ -150,13 +163,14 @@ absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
     if (!robust) return std::optional<Sim3>();
     return std::optional<Sim3>(Refine(positions, gravity, 1.0, robust->b_from_a));
   }
-  const Sim3 upright_from_world{
-      1.0, UprightFromDown(gravity->down_in_world), Eigen::Vector3d::Zero()};
-  Positions upright = positions;
-  for (Eigen::Vector3d& point : upright.in_world) point = upright_from_world * point;
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start, EstimateUpright(upright, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start,
+                            EstimateLevel(positions, *gravity, context));
   if (!start) return std::optional<Sim3>();
-  return std::optional<Sim3>(Refine(positions, gravity, 1.0, *start * upright_from_world));
+  const Sim3 refined = Refine(positions, gravity, 1.0, *start);
+  // No mount leans so far: something else is wrong with the heights, and shows better from upright.
+  const double away_rad =
+      AngleBetween(refined.rotation * gravity->down_in_world, -Eigen::Vector3d::UnitZ());
+  return std::optional<Sim3>(away_rad > kMaxLean_rad ? *start : refined);
 }
 
 // Model minus GNSS, without the bias (median) of each drive that is long enough to have one.
@@ -244,8 +258,14 @@ absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
     TakeOff(result.drive_errors, drives, *result.enu_from_world, positions);
     result.gnss_inflation =
         HeightInflation(drives, positions.in_enu, gravity, *result.enu_from_world);
-    result.enu_from_world =
-        Refine(positions, gravity, result.gnss_inflation, *result.enu_from_world);
+    // A fit that has leant over to follow two datums does not come back by itself.
+    const bool has_datums = std::ranges::any_of(
+        result.drive_errors, [](const DriveErrors& errors) { return !errors.offset_m.isZero(); });
+    std::optional<Sim3> start = result.enu_from_world;
+    if (has_datums && gravity) {
+      ORBWEAVE_ASSIGN_OR_RETURN(start, EstimateLevel(positions, *gravity, context));
+    }
+    if (start) result.enu_from_world = Refine(positions, gravity, result.gnss_inflation, *start);
   }
   return absl::OkStatus();
 }
