@@ -17,8 +17,8 @@ namespace orbweave {
 /// degrees, and one that leans by 12 is no marvel.
 inline constexpr double kMountSigma_rad = 0.1;
 
-/// Mounts that lean further are not upright on average (FindGravity knows no 30 degrees).
-inline constexpr double kMaxLean_rad = 0.35;
+/// Panoramas that lean further are not upright on average: 30 degrees, as in FindGravity.
+inline constexpr double kMaxLean_rad = 0.5236;
 
 /// Where down is, as the attitudes of the panoramas alone say.
 struct Gravity {

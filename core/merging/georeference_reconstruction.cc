@@ -139,6 +139,11 @@ Sim3 Refine(const Positions& positions,
                             enu_from_world);
 }
 
+bool LeansTooFar(const Gravity& gravity, const Sim3& enu_from_world) {
+  return AngleBetween(enu_from_world.rotation * gravity.down_in_world, -Eigen::Vector3d::UnitZ()) >
+         kMaxLean_rad;
+}
+
 // With down where gravity says.
 absl::StatusOr<std::optional<Sim3>> EstimateLevel(const Positions& positions,
                                                   const Gravity& gravity,
@@ -166,11 +171,9 @@ absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
   ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start,
                             EstimateLevel(positions, *gravity, context));
   if (!start) return std::optional<Sim3>();
-  const Sim3 refined = Refine(positions, gravity, 1.0, *start);
   // No mount leans so far: something else is wrong with the heights, and shows better from upright.
-  const double away_rad =
-      AngleBetween(refined.rotation * gravity->down_in_world, -Eigen::Vector3d::UnitZ());
-  return std::optional<Sim3>(away_rad > kMaxLean_rad ? *start : refined);
+  const Sim3 refined = Refine(positions, gravity, 1.0, *start);
+  return std::optional<Sim3>(LeansTooFar(*gravity, refined) ? *start : refined);
 }
 
 // Model minus GNSS, without the bias (median) of each drive that is long enough to have one.
@@ -265,7 +268,11 @@ absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
     if (has_datums && gravity) {
       ORBWEAVE_ASSIGN_OR_RETURN(start, EstimateLevel(positions, *gravity, context));
     }
-    if (start) result.enu_from_world = Refine(positions, gravity, result.gnss_inflation, *start);
+    if (!start) continue;
+    result.enu_from_world = Refine(positions, gravity, result.gnss_inflation, *start);
+    if (!gravity || !LeansTooFar(*gravity, *result.enu_from_world)) continue;
+    ORBWEAVE_ASSIGN_OR_RETURN(start, EstimateLevel(positions, *gravity, context));
+    if (start) result.enu_from_world = start;
   }
   return absl::OkStatus();
 }

@@ -197,24 +197,25 @@ TEST(FindDriveErrors, CannotTellWhichOfTwoDatumsIsRight) {
 
 // Leaning over would bring two drives side by side to heights that are far apart.
 TEST(FindDriveErrors, KeepsAStreetUprightBetweenTwoDatums) {
-  for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
     DrivenStreet street;
     for (int drive = 0; drive < 2; ++drive)
       AddDrive({.panoramas = 50, .sigma_m = 2.0, .sway_rad = 0.01}, random, street);
     const Eigen::Vector3d beside(-2.0 * std::sin(0.3), 2.0 * std::cos(0.3), 0.0);
     for (ImageRecord& image : street.manifest.images) {
+      Eigen::Vector3d& position = *image.prior.position_in_enu;
+      position.z() += 3.5 * random.Normal();
+      image.prior.vertical_sigma_m = 4.0;
       if (image.drive == 0) continue;
       Rigid3& pose = street.model.images.at(image.id).cam_from_world;
       pose = Rigid3::FromCentre(pose.rotation, pose.Centre() + beside);
-      *image.prior.position_in_enu += beside + 18.0 * Eigen::Vector3d::UnitZ();
+      position += beside + 15.0 * Eigen::Vector3d::UnitZ();
     }
     const Georeference georeference =
         GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
     ASSERT_TRUE(georeference.enu_from_world.has_value());
-    EXPECT_LT(RotationAngle(georeference.enu_from_world->rotation), 0.06) << seed;
-    EXPECT_EQ(georeference.checks.back().name, "gnss_datum");
-    EXPECT_EQ(georeference.checks.back().level, CheckLevel::kDoubtful);
+    EXPECT_LT(RotationAngle(georeference.enu_from_world->rotation), 0.1) << seed;
   }
 }
 
