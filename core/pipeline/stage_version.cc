@@ -15,7 +15,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"select_image_pairs", "3"},
     {"match_images", "4"},
     {"verify_matches", "4"},
-    {"partition_view_graph", "8"},
+    {"partition_view_graph", "9"},
     {"reconstruct_cluster", "5"},
     {"list_seams", "1"},
     {"fit_seams", "1"},
