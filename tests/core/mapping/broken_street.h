@@ -80,7 +80,7 @@ class BrokenStreet {
   void GiveGnss() {
     Random random(7);
     for (uint32_t i = 0; i < kImages; ++i) {
-      const Eigen::Vector3d& C = Centres()[i];
+      const Eigen::Vector3d C = Centres()[i];
       PosePrior& prior = fixture_.world.problem.images[i].prior;
       prior.position_in_enu =
           Eigen::Vector3d(C.x() + random.Normal(), C.z() + random.Normal(), -C.y());
