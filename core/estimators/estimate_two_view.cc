@@ -31,8 +31,11 @@ constexpr double kNotedShare = 0.1;       // of the matches: fewer that are fixe
 constexpr double kCarrierSpread = 0.25;   // the carrier covers no more of the sphere
 constexpr double kMostlySky = 0.5;        // of the inliers: the sky outvotes the scene
 constexpr double kLowFeatures = 0.1;      // of all features: a common scene has matches there
-constexpr double kFarBaselines = 5.0;     // houses lie within five steps of 5 m across a street
-constexpr double kAsEvident = 0.8;        // sky and scene then agree in one geometry
+constexpr double kStanding = 0.9;         // of what is far and high: no clouds, then
+// Clouds drift by half a degree a second: five degrees in the ten that neighbours are apart at
+// most.
+constexpr double kFarBaselines = 12.0;
+constexpr double kAsEvident = 0.8;  // sky and scene then agree in one geometry
 constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
 
@@ -196,7 +199,7 @@ struct PairView {
     const bool is_scene =
         scene.kind != TwoViewKind::kNone && !ShowsTheCarrierAlone(scene, max_error_rad);
     if (is_scene && kAsEvident * scene.log10_false_alarms < evidence_of_all)
-      return DropSky(Extended(scene, matches));
+      return DropSky(Extended(scene, matches), /*may_stand=*/false);
     if (evidence_of_all <= options.max_log10_false_alarms || !SeesTheGround()) return DropSky(all);
     return TwoViewGeometry{.pair = pair, .num_putative = all.num_putative};
   }
@@ -252,8 +255,9 @@ struct PairView {
     return inliers;
   }
 
-  /// Without what is far and high, which draws the pose along when it drifts.
-  [[nodiscard]] TwoViewGeometry DropSky(TwoViewGeometry geometry) const {
+  /// Without what is far and high, unless it stands still: towers and hills agree with the pose of
+  /// the rest, while what drifts has drawn the pose along.
+  [[nodiscard]] TwoViewGeometry DropSky(TwoViewGeometry geometry, bool may_stand = true) const {
     if (geometry.kind == TwoViewKind::kNone || geometry.kind == TwoViewKind::kPureRotation)
       return geometry;
     const std::vector<FeatureMatch> matches = geometry.inliers;
@@ -267,10 +271,17 @@ struct PairView {
       return geometry;
     }
     const SelectedBearings selected = SelectPairs(pairs, kept);
-    geometry.b_from_a = MinimiseEpipolarResiduals(
+    TwoViewGeometry scene = geometry;
+    scene.b_from_a = MinimiseEpipolarResiduals(
         geometry.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
-    SetInliers(Subset(pairs, kept), matches, geometry);
-    return geometry;
+    std::vector<uint32_t> dropped;
+    std::ranges::set_difference(inliers, kept, std::back_inserter(dropped));
+    const size_t standing = Agreeing(Subset(pairs, dropped), scene).size();
+    if (may_stand &&
+        static_cast<double>(standing) >= kStanding * static_cast<double>(dropped.size()))
+      return geometry;
+    SetInliers(Subset(pairs, kept), matches, scene);
+    return scene;
   }
 };
 
