@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cmath>
 
+#include "core/geometry/epipolar.h"
 #include "core/geometry/sphere_cells.h"
 
 namespace orbweave {
@@ -19,17 +20,31 @@ constexpr double kDeviations = 4.0;
 // A cell is a sixteenth of the sphere, as in SupportOf: what fits into one or two is one thing.
 constexpr int kBands = 4;
 constexpr size_t kMinPlaces = 3;
+// A pair without a point is asked by what its matches say alone: twice as many, as for a bridge.
+constexpr int kMinInliersFactor = 2;
 
 using Places = std::bitset<static_cast<size_t>(kBands* kBands)>;
 
+/// Matches that can bear witness, and those of them that agree with the model.
 struct PairEvidence {
-  size_t shown = 0;  ///< matches whose features both show a point
+  size_t asked = 0;
   size_t explained = 0;
   Places places_a{};  ///< of those that are not explained
   Places places_b{};
+
+  void Count(bool is_explained, const Eigen::Vector3d& p_a, const Eigen::Vector3d& p_b) {
+    ++asked;
+    explained += is_explained ? 1 : 0;
+    if (is_explained) return;
+    places_a.set(SphereCell(p_a, kBands));
+    places_b.set(SphereCell(p_b, kBands));
+  }
 };
 
-PairEvidence EvidenceOf(const MappingState& state, const LinkedPair& pair, double tolerance_px) {
+/// Of the matches whose features both show a point.
+PairEvidence EvidenceOfPoints(const MappingState& state,
+                              const LinkedPair& pair,
+                              double tolerance_px) {
   const CorrespondenceGraph& graph = state.Graph();
   const auto explains = [&](PointIndex point, Node node) {
     return NodeError(state, state.Point(point).position, node) <=
@@ -42,37 +57,62 @@ PairEvidence EvidenceOf(const MappingState& state, const LinkedPair& pair, doubl
     const PointIndex point_a = state.PointOf(a);
     const PointIndex point_b = state.PointOf(b);
     if (point_a == kNoPoint || point_b == kNoPoint) continue;
-    ++evidence.shown;
-    if (point_a == point_b || explains(point_a, b) || explains(point_b, a)) {
-      ++evidence.explained;
-      continue;
-    }
-    evidence.places_a.set(SphereCell(graph.bearing_of_node[a], kBands));
-    evidence.places_b.set(SphereCell(graph.bearing_of_node[b], kBands));
+    evidence.Count(point_a == point_b || explains(point_a, b) || explains(point_b, a),
+                   graph.bearing_of_node[a],
+                   graph.bearing_of_node[b]);
+  }
+  return evidence;
+}
+
+/// Of all matches, by the epipolar planes of the model's pose.
+PairEvidence EvidenceOfPlanes(const MappingState& state,
+                              const LinkedPair& pair,
+                              double tolerance_px) {
+  const CorrespondenceGraph& graph = state.Graph();
+  Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
+  b_from_a.translation.normalize();
+  PairEvidence evidence;
+  for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
+    const Node a = graph.node_of_feature[pair.a][match.a];
+    const Eigen::Vector3d& p_a = graph.bearing_of_node[a];
+    const Eigen::Vector3d& p_b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
+    const bool is_in_plane =
+        SymmetricEpipolarAngle(b_from_a, p_a, p_b) <= AngleFromPixels(state, a, tolerance_px);
+    evidence.Count(is_in_plane && IsInFrontOfBoth(b_from_a, p_a, p_b), p_a, p_b);
   }
   return evidence;
 }
 
 /// More than `kDeviations` standard deviations above what a binomial distribution leads to expect.
 bool IsBeyondChance(const PairEvidence& evidence) {
-  const double expected = kChance * static_cast<double>(evidence.shown);
+  const double expected = kChance * static_cast<double>(evidence.asked);
   const double deviation = std::sqrt(expected * (1.0 - kChance));
   return static_cast<double>(evidence.explained) > 1.0 + expected + kDeviations * deviation;
+}
+
+/// Whether `min_matches` or more speak, in several places of both images, and no more agree with
+/// the model than chance leaves.
+bool IsAgainst(const PairEvidence& evidence, int min_matches) {
+  return evidence.asked >= static_cast<size_t>(min_matches) && !IsBeyondChance(evidence) &&
+         evidence.places_a.count() >= kMinPlaces && evidence.places_b.count() >= kMinPlaces;
 }
 
 }  // namespace
 
 JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options) {
+  const double tolerance_px = kToleranceFactor * options.max_error_px;
   JudgedPairs judged;
   for (const LinkedPair& pair : state.Graph().pairs) {
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;
-    const PairEvidence evidence = EvidenceOf(state, pair, kToleranceFactor * options.max_error_px);
-    const ImagePair ids = state.Problem().pairs[pair.index].pair;
-    if (IsBeyondChance(evidence)) {
-      judged.explained.push_back(ids);
-    } else if (evidence.shown >= static_cast<size_t>(options.min_inliers) &&
-               evidence.places_a.count() >= kMinPlaces && evidence.places_b.count() >= kMinPlaces) {
-      judged.contradicted.push_back(ids);
+    const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
+    const PairEvidence points = EvidenceOfPoints(state, pair, tolerance_px);
+    if (IsBeyondChance(points)) {
+      judged.explained.push_back(geometry.pair);
+    } else if (IsAgainst(points, options.min_inliers) ||
+               (geometry.kind == TwoViewKind::kGeneral &&
+                IsAgainst(EvidenceOfPlanes(state, pair, tolerance_px),
+                          kMinInliersFactor * options.min_inliers))) {
+      judged.contradicted.push_back(geometry.pair);
     }
   }
   return judged;

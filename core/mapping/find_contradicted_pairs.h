@@ -27,7 +27,13 @@ struct JudgedPairs {
 /// are at least options.min_inliers of them, and those the model tears apart are in several places
 /// of both panoramas: one poster, one bus or one plane that fits several poses is no evidence.
 /// Places that look alike make such pairs; in a model folded onto itself the right pairs are among
-/// them. All others are neither.
+/// them.
+///
+/// An image that stands on the wrong side of its neighbour, or far from where it was, takes the
+/// points of the pair away and with them this evidence. So a pair is contradicted too when it has
+/// 2 options.min_inliers matches, no more of all of them than chance lie in the epipolar planes of
+/// the model's pose and in front of both images, and the others are in several places of both.
+/// Pairs of one centre or one plane are not asked. All others are neither.
 [[nodiscard]] JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options);
 
 /// The contradicted ones.

@@ -16,7 +16,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kVersion
     {"match_images", "4"},
     {"verify_matches", "4"},
     {"partition_view_graph", "9"},
-    {"reconstruct_cluster", "5"},
+    {"reconstruct_cluster", "6"},
     {"list_seams", "1"},
     {"fit_seams", "1"},
     {"align_submodels", "4"},

@@ -131,7 +131,8 @@ CrossCheck CheckPairs(const JobResults& results) {
     std::snprintf(text,
                   sizeof text,
                   "%zu of %zu verified pairs between images that follow one another contradict the "
-                  "model, first %s: it is torn or folded onto itself there",
+                  "model, first %s: it is torn or folded onto itself there; compare the two "
+                  "pictures, and take panoramas closer together or leave out what misleads",
                   torn.size(),
                   all,
                   NamesOf(results.manifest, torn.front()).c_str());

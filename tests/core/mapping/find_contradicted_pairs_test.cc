@@ -3,6 +3,7 @@
 
 #include "core/mapping/find_contradicted_pairs.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/geometry/sphere_cells.h"
@@ -10,6 +11,8 @@
 
 namespace orbweave {
 namespace {
+
+using ::testing::Contains;
 
 TEST(FindContradictedPairs, FindsNoneInATrueModel) {
   const StreetFixture street({.centres = StraightWalk(6, 3.0), .outlier_share = 0.1});
@@ -68,6 +71,45 @@ TEST(JudgePairs, OnePosterIsNoEvidence) {
   street.world.problem.pairs.push_back(poster);
   street.graph = BuildCorrespondenceGraph(street.world.problem).value();
   EXPECT_TRUE(FindContradictedPairs(street.TriangulatedStateWith(FirstImages(30)), {}).empty());
+}
+
+/// A street whose image 3 stands on the other side of image 2, with the points that its own pairs
+/// still agree on: those with image 2 have none.
+std::vector<ImagePair> ContradictedWhereAnImageIsOnTheWrongSide(TwoViewKind kind) {
+  StreetFixture street({.centres = StraightWalk(6, 3.0), .points_per_metre = 40});
+  for (TwoViewGeometry& pair : street.world.problem.pairs) pair.kind = kind;
+  street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+  MappingState state(street.world.problem, street.graph);
+  for (const ImageSlot image : FirstImages(6)) {
+    Rigid3 cam_from_world = street.world.cams_from_world[image];
+    if (image == 3) {
+      const Eigen::Vector3d centre = street.world.cams_from_world[2].Centre();
+      cam_from_world.translation =
+          -(cam_from_world.rotation * (2.0 * centre - cam_from_world.Centre()));
+    }
+    state.Register(image, cam_from_world);
+  }
+  return FindContradictedPairs(state, {});
+}
+
+TEST(JudgePairs, PairsThatLostAllTheirPointsContradictAnImageOnTheWrongSide) {
+  EXPECT_THAT(ContradictedWhereAnImageIsOnTheWrongSide(TwoViewKind::kGeneral),
+              Contains(ImagePair{ImageId(2), ImageId(3)}));
+}
+
+TEST(JudgePairs, OneCentreOrOnePlaneSaysNothingOfSides) {
+  EXPECT_TRUE(ContradictedWhereAnImageIsOnTheWrongSide(TwoViewKind::kPureRotation).empty());
+  EXPECT_TRUE(ContradictedWhereAnImageIsOnTheWrongSide(TwoViewKind::kPlanar).empty());
+}
+
+TEST(JudgePairs, ATrueModelWithoutPointsIsNotContradicted) {
+  for (const double spacing_m : {0.3, 3.0}) {
+    const StreetFixture street(
+        {.centres = StraightWalk(6, spacing_m), .points_per_metre = 40, .outlier_share = 0.5});
+    const JudgedPairs judged = JudgePairs(street.StateWith(FirstImages(6)), {});
+    EXPECT_TRUE(judged.contradicted.empty());
+    EXPECT_TRUE(judged.explained.empty());
+  }
 }
 
 }  // namespace
