@@ -32,9 +32,10 @@ constexpr double kCarrierSpread = 0.25;   // the carrier covers no more of the s
 constexpr double kMostlySky = 0.5;        // of the inliers: the sky outvotes the scene
 constexpr double kLowFeatures = 0.1;      // of all features: a common scene has matches there
 constexpr double kStanding = 0.9;         // of what is far and high: no clouds, then
-// Clouds drift by half a degree a second: five degrees in the ten that neighbours are apart at
-// most.
-constexpr double kFarBaselines = 12.0;
+constexpr double kFarBaselines = 5.0;     // houses lie within five steps of 5 m across a street
+// Clouds drift by half a degree a second: in the ten that neighbours are apart at most.
+constexpr double kMaxDrift_rad = 0.087;
+constexpr double kSameScene = 0.5;  // of what is no sky agrees with its pose
 constexpr double kAsEvident = 0.8;  // sky and scene then agree in one geometry
 constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
@@ -188,7 +189,7 @@ struct PairView {
     if (all.kind == TwoViewKind::kNone) return all;
     const std::vector<FeatureMatch> sky = SkyOf(all);
     if (static_cast<double>(sky.size()) < kMostlySky * static_cast<double>(all.inliers.size()))
-      return DropSky(all);
+      return DropSky(all, matches);
     std::vector<FeatureMatch> rest;
     std::ranges::copy_if(matches, std::back_inserter(rest), [&](const FeatureMatch& match) {
       return !std::ranges::binary_search(sky, match);
@@ -199,8 +200,11 @@ struct PairView {
     const bool is_scene =
         scene.kind != TwoViewKind::kNone && !ShowsTheCarrierAlone(scene, max_error_rad);
     if (is_scene && kAsEvident * scene.log10_false_alarms < evidence_of_all)
-      return DropSky(Extended(scene, matches), /*may_stand=*/false);
-    if (evidence_of_all <= options.max_log10_false_alarms || !SeesTheGround()) return DropSky(all);
+      return DropSky(Extended(scene, matches), matches);
+    const auto in_scene = static_cast<double>(Agreeing(Arranged(rest), all).size());
+    if (evidence_of_all <= options.max_log10_false_alarms || !SeesTheGround() ||
+        in_scene >= kSameScene * static_cast<double>(rest.size()))
+      return DropSky(all, matches);
     return TwoViewGeometry{.pair = pair, .num_putative = all.num_putative};
   }
 
@@ -255,9 +259,25 @@ struct PairView {
     return inliers;
   }
 
-  /// Without what is far and high, unless it stands still: towers and hills agree with the pose of
-  /// the rest, while what drifts has drawn the pose along.
-  [[nodiscard]] TwoViewGeometry DropSky(TwoViewGeometry geometry, bool may_stand = true) const {
+  /// Whether what is high and far stands still: of all `putative` matches that are, as towers are,
+  /// nearly all agree with the pose, while clouds drift off most epipolar planes.
+  [[nodiscard]] bool StandsStill(std::span<const FeatureMatch> putative,
+                                 const TwoViewGeometry& scene) const {
+    std::vector<FeatureMatch> far;
+    for (const FeatureMatch& match : putative) {
+      const Vector3d& a = bearings_a[match.a];
+      const Vector3d& b = bearings_b[match.b];
+      const bool hardly_moves = AngleBetween(scene.b_from_a.rotation * a, b) < kMaxDrift_rad;
+      if ((IsHigh(a) || IsHigh(b)) && hardly_moves) far.push_back(match);
+    }
+    return static_cast<double>(Agreeing(Arranged(far), scene).size()) >=
+           kStanding * static_cast<double>(far.size());
+  }
+
+  /// Without what is far and high, which draws the pose along when it drifts. `putative`: of which
+  /// the geometry was found.
+  [[nodiscard]] TwoViewGeometry DropSky(TwoViewGeometry geometry,
+                                        std::span<const FeatureMatch> putative) const {
     if (geometry.kind == TwoViewKind::kNone || geometry.kind == TwoViewKind::kPureRotation)
       return geometry;
     const std::vector<FeatureMatch> matches = geometry.inliers;
@@ -274,12 +294,7 @@ struct PairView {
     TwoViewGeometry scene = geometry;
     scene.b_from_a = MinimiseEpipolarResiduals(
         geometry.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
-    std::vector<uint32_t> dropped;
-    std::ranges::set_difference(inliers, kept, std::back_inserter(dropped));
-    const size_t standing = Agreeing(Subset(pairs, dropped), scene).size();
-    if (may_stand &&
-        static_cast<double>(standing) >= kStanding * static_cast<double>(dropped.size()))
-      return geometry;
+    if (StandsStill(putative, scene)) return geometry;
     SetInliers(Subset(pairs, kept), matches, scene);
     return scene;
   }
