@@ -35,7 +35,10 @@ constexpr double kStanding = 0.9;         // of what is far and high: no clouds,
 constexpr double kFarBaselines = 5.0;     // houses lie within five steps of 5 m across a street
 // Clouds drift by half a degree a second: in the ten that neighbours are apart at most.
 constexpr double kMaxDrift_rad = 0.087;
-constexpr double kSameScene = 0.5;  // of what is no sky agrees with its pose
+// Of what is no sky that many agree with its pose: it was not fitted to them, and one in a hundred
+// would by chance.
+constexpr double kSameScene = 0.5;
+constexpr double kFewInScene = 5.0;
 constexpr double kAsEvident = 0.8;  // sky and scene then agree in one geometry
 constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
@@ -203,7 +206,7 @@ struct PairView {
       return DropSky(Extended(scene, matches), matches);
     const auto in_scene = static_cast<double>(Agreeing(Arranged(rest), all).size());
     if (evidence_of_all <= options.max_log10_false_alarms || !SeesTheGround() ||
-        in_scene >= kSameScene * static_cast<double>(rest.size()))
+        in_scene >= std::max(kFewInScene, kSameScene * static_cast<double>(rest.size())))
       return DropSky(all, matches);
     return TwoViewGeometry{.pair = pair, .num_putative = all.num_putative};
   }
