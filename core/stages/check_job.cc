@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "core/io/group_messages.h"
 #include "core/merging/quantile.h"
 
@@ -236,6 +237,33 @@ bool SpreadBeyondNoise(const std::vector<const PosePrior*>& priors) {
   return std::sqrt(sum_m2 / static_cast<double>(priors.size())) > 3.0 * Quantile(sigmas_m, 0.5);
 }
 
+/// Root mean square distance between positions and truth by their stated sigmas, the median one.
+double StatedDistance(const std::vector<const PosePrior*>& priors) {
+  std::vector<double> distances_m;
+  for (const PosePrior* prior : priors) {
+    distances_m.push_back(
+        std::hypot(prior->horizontal_sigma_m, prior->horizontal_sigma_m, prior->vertical_sigma_m));
+  }
+  return Quantile(std::move(distances_m), 0.5);
+}
+
+/// GNSS that georeferences the model, though most of it disagrees or lies far off.
+void DoubtGnssInUse(const ReportGnss& gnss, double stated_m, CrossCheck& check) {
+  // The median distance is nine tenths of the root mean square one where sigmas are right.
+  constexpr double kTooFar = 2.0;
+  if (2 * gnss.num_inliers < gnss.num_priors) {
+    check.level = CheckLevel::kDoubtful;
+    check.sentence += ": where it stands on earth follows the fewer of them";
+  } else if (gnss.residual_median_m > kTooFar * stated_m) {
+    check.level = CheckLevel::kDoubtful;
+    check.sentence += absl::StrFormat(
+        ", yet lie %.1f m from it in the median where their sigmas state %.1f m: either they are "
+        "that wrong, or the model is bent, folded or of two scales",
+        gnss.residual_median_m,
+        stated_m);
+  }
+}
+
 std::optional<CrossCheck> CheckGnssUse(const JobResults& results, const JobReport& report) {
   constexpr size_t kMinPositions = 4;   // fewer never georeference
   constexpr double kMinAgreeing = 0.7;  // nor does GNSS of which less agree
@@ -251,9 +279,7 @@ std::optional<CrossCheck> CheckGnssUse(const JobResults& results, const JobRepor
     check.value = ShareOf(report.gnss.num_inliers, report.gnss.num_priors);
     check.sentence = CountOf(
         report.gnss.num_inliers, report.gnss.num_priors, "GNSS positions agree with the model");
-    if (2 * report.gnss.num_inliers >= report.gnss.num_priors) return check;
-    check.level = CheckLevel::kDoubtful;
-    check.sentence += ": where it stands on earth follows the fewer of them";
+    DoubtGnssInUse(report.gnss, StatedDistance(priors), check);
     return check;
   }
   check.sentence =

@@ -129,6 +129,21 @@ TEST(JudgeModel, GnssThatMostlyDisagreesIsDoubted) {
   EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kDoubtful);
 }
 
+TEST(JudgeModel, GnssThatAgreesAtTenTimesItsSigmaIsDoubted) {
+  JobResults results = Street(40, {{0, 40}}, true);
+  for (ImageRecord& image : results.manifest.images) {
+    image.prior.horizontal_sigma_m = 2.0;
+    image.prior.vertical_sigma_m = 4.0;
+  }
+  GnssReport& gnss = results.models.front().report.gnss;
+  gnss = {.used = true, .num_priors = 40, .num_inliers = 40, .residual_median_m = 5.0};
+  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  gnss.residual_median_m = 20.0;
+  const JobReport report = BuildJobReport(results);
+  EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
+  EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("20.0 m from it"));
+}
+
 TEST(JudgeModel, GnssThatIsGivenAndNotUsedIsDoubtedUnlessItCouldNotTell) {
   JobResults results = Street(40, {{0, 40}}, true);
   GnssReport& gnss = results.models.front().report.gnss;
