@@ -64,10 +64,10 @@ struct TwoViewOptions {
 /// features than a street. Where half of the inliers are high up and further away than five
 /// baselines, what is left without them decides; where that shows nothing although both panoramas
 /// have features below, there is no geometry. What is high and far beyond the rest is left out
-/// (WithoutSky). Cameras are taken to stand upright to a few degrees; turned otherwise they lose
-/// far matches of one side at most. No geometry has a pair whose inliers are no evidence
-/// (EvidenceOf): that a share of the matches agrees says nothing, since wrong ones are found in any
-/// number.
+/// (WithoutSky) unless it stands still. Cameras are taken to stand upright to a few degrees; turned
+/// otherwise they lose far matches of one side at most. No geometry has a pair whose inliers are no
+/// evidence (EvidenceOf): that a share of the matches agrees says nothing, since wrong ones are
+/// found in any number.
 /// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera
 /// frames; `matches` index into them. Returns kind kNone (and num_putative) when no geometry is
 /// supported. Cancelled when asked to stop. `context.seed` seeds the sampler.
