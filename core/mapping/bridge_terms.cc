@@ -4,9 +4,9 @@
 #include "core/mapping/bridge_terms.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/geometry/rotation.h"
+#include "core/mapping/baseline_length.h"
 
 namespace orbweave {
 namespace {
@@ -14,12 +14,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-/// Relative rotations and directions of weak pairs, those that are left between components, are
-/// good to so much: triplets of right ones close to within 5 degrees.
-constexpr double kTurnSigmaRad = 3.0 * kRadPerDeg;
-constexpr double kDirectionSigmaRad = 5.0 * kRadPerDeg;
-constexpr double kMinSine = 0.02;
 constexpr size_t kFewestLengths = 5;
 
 /// The two nodes of a match: in the image of a, in that of b.
@@ -39,14 +33,6 @@ std::vector<BridgeMatch> MatchesOf(const MappingState& state, const BridgePair& 
                                             : BridgeMatch{second, first});
   }
   return matches;
-}
-
-/// Length s > 0 along the unit direction at which a ray that starts there comes nearest to a point:
-/// (s d - P) x v = 0. Zero: it does not.
-double LengthTo(const Vector3d& point_from_start, const Vector3d& direction, const Vector3d& ray) {
-  const Vector3d across = direction.cross(ray);
-  if (across.norm() < kMinSine) return 0.0;
-  return std::max(0.0, point_from_start.cross(ray).dot(across) / across.squaredNorm());
 }
 
 double MedianLength(std::vector<double>& lengths) {
@@ -179,12 +165,12 @@ BridgeLengths LengthsOf(const MappingState& a, const MappingState& b, const Brid
     if (const PointIndex point = a.PointOf(match.in_a); point != kNoPoint) {
       const Vector3d ray =
           bridge.a_from_b * (cam_b.rotation.conjugate() * graph.bearing_of_node[match.in_b]);
-      in_a.push_back(LengthTo(a.Point(point).position - cam_a.Centre(), towards_b, ray));
+      in_a.push_back(BaselineLength(a.Point(point).position - cam_a.Centre(), towards_b, ray));
     }
     if (const PointIndex point = b.PointOf(match.in_b); point != kNoPoint) {
       const Vector3d ray = bridge.a_from_b.conjugate() *
                            (cam_a.rotation.conjugate() * graph.bearing_of_node[match.in_a]);
-      in_b.push_back(LengthTo(b.Point(point).position - cam_b.Centre(), towards_a, ray));
+      in_b.push_back(BaselineLength(b.Point(point).position - cam_b.Centre(), towards_a, ray));
     }
   }
   return {MedianLength(in_a), MedianLength(in_b)};

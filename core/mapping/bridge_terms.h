@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,11 @@
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {
+
+/// Relative rotations and directions of weak pairs, those that are left between components, are
+/// good to so much: triplets of right ones close to within 5 degrees.
+constexpr double kTurnSigmaRad = 3.0 * std::numbers::pi / 180.0;
+constexpr double kDirectionSigmaRad = 5.0 * std::numbers::pi / 180.0;
 
 /// A verified pair with one image in each of two components.
 struct BridgePair {

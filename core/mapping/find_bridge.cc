@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 #include <set>
 
 #include "core/geometry/rotation.h"
@@ -17,11 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-/// Two sigmas of the turn of a weak pair, as bridge_terms has it.
-constexpr double kMaxTurnRad = 6.0 * kRadPerDeg;
-/// Four sigmas of its direction. A wrong direction comes so near to another in 3 of 100 cases.
-constexpr double kMaxDirectionRad = 20.0 * kRadPerDeg;
+constexpr double kMaxTurnRad = 2.0 * kTurnSigmaRad;
+/// A wrong direction comes so near to another in 3 of 100 cases.
+constexpr double kMaxDirectionRad = 4.0 * kDirectionSigmaRad;
 constexpr double kMinAgreeingMatches = 0.5;
 constexpr double kMaxLogScaleSigma = 0.2;
 constexpr double kMaxPlaceSigma = 0.5;  ///< share of the shortest baseline
@@ -49,7 +46,7 @@ class Bridging {
         options_(options),
         all_(BridgePairsOf(a, b)),
         pairs_(PairsThatTurnAlike(all_, kMaxTurnRad)) {
-    if (pairs_.empty()) return;
+    if (!HasMatchesEnough()) return;
     enu_from_a_ = PlaceOnGnss(a_, ImagesNear(a_, MeanCentre(a_, pairs_, &BridgePair::in_a)));
     origin_in_b_ = MeanCentre(b_, pairs_, &BridgePair::in_b);
     near_in_b_ = ImagesNear(b_, origin_in_b_);
@@ -60,7 +57,7 @@ class Bridging {
   [[nodiscard]] bool HasGnss() const { return !terms_.fixes.empty(); }
 
   std::optional<Sim3> Find() {
-    if (CountMatches(pairs_) < NeededMatches()) return std::nullopt;
+    if (!HasMatchesEnough()) return std::nullopt;
     std::optional<FittedBridge> best;
     for (const Sim3& start : Starts()) {
       const FittedBridge fitted = FitBridge(terms_, start);
@@ -76,6 +73,8 @@ class Bridging {
     for (const BridgePair& pair : pairs) matches += pair.matches;
     return matches;
   }
+
+  [[nodiscard]] bool HasMatchesEnough() const { return CountMatches(pairs_) >= NeededMatches(); }
 
   /// Half of all, and enough in themselves.
   [[nodiscard]] size_t NeededMatches() const {

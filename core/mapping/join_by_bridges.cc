@@ -17,6 +17,7 @@
 #include "core/mapping/find_bridge.h"
 #include "core/mapping/grow_component.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/reconstructed_share.h"
 #include "core/mapping/triangulate_tracks.h"
 
 namespace orbweave {
@@ -35,26 +36,6 @@ void TakeOver(const MappingState& b, const Sim3& a_from_b, MappingState& a) {
     a.Register(image, TransformCamera(a_from_b, b.CamFromWorld(image)));
   for (const PointIndex point : AllPoints(b))
     a.AddPoint(a_from_b * b.Point(point).position, b.Point(point).nodes);
-}
-
-/// Matches of the pairs that have a point in common, and all there are.
-struct CommonMatches {
-  size_t common = 0;
-  size_t all = 0;
-};
-
-CommonMatches CountCommon(const MappingState& state, const std::vector<BridgePair>& bridges) {
-  CommonMatches count;
-  for (const BridgePair& bridge : bridges) {
-    const LinkedPair& pair = state.Graph().pairs[bridge.pair];
-    for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
-      const PointIndex in_a = state.PointOf(state.Graph().node_of_feature[pair.a][match.a]);
-      const PointIndex in_b = state.PointOf(state.Graph().node_of_feature[pair.b][match.b]);
-      ++count.all;
-      count.common += in_a != kNoPoint && in_a == in_b ? 1U : 0U;
-    }
-  }
-  return count;
 }
 
 class Joining {
@@ -173,13 +154,17 @@ class Joining {
       return joined.NumObservations(image) >= static_cast<uint32_t>(options_.min_inliers);
     };
     const auto kept = static_cast<size_t>(std::ranges::count_if(joined.Registered(), has_points));
-    const CommonMatches matches = CountCommon(joined, bridges);
+    size_t matches = 0;
+    size_t common = 0;
+    for (const BridgePair& bridge : bridges) {
+      matches += bridge.matches;
+      common += CountReconstructed(joined, graph_.pairs[bridge.pair]);
+    }
     return static_cast<double>(kept) >=
                kMinKeptImages *
                    static_cast<double>(a.Registered().size() + b.Registered().size()) &&
-           matches.common >= static_cast<size_t>(options_.min_inliers) &&
-           static_cast<double>(matches.common) >=
-               kMinCommonMatches * static_cast<double>(matches.all);
+           common >= static_cast<size_t>(options_.min_inliers) &&
+           static_cast<double>(common) >= kMinCommonMatches * static_cast<double>(matches);
   }
 
   /// Images that no component of several holds may join now.
@@ -189,7 +174,7 @@ class Joining {
       const bool is_other = key != large && key != small;
       if (is_other && components_.at(key).Registered().size() > 1) available[image] = 0;
     }
-    for (RegistrationRecord& record : log_) record.num_attempts = record.visible_at_failure = 0;
+    ResetAttempts(log_);
     ORBWEAVE_RETURN_IF_ERROR(GrowComponent(joined, available, options_, log_, context_).status());
     for (const ImageSlot image : joined.Registered()) {
       const auto single = component_of_.find(image);

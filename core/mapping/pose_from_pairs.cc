@@ -12,6 +12,7 @@
 #include "core/estimators/refine_between_views.h"
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
+#include "core/mapping/baseline_length.h"
 #include "core/robust/false_alarms.h"
 
 namespace orbweave {
@@ -22,7 +23,6 @@ using Eigen::Vector3d;
 constexpr size_t kMaxPairs = 5;
 /// Relative poses are less exact than adjusted ones: hypotheses are judged at this many thresholds.
 constexpr double kSlack = 3.0;
-constexpr double kMinSine = 0.02;
 constexpr size_t kMaxLengths = 100;  ///< per pair that are tried
 constexpr int kRefinementSteps = 20;
 constexpr size_t kMaxExchanges = 64;
@@ -98,11 +98,9 @@ void AddPosesOfPoints(const PairHypothesis& hypothesis,
   const size_t stride = std::max<size_t>(1, correspondences.size() / kMaxLengths);
   for (size_t i = 0; i < correspondences.size(); i += stride) {
     const Vector3d v = R.conjugate() * correspondences.bearings[i];
-    const Vector3d d_cross_v = hypothesis.direction.cross(v);
-    if (d_cross_v.norm() < kMinSine) continue;
-    const Vector3d to_point = correspondences.positions[i] - hypothesis.neighbour_centre;
-    const double s = to_point.cross(v).dot(d_cross_v) / d_cross_v.squaredNorm();
-    if (s <= 0.0) continue;
+    const double s = BaselineLength(
+        correspondences.positions[i] - hypothesis.neighbour_centre, hypothesis.direction, v);
+    if (s == 0.0) continue;
     poses.push_back(Rigid3::FromCentre(R, hypothesis.neighbour_centre + s * hypothesis.direction));
   }
 }

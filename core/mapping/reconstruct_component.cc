@@ -64,13 +64,6 @@ class SpentSeeds {
   std::vector<uint8_t> covered_;
 };
 
-void ResetAttempts(RegistrationLog& log) {
-  for (RegistrationRecord& record : log) {
-    record.num_attempts = 0;
-    record.visible_at_failure = 0;
-  }
-}
-
 /// Grows models from seed pairs and keeps the largest, or the one that `result` holds already.
 absl::Status GrowFromSeeds(const ClusterProblem& problem,
                            const CorrespondenceGraph& graph,

@@ -5,17 +5,20 @@
 
 namespace orbweave {
 
-double ReconstructedShare(const MappingState& state, const LinkedPair& pair) {
-  const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
-  uint32_t common = 0;
-  for (const FeatureMatch& match : geometry.inliers) {
-    const PointIndex point = state.PointOf(state.Graph().node_of_feature[pair.a][match.a]);
-    if (point != kNoPoint &&
-        point == state.PointOf(state.Graph().node_of_feature[pair.b][match.b])) {
+size_t CountReconstructed(const MappingState& state, const LinkedPair& pair) {
+  const CorrespondenceGraph& graph = state.Graph();
+  size_t common = 0;
+  for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
+    const PointIndex point = state.PointOf(graph.node_of_feature[pair.a][match.a]);
+    if (point != kNoPoint && point == state.PointOf(graph.node_of_feature[pair.b][match.b]))
       ++common;
-    }
   }
-  return static_cast<double>(common) / static_cast<double>(geometry.inliers.size());
+  return common;
+}
+
+double ReconstructedShare(const MappingState& state, const LinkedPair& pair) {
+  return static_cast<double>(CountReconstructed(state, pair)) /
+         static_cast<double>(state.Problem().pairs[pair.index].inliers.size());
 }
 
 }  // namespace orbweave

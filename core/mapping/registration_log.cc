@@ -5,6 +5,13 @@
 
 namespace orbweave {
 
+void ResetAttempts(RegistrationLog& log) {
+  for (RegistrationRecord& record : log) {
+    record.num_attempts = 0;
+    record.visible_at_failure = 0;
+  }
+}
+
 std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) {
   if (record.dropped) return "lost its points again in the adjustment";
   if (record.best_inliers < record.needed_inliers) {
