@@ -14,8 +14,8 @@ namespace orbweave {
 
 /// Relative rotations and directions of weak pairs, those that are left between components, are
 /// good to so much: triplets of right ones close to within 5 degrees.
-constexpr double kTurnSigmaRad = 3.0 * std::numbers::pi / 180.0;
-constexpr double kDirectionSigmaRad = 5.0 * std::numbers::pi / 180.0;
+constexpr double kTurnSigmaRad = 3.0 * (std::numbers::pi / 180.0);
+constexpr double kDirectionSigmaRad = 5.0 * (std::numbers::pi / 180.0);
 
 /// A verified pair with one image in each of two components.
 struct BridgePair {
