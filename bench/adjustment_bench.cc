@@ -12,9 +12,13 @@
 
 #include "core/base/random.h"
 #include "core/bundle/adjust_bundle.h"
-#include "core/distributed_bundle/adjust_in_blocks.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
+#include "core/bundle/bundle_report.h"
 #include "core/geometry/rotation.h"
+#include "core/partitioned_ba/adjust_partitioned.h"
 #include "core/synthetic/corridor.h"
+#include "core/synthetic/make_corridor.h"
 
 /// Adjustment of a synthetic corridor (seed 1, noise 0.5 px of 5400). `step_per_observation` is the
 /// time of one Levenberg-Marquardt step over the number of observations, set-up included;
@@ -118,15 +122,15 @@ void BM_AdjustLongCorridor(benchmark::State& state) {
                 {.max_iterations = 10, .function_tolerance = 1e-16, .initial_lambda = 1e-8});
 }
 
-/// The same path of steps, block by block: consecutive panoramas in equal shares. `message_bytes`
-/// is the largest system that a block sends per step.
-void BM_AdjustInBlocks(benchmark::State& state) {
+/// The same path of steps, subproblem by subproblem: consecutive panoramas in equal shares.
+/// `message_bytes` is the largest system that a subproblem sends per step.
+void BM_AdjustPartitioned(benchmark::State& state) {
   const BundleProblem start = CorridorProblem(static_cast<int>(state.range(0)), {});
-  const auto num_blocks = static_cast<uint32_t>(state.range(1));
+  const auto num_subproblems = static_cast<uint32_t>(state.range(1));
   const size_t num_poses = start.cams_from_world.size();
   std::vector<uint32_t> owners;
   for (size_t pose = 0; pose < num_poses; ++pose) {
-    owners.push_back(static_cast<uint32_t>(pose * num_blocks / num_poses));
+    owners.push_back(static_cast<uint32_t>(pose * num_subproblems / num_poses));
   }
   int64_t steps = 0;
   size_t message_bytes = 0;
@@ -134,10 +138,10 @@ void BM_AdjustInBlocks(benchmark::State& state) {
     state.PauseTiming();
     BundleProblem problem = start;
     state.ResumeTiming();
-    const absl::StatusOr<BlockwiseReport> report =
-        AdjustInBlocks(problem, owners, num_blocks, {.initial_lambda = 1e-8}, {});
+    const absl::StatusOr<PartitionedReport> report =
+        AdjustPartitioned(problem, owners, num_subproblems, {.initial_lambda = 1e-8}, {});
     steps += report->bundle.iterations;
-    const std::vector<size_t>& bytes = report->message_bytes_of_block;
+    const std::vector<size_t>& bytes = report->message_bytes_of_subproblem;
     message_bytes = *std::max_element(bytes.begin(), bytes.end());
   }
   CountSteps(state, start, steps);
@@ -170,7 +174,7 @@ BENCHMARK_CAPTURE(BM_AdjustCorridor,
                   BundleLoss::kLeastSquares)
     ->Arg(400)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_AdjustInBlocks)
+BENCHMARK(BM_AdjustPartitioned)
     ->Args({400, 1})
     ->Args({400, 4})
     ->Args({400, 16})

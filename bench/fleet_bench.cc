@@ -72,7 +72,7 @@ double PeakMegabytesOf(pid_t process) {
 }
 
 /// One job to its end.
-LightFaults RunJob(CoordinatorApi& api, testing::LightFleet& fleet, uint64_t first, size_t tasks) {
+LightFaults RunJob(ClientApi& api, testing::LightFleet& fleet, uint64_t first, size_t tasks) {
   const std::vector<Digest> recipes = testing::WideRecipes(first, tasks);
   const auto job = api.SubmitJob(*testing::PrepareWideJob(api, recipes));
   ORBWEAVE_CHECK(job.ok());
@@ -86,12 +86,23 @@ LightFaults RunJob(CoordinatorApi& api, testing::LightFleet& fleet, uint64_t fir
   return *faults;
 }
 
+/// What all slots cost the coordinator that wait for a task, in CPU seconds per second.
+double CostOfWaiting(pid_t coordinator) {
+  constexpr double kSettle_s = 5.0;
+  constexpr double kTime_s = 10.0;
+  std::this_thread::sleep_for(std::chrono::duration<double>(kSettle_s));
+  const double start_s = CpuSecondsOf(coordinator);
+  std::this_thread::sleep_for(std::chrono::duration<double>(kTime_s));
+  return (CpuSecondsOf(coordinator) - start_s) / kTime_s;
+}
+
 int Measure(const FleetOptions& options) {
   const TemporaryFolder folder;
   Command coordinator({"/proc/self/exe", "coordinate", folder.Path()});
   ORBWEAVE_CHECK(WaitUntil([&] { return !coordinator.ErrSoFar().empty(); }, 60.0));
   GrpcCoordinatorClient client("unix:" + (folder / "s"));
   testing::LightFleet fleet(folder / "s", folder.Path(), options.workers, options.task_s);
+  const double waiting = CostOfWaiting(coordinator.Pid());
   const SteadyClock clock;
   const double start_s = clock.NowSeconds();
   const double cpu_start_s = CpuSecondsOf(coordinator.Pid());
@@ -107,8 +118,9 @@ int Measure(const FleetOptions& options) {
   const double cpu_s = CpuSecondsOf(coordinator.Pid()) - cpu_start_s;
   std::puts(
       "| workers | tasks | minutes | tasks / s | lost | doubled | coordinator, CPU ms per task "
-      "| coordinator, peak MB |\n|---|---|---|---|---|---|---|---|");
-  std::printf("| %u | %llu | %.1f | %.0f | %llu | %llu | %.2f | %.0f |\n",
+      "| coordinator, CPU ms per s while all wait | coordinator, peak MB "
+      "|\n|---|---|---|---|---|---|---|---|---|");
+  std::printf("| %u | %llu | %.1f | %.0f | %llu | %llu | %.2f | %.1f | %.0f |\n",
               options.workers,
               static_cast<unsigned long long>(tasks),
               wall_s / 60.0,
@@ -116,6 +128,7 @@ int Measure(const FleetOptions& options) {
               static_cast<unsigned long long>(faults.lost),
               static_cast<unsigned long long>(faults.doubled),
               1000.0 * cpu_s / static_cast<double>(tasks),
+              1000.0 * waiting,
               PeakMegabytesOf(coordinator.Pid()));
   std::fflush(stdout);  // many files are to be removed yet
   return faults.lost + faults.doubled == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -13,10 +13,16 @@
 #include <cmath>
 
 #include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/estimators/compare_poses.h"
 #include "core/estimators/estimate_two_view.h"
+#include "core/estimators/two_view_options.h"
+#include "core/mapping/cluster_problem.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/reconstruct_cluster.h"
 #include "core/synthetic/corridor.h"
+#include "core/synthetic/make_corridor.h"
 
 namespace orbweave {
 namespace {
@@ -86,20 +92,20 @@ void Mapping(benchmark::State& state) {
                                                                : MappingStart::kGlobal};
   for (auto _ : state) {
     const auto result = ReconstructCluster(problem, options, {});
-    if (!result.ok() || result->components.empty()) {
+    if (!result.ok() || result->submodels.empty()) {
       state.SkipWithError("no reconstruction");
       break;
     }
     std::vector<Rigid3> cams;
     std::vector<Rigid3> truth;
-    for (const auto& [id, image] : result->components[0].images) {
+    for (const auto& [id, image] : result->submodels[0].images) {
       cams.push_back(image.cam_from_world);
       truth.push_back(corridor.cams_from_world[id.value]);
     }
     state.counters["registered"] = static_cast<double>(cams.size());
     state.counters["rms_px"] = result->residual_rms_px;
     state.counters["window_mm"] = WindowRmseMm(cams, truth);
-    state.counters["observations"] = static_cast<double>(result->components[0].NumObservations());
+    state.counters["observations"] = static_cast<double>(result->submodels[0].NumObservations());
   }
 }
 BENCHMARK(Mapping)

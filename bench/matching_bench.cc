@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/features/match_descriptors.h"
-#include "core/features/nearest_two.h"
+#include "core/features/find_nearest_two.h"
+#include "core/features/match_guided.h"
 
 namespace orbweave {
 namespace {

@@ -12,6 +12,7 @@
 #include "core/estimators/estimate_absolute_pose.h"
 #include "core/estimators/estimate_two_view.h"
 #include "core/estimators/triangulate_rays.h"
+#include "core/estimators/two_view_options.h"
 #include "tests/support/random_world.h"
 
 namespace orbweave {

@@ -46,8 +46,8 @@ CLI::Option* AddTlsArgument(CLI::App& command, std::string& tls_folder) {
       "--tls", tls_folder, "Folder with ca.crt, own.crt and own.key (see orbweave keys)");
 }
 
-absl::StatusOr<std::unique_ptr<CoordinatorApi>> Connect(const CoordinatorArgument& argument,
-                                                        const ConnectOptions& options) {
+absl::StatusOr<std::unique_ptr<ClientApi>> Connect(const CoordinatorArgument& argument,
+                                                   const ConnectOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(argument.Check());
   const double patience_s = argument.patience_s.value_or(options.patience_s);
   const auto say = [patience_s](const absl::Status& away) {
@@ -57,7 +57,6 @@ absl::StatusOr<std::unique_ptr<CoordinatorApi>> Connect(const CoordinatorArgumen
   return std::make_unique<PatientCoordinator>(
       std::make_unique<GrpcCoordinatorClient>(
           argument.address,
-          options.stop,
           ClientOptions{.tls_folder = argument.tls_folder, .roots = options.roots}),
       Patience{
           .address = argument.address, .wait_s = patience_s, .stop = options.stop, .on_away = say});

@@ -47,7 +47,7 @@ struct ConnectOptions {
 
 /// The coordinator, whose absence is waited through (PatientCoordinator) and told on stderr; errors
 /// of calls name its address. InvalidArgument, NotFound: the TLS folder is not whole.
-[[nodiscard]] absl::StatusOr<std::unique_ptr<CoordinatorApi>> Connect(
+[[nodiscard]] absl::StatusOr<std::unique_ptr<ClientApi>> Connect(
     const CoordinatorArgument& argument, const ConnectOptions& options = {});
 
 }  // namespace orbweave

@@ -11,7 +11,7 @@
 #include "cli/fetch_results.h"
 #include "cli/finished_job.h"
 #include "core/base/clock.h"
-#include "core/io/colmap_database.h"
+#include "core/io/write_colmap_database.h"
 
 namespace orbweave {
 namespace {
@@ -22,7 +22,7 @@ struct ExportArguments {
   DatabaseCameraModel camera = DatabaseCameraModel::kEquirectangular;
 };
 
-absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& arguments) {
+absl::Status ExportDatabase(ClientApi& coordinator, const ExportArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, LastFinishedJob(coordinator, arguments.output));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
                             coordinator.GetOutcomes(job.id));
@@ -34,7 +34,7 @@ absl::Status ExportDatabase(CoordinatorApi& coordinator, const ExportArguments& 
   for (const Digest& name : names) {
     ORBWEAVE_ASSIGN_OR_RETURN(features.emplace_back(), FetchFeatures(coordinator, name));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto pairs, FetchVerifiedPairs(coordinator, outcomes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto pairs, FetchVerifiedPairs(coordinator, job.spec, outcomes));
   ORBWEAVE_RETURN_IF_ERROR(
       WriteColmapDatabase(arguments.database, manifest, features, pairs, arguments.camera));
   std::printf("%zu images and %zu verified pairs written to %s\n",

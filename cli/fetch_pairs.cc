@@ -3,62 +3,34 @@
 #include "cli/fetch_pairs.h"
 
 #include <algorithm>
-#include <set>
-#include <string>
 #include <utility>
 
-#include "core/pipeline/job_plan.h"
-#include "proto/codec/recipes_codec.h"
-#include "proto/codec/two_view_codec.h"
+#include "stages/codecs.h"
+#include "stages/job_reader.h"
+#include "stages/partition_view_graph/stage.h"
+#include "stages/plans.h"
 
 namespace orbweave {
-namespace {
 
-const std::set<std::string> kMatchStages = {"match_images", "verify_matches"};
-
-/// The recipes of all parts of the stages that match pairs.
-absl::StatusOr<std::vector<Digest>> MatchRecipes(CoordinatorApi& coordinator,
-                                                 const JobSpec& job,
-                                                 const std::vector<TaskOutcome>& outcomes) {
-  std::vector<Digest> recipes;
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(job.kind));
-  for (const StageRule& rule : plan.stages) {
-    if (!kMatchStages.contains(rule.stage)) continue;
-    if (rule.parts_listed_in) {
-      ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes,
-                                coordinator.Get(job.inputs.at(*rule.parts_listed_in)));
-      ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed, DecodeCollection(bytes));
-      recipes.insert(recipes.end(), listed.begin(), listed.end());
-    }
-    for (const TaskOutcome& outcome : outcomes) {
-      if (outcome.stage != rule.parts_from) continue;
-      recipes.insert(recipes.end(), outcome.result.recipes.begin(), outcome.result.recipes.end());
-    }
-  }
-  return recipes;
-}
-
-}  // namespace
-
-absl::StatusOr<JobPairs> FetchPairs(CoordinatorApi& coordinator,
+absl::StatusOr<JobPairs> FetchPairs(BlobAccess& coordinator,
                                     const JobSpec& job,
                                     const std::vector<TaskOutcome>& outcomes,
                                     const std::function<bool(const ImagePair&)>& wanted) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(job.kind));
+  JobReader reader(plan, job, outcomes, coordinator);
   JobPairs pairs;
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> recipes,
-                            MatchRecipes(coordinator, job, outcomes));
+                            reader.RecipesBehind(&PartitionViewGraphStage::verified));
   for (const Digest& digest : recipes) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, coordinator.Get(digest));
-    ORBWEAVE_ASSIGN_OR_RETURN(MatchRecipe recipe, DecodeMatchRecipe(bytes));
+    ORBWEAVE_ASSIGN_OR_RETURN(MatchRecipe recipe, reader.Fetch<MatchRecipe>(digest));
     for (MatchRecipe::Pair& pair : recipe.pairs) {
       if (wanted(pair.pair)) pairs.tried.push_back(std::move(pair));
     }
   }
-  for (const TaskOutcome& outcome : outcomes) {
-    if (!kMatchStages.contains(outcome.stage) || outcome.result.outputs.empty()) continue;
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes,
-                              coordinator.Get(outcome.result.outputs.front()));
-    ORBWEAVE_ASSIGN_OR_RETURN(std::vector<TwoViewGeometry> part, DecodeTwoViewGeometries(bytes));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> verified,
+                            reader.List(&PartitionViewGraphStage::verified));
+  for (const Digest& digest : verified) {
+    ORBWEAVE_ASSIGN_OR_RETURN(auto part, reader.Fetch<std::vector<TwoViewGeometry>>(digest));
     for (TwoViewGeometry& geometry : part) {
       if (wanted(geometry.pair)) pairs.verified.push_back(std::move(geometry));
     }

@@ -5,9 +5,10 @@
 #include <functional>
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/artifacts/recipes.h"
+#include "core/pipeline/blob_access.h"
+#include "core/pipeline/job_api.h"
 #include "core/scene/two_view_geometry.h"
-#include "core/stages/recipes.h"
 
 namespace orbweave {
 
@@ -21,7 +22,7 @@ struct JobPairs {
 /// The pairs of which `wanted` is true; one blob is open at a time. Without results of the stages
 /// that choose and match pairs: none.
 [[nodiscard]] absl::StatusOr<JobPairs> FetchPairs(
-    CoordinatorApi& coordinator,
+    BlobAccess& coordinator,
     const JobSpec& job,
     const std::vector<TaskOutcome>& outcomes,
     const std::function<bool(const ImagePair&)>& wanted);

@@ -5,10 +5,11 @@
 #include <map>
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/blob_access.h"
+#include "core/pipeline/job_api.h"
+#include "core/report/job_results.h"
 #include "core/scene/features.h"
 #include "core/scene/two_view_geometry.h"
-#include "core/stages/build_job_report.h"
 
 namespace orbweave {
 
@@ -24,24 +25,23 @@ class ModelListener {
 };
 
 /// The results of a finished job, fetched and decoded; models go by `listener`, which may be null.
-[[nodiscard]] absl::StatusOr<JobResults> FetchResults(CoordinatorApi& coordinator,
+[[nodiscard]] absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
                                                       const JobSpec& job,
                                                       const std::vector<TaskOutcome>& outcomes,
                                                       ModelListener* listener);
 
 /// The names of every image's features, in id order.
 [[nodiscard]] absl::StatusOr<std::vector<Digest>> FetchFeatureNames(
-    CoordinatorApi& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes);
+    BlobAccess& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes);
 
-[[nodiscard]] absl::StatusOr<Features> FetchFeatures(CoordinatorApi& coordinator,
-                                                     const Digest& name);
+[[nodiscard]] absl::StatusOr<Features> FetchFeatures(BlobAccess& coordinator, const Digest& name);
 
 /// All verified pairs, sorted.
 [[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> FetchVerifiedPairs(
-    CoordinatorApi& coordinator, const std::vector<TaskOutcome>& outcomes);
+    BlobAccess& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes);
 
 /// The manifest alone: the job may still be running.
-[[nodiscard]] absl::StatusOr<ImageManifest> FetchManifest(CoordinatorApi& coordinator,
+[[nodiscard]] absl::StatusOr<ImageManifest> FetchManifest(BlobAccess& coordinator,
                                                           const JobSpec& job,
                                                           const std::vector<TaskOutcome>& outcomes);
 

@@ -5,10 +5,11 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/status.h"
 
 namespace orbweave {
 
-absl::StatusOr<JobStatus> FindJob(CoordinatorApi& coordinator, const std::string& prefix) {
+absl::StatusOr<JobStatus> FindJob(JobApi& coordinator, const std::string& prefix) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
   const JobStatus* found = nullptr;
   for (const JobStatus& job : jobs) {

@@ -4,13 +4,12 @@
 
 #include <string>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 
 namespace orbweave {
 
 /// The job whose id begins with `prefix` (hexadecimal digits). NotFound: none; InvalidArgument:
 /// several; else the codes of ListJobs.
-[[nodiscard]] absl::StatusOr<JobStatus> FindJob(CoordinatorApi& coordinator,
-                                                const std::string& prefix);
+[[nodiscard]] absl::StatusOr<JobStatus> FindJob(JobApi& coordinator, const std::string& prefix);
 
 }  // namespace orbweave

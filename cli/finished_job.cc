@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "stages/plans.h"
+
 namespace orbweave {
 namespace {
 
@@ -20,7 +22,7 @@ bool NeedsWorkers(const JobStatus& job) {
 }
 
 /// The job once a coordinator that has just been opened has found its finished tasks again.
-absl::StatusOr<JobStatus> Settled(CoordinatorApi& coordinator, const Digest& id) {
+absl::StatusOr<JobStatus> Settled(JobApi& coordinator, const Digest& id) {
   constexpr auto kPause = std::chrono::milliseconds(20);
   for (;;) {
     ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus job, coordinator.GetJob(id));
@@ -37,10 +39,11 @@ absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& out
   if (!std::filesystem::is_directory(state)) {
     return absl::NotFoundError(output + " is not the output folder of a job (no .orbweave in it)");
   }
-  return Coordinator::Open({.state_dir = state, .leases_survive = false}, clock);
+  return Coordinator::Open({.state_dir = state, .leases_survive = false, .find_plan = FindJobPlan},
+                           clock);
 }
 
-absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator, const std::string& output) {
+absl::StatusOr<JobStatus> LastFinishedJob(JobApi& coordinator, const std::string& output) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
   for (auto listed = jobs.rbegin(); listed != jobs.rend(); ++listed) {
     ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, Settled(coordinator, listed->id));

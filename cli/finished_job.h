@@ -15,7 +15,7 @@ namespace orbweave {
                                                                         const Clock& clock);
 
 /// The last finished job of a coordinator that was just opened. FailedPrecondition: there is none.
-[[nodiscard]] absl::StatusOr<JobStatus> LastFinishedJob(CoordinatorApi& coordinator,
+[[nodiscard]] absl::StatusOr<JobStatus> LastFinishedJob(JobApi& coordinator,
                                                         const std::string& output);
 
 }  // namespace orbweave

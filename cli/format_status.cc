@@ -41,6 +41,7 @@ std::string FormatJobLine(const JobStatus& status) {
 std::string FormatJobStatus(const JobStatus& status) {
   std::string text = FormatJobLine(status);
   if (!status.error.empty()) absl::StrAppend(&text, "  ", PrintableText(status.error, "\n"), "\n");
+  if (!status.unmet.empty()) absl::StrAppend(&text, "  waits: ", PrintableText(status.unmet), "\n");
   absl::StrAppend(&text,
                   absl::StrFormat("  %-22s %13s %8s %8s %8s %12s %12s\n",
                                   "stage",
@@ -106,6 +107,7 @@ std::string JobStatusToJson(const JobStatus& status) {
   const nlohmann::json job = {{"id", status.id.ToHex()},
                               {"state", std::string(JobStateName(status.state))},
                               {"error", status.error},
+                              {"unmet", status.unmet},
                               {"label", status.spec.label},
                               {"elapsed_s", status.elapsed_s},
                               {"fraction", view.fraction},

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 
 namespace orbweave {
 

@@ -28,8 +28,8 @@ std::string GnssLine(const JobReport& report) {
   if (!gnss.outliers.empty())
     absl::StrAppend(&line, "; ", gnss.outliers.size(), " contradicted, see report.html");
   if (report.models > 1) line += " (model 0)";
-  if (gnss.bend_m == 0.0) return line;
-  return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.bend_m);
+  if (gnss.deformation_m == 0.0) return line;
+  return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.deformation_m);
 }
 
 std::string SigmaLine(const JobReport& report) {

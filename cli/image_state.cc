@@ -4,7 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/stages/build_job_report.h"
+#include "core/report/build_job_report.h"
 
 namespace orbweave {
 namespace {

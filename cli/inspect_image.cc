@@ -14,7 +14,7 @@
 #include "cli/image_state.h"
 #include "cli/tracks_of_images.h"
 #include "core/io/printable_text.h"
-#include "core/stages/build_job_report.h"
+#include "core/report/build_job_report.h"
 
 namespace orbweave {
 namespace {
@@ -38,7 +38,7 @@ absl::StatusOr<ImageFacts> GatherFacts(InspectedJob& job, ImageId image) {
   ImageFacts facts{.image = image};
   ORBWEAVE_ASSIGN_OR_RETURN(
       facts.pairs,
-      FetchPairs(job.coordinator(), job.status().spec, job.outcomes(), [&](const ImagePair& pair) {
+      FetchPairs(job.blobs(), job.status().spec, job.outcomes(), [&](const ImagePair& pair) {
         return pair.a == image || pair.b == image;
       }));
   std::ranges::stable_sort(facts.pairs.verified, std::ranges::greater{}, [](const auto& geometry) {
@@ -46,7 +46,7 @@ absl::StatusOr<ImageFacts> GatherFacts(InspectedJob& job, ImageId image) {
   });
   ORBWEAVE_RETURN_IF_ERROR(job.FeatureNames().status());
   ORBWEAVE_ASSIGN_OR_RETURN(facts.features,
-                            FetchFeatures(job.coordinator(), job.FeatureNames()->at(image.value)));
+                            FetchFeatures(job.blobs(), job.FeatureNames()->at(image.value)));
   TracksOfImages tracks({image});
   ORBWEAVE_ASSIGN_OR_RETURN(facts.results, job.Results(tracks));
   if (facts.results) facts.report = BuildJobReport(*facts.results);

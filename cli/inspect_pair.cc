@@ -16,8 +16,8 @@
 #include "core/drawing/draw_pair.h"
 #include "core/geometry/rotation.h"
 #include "core/io/printable_text.h"
-#include "core/stages/inspect_pair.h"
-#include "core/stages/pair_seed.h"
+#include "stages/match_images/inspect_pair.h"
+#include "stages/match_images/pair_seed.h"
 
 namespace orbweave {
 namespace {
@@ -79,7 +79,7 @@ absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId 
   PairFacts facts{.pair = pair, .is_swapped = second < first};
   ORBWEAVE_ASSIGN_OR_RETURN(
       const JobPairs pairs,
-      FetchPairs(job.coordinator(), job.status().spec, job.outcomes(), [&](const ImagePair& each) {
+      FetchPairs(job.blobs(), job.status().spec, job.outcomes(), [&](const ImagePair& each) {
         return each == pair;
       }));
   facts.was_tried = !pairs.tried.empty();
@@ -87,8 +87,8 @@ absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId 
   ORBWEAVE_RETURN_IF_ERROR(job.FeatureNames().status());
   const Digest name_a = job.FeatureNames()->at(pair.a.value);
   const Digest name_b = job.FeatureNames()->at(pair.b.value);
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features a, FetchFeatures(job.coordinator(), name_a));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features b, FetchFeatures(job.coordinator(), name_b));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features a, FetchFeatures(job.blobs(), name_a));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features b, FetchFeatures(job.blobs(), name_b));
   std::optional<TwoViewGeometry> verified;
   if (facts.was_verified) verified = pairs.verified.front();
   ORBWEAVE_ASSIGN_OR_RETURN(
@@ -274,10 +274,8 @@ absl::StatusOr<std::string> Draw(InspectedJob& job, PairFacts& facts) {
   const ImagePair& pair = facts.pair;
   const PairInspection& inspection = facts.inspection;
   const std::vector<Digest>& names = *job.FeatureNames();
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features a,
-                            FetchFeatures(job.coordinator(), names[pair.a.value]));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features b,
-                            FetchFeatures(job.coordinator(), names[pair.b.value]));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features a, FetchFeatures(job.blobs(), names[pair.a.value]));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features b, FetchFeatures(job.blobs(), names[pair.b.value]));
   const Eigen::Quaterniond& R = inspection.geometry.b_from_a.rotation;
   PairPicture picture{
       .a = job.Picture(facts.First(), facts.remark),

@@ -12,7 +12,7 @@
 namespace orbweave {
 namespace {
 
-absl::StatusOr<JobStatus> JobToInspect(CoordinatorApi& coordinator, const std::string& output) {
+absl::StatusOr<JobStatus> JobToInspect(JobApi& coordinator, const std::string& output) {
   absl::StatusOr<JobStatus> finished = LastFinishedJob(coordinator, output);
   if (finished.ok() || !absl::IsFailedPrecondition(finished.status())) return finished;
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
@@ -21,7 +21,7 @@ absl::StatusOr<JobStatus> JobToInspect(CoordinatorApi& coordinator, const std::s
 }
 
 /// One name per image, or why there is none.
-absl::StatusOr<std::vector<Digest>> NamesOfFeatures(CoordinatorApi& coordinator,
+absl::StatusOr<std::vector<Digest>> NamesOfFeatures(BlobAccess& coordinator,
                                                     const JobStatus& job,
                                                     const std::vector<TaskOutcome>& outcomes,
                                                     size_t num_images) {

@@ -10,7 +10,7 @@
 #include "cli/fetch_results.h"
 #include "coordinator/coordinator.h"
 #include "core/drawing/picture_image.h"
-#include "core/stages/pipeline_options.h"
+#include "stages/pipeline_options.h"
 
 namespace orbweave {
 
@@ -22,7 +22,7 @@ class InspectedJob {
   [[nodiscard]] static absl::StatusOr<std::unique_ptr<InspectedJob>> Open(const std::string& output,
                                                                           const Clock& clock);
 
-  [[nodiscard]] CoordinatorApi& coordinator() { return *coordinator_; }
+  [[nodiscard]] BlobAccess& blobs() { return *coordinator_; }
   [[nodiscard]] const JobStatus& status() const { return status_; }
   [[nodiscard]] const std::vector<TaskOutcome>& outcomes() const { return outcomes_; }
   [[nodiscard]] const PipelineOptions& options() const { return options_; }

@@ -57,14 +57,14 @@ absl::Status EnrolWhereNeeded(const CoordinatorArgument& coordinator,
         "a join token needs --tls: the folder to keep the certificate in");
   }
   RefusedHandshake handshake(coordinator.address, folder.path, Caller::kStranger);
-  return RetryWhileUnavailable(
-      stop,
-      [&] { return handshake.Explain(Enroll(coordinator.address, token, name, folder)); },
-      [](const absl::Status& why) {
-        LogToStderr({.level = LogLevel::kWarning,
-                     .event = "coordinator_away",
-                     .message = std::string(why.message())});
-      });
+  const auto say = [](const absl::Status& why) {
+    LogToStderr({.level = LogLevel::kWarning,
+                 .event = "coordinator_away",
+                 .message = std::string(why.message())});
+    return true;
+  };
+  return Retry({.stop = stop, .goes_on = say},
+               [&] { return handshake.Explain(Enroll(coordinator.address, token, name, folder)); });
 }
 
 }  // namespace orbweave

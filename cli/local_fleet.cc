@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -16,13 +15,15 @@
 #include "absl/strings/str_cat.h"
 #include "cli/event_log.h"
 #include "coordinator/listen_address.h"
+#include "core/base/sleep.h"
+#include "worker/machine_offers.h"
 
 namespace orbweave {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds kLook{50};
+constexpr double kLook_s = 0.05;
 /// What a worker gets between SIGTERM and SIGKILL to give its task back.
 constexpr std::chrono::seconds kGrace{5};
 
@@ -31,10 +32,13 @@ constexpr std::chrono::seconds kGrace{5};
 absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOptions& options) {
   std::unique_ptr<LocalFleet> fleet(new LocalFleet(options));
   ORBWEAVE_RETURN_IF_ERROR(fleet->OpenCoordinator());
+  const WorkerOffers machine = OffersOfMachine();
   const std::string logs = options.coordinator.state_dir + "/logs";
   for (uint32_t k = 1; k <= options.workers; ++k) {
     const std::string name = absl::StrCat("worker-", k);
-    fleet->members_.push_back({.name = name, .log_path = absl::StrCat(logs, "/", name, ".log")});
+    fleet->members_.push_back({.name = name,
+                               .log_path = absl::StrCat(logs, "/", name, ".log"),
+                               .offers = ShareOf(machine, k - 1, options.workers)});
   }
   fleet->supervisor_ =
       std::jthread([raw = fleet.get()](const std::stop_token& stop) { raw->Supervise(stop); });
@@ -100,6 +104,10 @@ absl::Status LocalFleet::StartMember(Member& member) const {
                                               BlobFolderOf(options_.coordinator.state_dir),
                                               "--threads",
                                               absl::StrCat(options_.threads_per_worker),
+                                              "--memory",
+                                              absl::StrCat(member.offers.memory_bytes),
+                                              "--gpus",
+                                              absl::StrCat(member.offers.gpus),
                                               "--grace",
                                               "0",
                                               "--parent-pid",
@@ -110,8 +118,6 @@ absl::Status LocalFleet::StartMember(Member& member) const {
 }
 
 void LocalFleet::Supervise(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any never;
   for (Member& member : members_) {
     const absl::Status started = StartMember(member);
     const std::lock_guard lock(mutex_);
@@ -119,8 +125,7 @@ void LocalFleet::Supervise(const std::stop_token& stop) {
   }
   while (!stop.stop_requested()) {
     ReviveDead();
-    std::unique_lock lock(mutex);
-    never.wait_for(lock, stop, kLook, [] { return false; });
+    SleepUnlessStopped(kLook_s, stop);
   }
   EndMembers();
 }
@@ -153,7 +158,7 @@ void LocalFleet::EndMembers() {
   for (Member& member : members_) {
     while (member.process.IsRunning() && !member.process.PollEnd() &&
            std::chrono::steady_clock::now() < deadline) {
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(std::chrono::duration<double>(kLook_s));
     }
   }
   members_.clear();  // kills who is left

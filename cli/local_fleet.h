@@ -37,7 +37,7 @@ class LocalFleet {
   /// Ends the workers (running tasks are given back), then the coordinator.
   ~LocalFleet();
 
-  [[nodiscard]] CoordinatorApi& coordinator() { return *coordinator_; }
+  [[nodiscard]] ClientApi& coordinator() { return *coordinator_; }
   [[nodiscard]] const std::string& address() const { return server_->address(); }
   [[nodiscard]] uint32_t restarts() const;
 
@@ -50,6 +50,7 @@ class LocalFleet {
   struct Member {
     std::string name{};
     std::string log_path{};
+    WorkerOffers offers{};
     ChildProcess process{};
   };
 

@@ -30,7 +30,8 @@
 #include "cli/synth_command.h"
 #include "cli/work_command.h"
 #include "core/pipeline/build_version.h"
-#include "worker/stage_table.h"
+#include "stages/plans.h"
+#include "stages/registry.h"
 
 int main(int argc, char** argv) {
   ::setenv("GRPC_VERBOSITY", "NONE", 0);  // what goes wrong is said in our own words
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version",
                        [] { return "orbweave " + std::string(orbweave::BuildVersion()); });
   app.require_subcommand(1);
-  const orbweave::StageLookup stages = orbweave::FindStage;
+  const orbweave::StageLookup stages = orbweave::FindStageFunction;
   orbweave::SelectedCommand selected;
   orbweave::AddRunCommand(app, selected);
   orbweave::AddReconstructCommand(app, selected);
@@ -52,7 +53,7 @@ int main(int argc, char** argv) {
   orbweave::AddOptionsCommand(app, selected);
   orbweave::AddSynthCommand(app, selected);
   orbweave::AddKeysCommand(app, selected);
-  orbweave::AddServeCommand(app, selected);
+  orbweave::AddServeCommand(app, selected, orbweave::FindJobPlan);
   orbweave::AddWorkCommand(app, selected);
   orbweave::AddExecTasksCommand(app, selected, stages);
   orbweave::AddSubmitCommand(app, selected);

@@ -6,9 +6,10 @@
 
 #include "cli/fetch_results.h"
 #include "cli/finished_job.h"
-#include "cli/prepare_job.h"
 #include "cli/run_local_job.h"
-#include "core/stages/build_job_report.h"
+#include "core/report/build_job_report.h"
+#include "core/report/job_results.h"
+#include "stages/prepare_job.h"
 #include "worker/peak_memory.h"
 
 namespace orbweave {
@@ -21,7 +22,7 @@ double ProcessCpuSeconds() {
 }
 
 /// What the coordinator keeps of a job, whenever it ran.
-absl::StatusOr<JobMeasurement> Recorded(CoordinatorApi& coordinator, const JobStatus& job) {
+absl::StatusOr<JobMeasurement> Recorded(ClientApi& coordinator, const JobStatus& job) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
                             coordinator.GetOutcomes(job.id));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobResults results,
@@ -43,14 +44,14 @@ absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
                                                   const std::string& folder) {
   JobMeasurement measurement;
   double cpu_start_s = 0.0;
-  const auto prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
+  const auto prepare = [&](BlobDepot& coordinator, const StageContext& context) {
     absl::StatusOr<JobSpec> spec = PrepareDatabaseJob(
         coordinator, corridor + "/corridor.db", corridor + "/gnss.csv", "", options, context);
     RestartPeakMemory();
     cpu_start_s = ProcessCpuSeconds();
     return spec;
   };
-  const auto conclude = [&](CoordinatorApi& coordinator, const JobStatus& job) -> absl::Status {
+  const auto conclude = [&](ClientApi& coordinator, const JobStatus& job) -> absl::Status {
     const double coordinator_cpu_s = ProcessCpuSeconds() - cpu_start_s;
     const uint64_t coordinator_peak_bytes = PeakMemoryBytes();
     ORBWEAVE_ASSIGN_OR_RETURN(measurement, Recorded(coordinator, job));

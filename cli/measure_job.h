@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/pipeline/measure_overhead.h"
-#include "core/stages/pipeline_options.h"
+#include "stages/pipeline_options.h"
 
 namespace orbweave {
 

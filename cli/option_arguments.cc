@@ -3,7 +3,7 @@
 #include "cli/option_arguments.h"
 
 #include "core/io/file.h"
-#include "core/stages/preset_options.h"
+#include "stages/preset_options.h"
 
 namespace orbweave {
 

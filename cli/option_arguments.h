@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/stages/pipeline_options.h"
+#include "stages/pipeline_options.h"
 
 namespace orbweave {
 

@@ -3,7 +3,10 @@
 
 #include "cli/patient_coordinator.h"
 
+#include <algorithm>
 #include <chrono>
+#include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "worker/retry.h"
@@ -16,27 +19,90 @@ bool IsAway(const absl::Status& status) {
   return absl::IsUnavailable(status) || absl::IsCancelled(status);
 }
 
+/// Hands the pieces of a blob on that come by several attempts, each of which begins anew: every
+/// byte once.
+class ResumedTaking {
+ public:
+  /// `take` outlives it.
+  explicit ResumedTaking(const TakePiece& take) : take_(take) {}
+
+  /// What the next attempt gives its pieces to.
+  [[nodiscard]] TakePiece Begin() {
+    return [this, seen_bytes = uint64_t{0}](std::string_view piece) mutable {
+      const uint64_t again = std::min<uint64_t>(piece.size(), taken_bytes_ - seen_bytes);
+      seen_bytes += piece.size();
+      piece.remove_prefix(again);
+      if (piece.empty()) return absl::OkStatus();
+      taken_bytes_ += piece.size();
+      taken_.Add(piece);
+      refused_ = take_(piece);
+      return refused_;
+    };
+  }
+  [[nodiscard]] const absl::Status& refused() const { return refused_; }
+  /// The digest of what was taken. No attempt knows it: it has seen its own bytes alone.
+  [[nodiscard]] Digest Finish() { return taken_.Finish(); }
+
+ private:
+  const TakePiece& take_;
+  uint64_t taken_bytes_ = 0;
+  DigestBuilder taken_;
+  absl::Status refused_;
+};
+
+/// The pieces of a blob for several attempts, as long as they get no further than the first piece:
+/// of a call that finds nobody gRPC has asked for one.
+class ResumedGiving {
+ public:
+  /// `next` outlives it.
+  explicit ResumedGiving(const NextPiece& next) : next_(next) {}
+
+  [[nodiscard]] NextPiece Begin() {
+    return [this, is_first = true]() mutable -> absl::StatusOr<std::string_view> {
+      if (std::exchange(is_first, false) && asked_ == 1) return std::string_view(first_);
+      const absl::StatusOr<std::string_view> piece = next_();
+      if (++asked_ > 1 || !piece.ok()) return piece;
+      first_ = *piece;
+      return std::string_view(first_);
+    };
+  }
+  [[nodiscard]] bool CanBeginAgain() const { return asked_ <= 1; }
+
+ private:
+  const NextPiece& next_;
+  size_t asked_ = 0;
+  std::string first_;
+};
+
 }  // namespace
+
+absl::Status PatientCoordinator::Away(const absl::Status& why) const {
+  return absl::UnavailableError(
+      absl::StrCat("no coordinator answers at ", patience_.address, ": ", why.message()));
+}
+
+void PatientCoordinator::SayAway(const absl::Status& why) {
+  if (!is_away_.exchange(true) && patience_.on_away) patience_.on_away(Away(why));
+}
 
 template <typename Call>
 auto PatientCoordinator::Wait(Call&& call) -> decltype(call()) {
   using Clock = std::chrono::steady_clock;
   const auto give_up = Clock::now() + std::chrono::duration<double>(patience_.wait_s);
-  Backoff backoff;
-  while (true) {
-    auto answer = call();
-    const absl::Status status = internal::StatusOf(answer);
-    if (!IsAway(status)) {
-      is_away_ = false;
-      return answer;
-    }
-    const absl::Status away = absl::UnavailableError(
-        absl::StrCat("no coordinator answers at ", patience_.address, ": ", status.message()));
-    if (Clock::now() >= give_up) return away;
-    if (!is_away_.exchange(true) && patience_.on_away) patience_.on_away(away);
-    if (!backoff.Wait(patience_.stop))
-      return absl::CancelledError("interrupted while the coordinator was away");
+  bool is_given_up = false;
+  const auto goes_on = [&](const absl::Status& why) {
+    is_given_up = Clock::now() >= give_up;
+    if (!is_given_up) SayAway(why);
+    return !is_given_up;
+  };
+  auto answer = Retry({.stop = patience_.stop, .is_passing = IsAway, .goes_on = goes_on}, call);
+  const absl::Status status = internal::StatusOf(answer);
+  if (!IsAway(status)) {
+    is_away_ = false;
+    return answer;
   }
+  if (is_given_up) return Away(status);
+  return absl::CancelledError("interrupted while the coordinator was away");
 }
 
 absl::StatusOr<std::string> PatientCoordinator::Get(const Digest& digest) {
@@ -47,35 +113,34 @@ absl::StatusOr<Digest> PatientCoordinator::Put(std::string_view bytes) {
   return Wait([&] { return api_->Put(bytes); });
 }
 
-absl::StatusOr<JoinReply> PatientCoordinator::Join(const WorkerInfo& worker) {
-  return Wait([&] { return api_->Join(worker); });
+absl::Status PatientCoordinator::Read(const Digest& digest, const TakePiece& take) {
+  ResumedTaking taking(take);
+  // Who takes the pieces is not the coordinator: its error is the end, whichever it is.
+  absl::Status refused;
+  const absl::Status read = Wait([&]() -> absl::Status {
+    const absl::Status status = api_->Read(digest, taking.Begin());
+    refused = taking.refused();
+    return refused.ok() ? status : absl::OkStatus();
+  });
+  ORBWEAVE_RETURN_IF_ERROR(read);
+  ORBWEAVE_RETURN_IF_ERROR(refused);
+  if (taking.Finish() == digest) return absl::OkStatus();
+  return absl::UnavailableError(absl::StrCat("blob ", digest.ToShortHex(), " arrived damaged"));
 }
 
-absl::StatusOr<std::optional<Lease>> PatientCoordinator::LeaseTask(uint64_t session,
-                                                                   uint32_t slot,
-                                                                   double wait_s) {
-  return Wait([&] { return api_->LeaseTask(session, slot, wait_s); });
-}
-
-absl::StatusOr<HeartbeatReply> PatientCoordinator::Heartbeat(
-    uint64_t session, const std::vector<LeaseProgress>& leases) {
-  return Wait([&] { return api_->Heartbeat(session, leases); });
-}
-
-absl::Status PatientCoordinator::CompleteTask(uint64_t session,
-                                              const Lease& lease,
-                                              const TaskResult& result) {
-  return Wait([&] { return api_->CompleteTask(session, lease, result); });
-}
-
-absl::Status PatientCoordinator::FailTask(uint64_t session,
-                                          const Lease& lease,
-                                          const absl::Status& error) {
-  return Wait([&] { return api_->FailTask(session, lease, error); });
-}
-
-absl::Status PatientCoordinator::Leave(uint64_t session) {
-  return Wait([&] { return api_->Leave(session); });
+absl::Status PatientCoordinator::Write(const Digest& digest,
+                                       uint64_t size_bytes,
+                                       const NextPiece& next) {
+  ResumedGiving giving(next);
+  absl::Status cut_off;
+  const absl::Status written = Wait([&]() -> absl::Status {
+    absl::Status status = api_->Write(digest, size_bytes, giving.Begin());
+    if (giving.CanBeginAgain()) return status;
+    cut_off = std::move(status);
+    return absl::OkStatus();
+  });
+  ORBWEAVE_RETURN_IF_ERROR(written);
+  return absl::IsUnavailable(cut_off) ? Away(cut_off) : cut_off;
 }
 
 absl::Status PatientCoordinator::DrainWorker(const std::string& name) {

@@ -25,27 +25,21 @@ struct Patience {
 /// dropped when it stopped (Cancelled), is repeated, as all calls may be. Unavailable: it was away
 /// for all of `wait_s`; Cancelled: `stop` came first. Else the codes of the call. Thread-safe when
 /// the coordinator and `on_away` are.
-class PatientCoordinator final : public CoordinatorApi {
+class PatientCoordinator final : public ClientApi {
  public:
-  PatientCoordinator(std::unique_ptr<CoordinatorApi> coordinator, Patience patience)
+  PatientCoordinator(std::unique_ptr<ClientApi> coordinator, Patience patience)
       : api_(std::move(coordinator)), patience_(std::move(patience)) {}
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
-
-  [[nodiscard]] absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) override;
-  [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
-                                                               uint32_t slot,
-                                                               double wait_s) override;
-  [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(
-      uint64_t session, const std::vector<LeaseProgress>& leases) override;
-  [[nodiscard]] absl::Status CompleteTask(uint64_t session,
-                                          const Lease& lease,
-                                          const TaskResult& result) override;
-  [[nodiscard]] absl::Status FailTask(uint64_t session,
-                                      const Lease& lease,
-                                      const absl::Status& error) override;
-  [[nodiscard]] absl::Status Leave(uint64_t session) override;
+  /// Goes on where it was when the coordinator was away in its middle. Also Unavailable: what was
+  /// taken is damaged.
+  [[nodiscard]] absl::Status Read(const Digest& digest, const TakePiece& take) override;
+  /// Is repeated as long as the first piece alone was asked for: the others are not to be had
+  /// again, and who is cut off there finds the coordinator Unavailable at once.
+  [[nodiscard]] absl::Status Write(const Digest& digest,
+                                   uint64_t size_bytes,
+                                   const NextPiece& next) override;
 
   [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
   [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
@@ -67,8 +61,11 @@ class PatientCoordinator final : public CoordinatorApi {
   /// What `call()` answers once the coordinator is there.
   template <typename Call>
   [[nodiscard]] auto Wait(Call&& call) -> decltype(call());
+  /// Tells once that the coordinator is away, and why.
+  void SayAway(const absl::Status& why);
+  [[nodiscard]] absl::Status Away(const absl::Status& why) const;
 
-  std::unique_ptr<CoordinatorApi> api_;
+  std::unique_ptr<ClientApi> api_;
   Patience patience_;
   std::atomic<bool> is_away_{false};
 };

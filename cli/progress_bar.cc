@@ -49,19 +49,18 @@ ProgressBar::~ProgressBar() { Finish(); }
 
 void ProgressBar::Update(const JobStatus& status) {
   const ProgressView view = ViewProgress(status);
+  const std::string what =
+      status.unmet.empty() ? FormatView(view) : "waits: " + PrintableText(status.unmet);
   const std::string percent = absl::StrFormat("%3.0f %%", 100.0 * view.fraction);
   if (is_terminal_) {
-    std::fprintf(out_,
-                 "\r\033[K%s %s  %s",
-                 Bar(view.fraction).c_str(),
-                 percent.c_str(),
-                 FormatView(view).c_str());
+    std::fprintf(
+        out_, "\r\033[K%s %s  %s", Bar(view.fraction).c_str(), percent.c_str(), what.c_str());
     line_is_open_ = true;
   } else if (IsWorthALine(view, status.elapsed_s)) {
     std::fprintf(out_,
                  "%s  %s  after %s\n",
                  percent.c_str(),
-                 FormatView(view).c_str(),
+                 what.c_str(),
                  FormatDuration(status.elapsed_s).c_str());
     last_stage_ = view.stage;
     last_line_s_ = status.elapsed_s;

@@ -9,8 +9,8 @@
 #include "cli/fail_on_argument.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
-#include "cli/prepare_job.h"
 #include "cli/run_local_job.h"
+#include "stages/prepare_job.h"
 
 namespace orbweave {
 namespace {
@@ -29,7 +29,7 @@ absl::Status Run(const RunArguments& arguments) {
   return RunLocalJob({.output = arguments.output,
                       .workers = arguments.workers,
                       .fail_on = arguments.fail_on,
-                      .prepare = [&](CoordinatorApi& coordinator, const StageContext& context) {
+                      .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
                         return PrepareImageJob(
                             coordinator, arguments.scan, arguments.clusters, options, context);
                       }});

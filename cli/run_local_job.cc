@@ -10,6 +10,7 @@
 #include "cli/stop_signals.h"
 #include "cli/write_outputs.h"
 #include "core/io/file.h"
+#include "stages/plans.h"
 
 namespace orbweave {
 namespace {
@@ -36,7 +37,7 @@ absl::Status Interrupted(const std::string& output) {
                               ", the same command goes on from there");
 }
 
-absl::Status WriteAndSummarize(CoordinatorApi& coordinator,
+absl::Status WriteAndSummarize(ClientApi& coordinator,
                                const JobStatus& status,
                                const LocalJob& job) {
   const std::string& output = job.output;
@@ -54,8 +55,9 @@ absl::Status WriteAndSummarize(CoordinatorApi& coordinator,
 absl::Status RunLocalJob(const LocalJob& job) {
   const StopSignals signals;
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(job.output));
-  const LocalFleetOptions fleet_options{.coordinator = {.state_dir = job.output + "/.orbweave"},
-                                        .workers = job.workers};
+  const LocalFleetOptions fleet_options{
+      .coordinator = {.state_dir = job.output + "/.orbweave", .find_plan = FindJobPlan},
+      .workers = job.workers};
   ORBWEAVE_ASSIGN_OR_RETURN(const auto fleet, LocalFleet::Start(fleet_options));
   const StageContext context{.stop = signals.token()};
   const absl::StatusOr<JobSpec> spec = job.prepare(fleet->coordinator(), context);

@@ -16,9 +16,9 @@ struct LocalJob {
   uint32_t workers = 2;
   FailOn fail_on{};  ///< of the verdict
   /// Makes the job's inputs known to the coordinator and describes it.
-  std::function<absl::StatusOr<JobSpec>(CoordinatorApi&, const StageContext&)> prepare{};
+  std::function<absl::StatusOr<JobSpec>(BlobDepot&, const StageContext&)> prepare{};
   /// What becomes of the finished job. Empty: writes the outputs and prints a summary on stdout.
-  std::function<absl::Status(CoordinatorApi&, const JobStatus&)> conclude{};
+  std::function<absl::Status(ClientApi&, const JobStatus&)> conclude{};
 };
 
 /// Runs one job with a coordinator in this process and worker processes on this machine, shows its

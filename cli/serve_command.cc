@@ -3,9 +3,7 @@
 
 #include "cli/serve_command.h"
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -20,6 +18,7 @@
 #include "coordinator/journal_meter.h"
 #include "coordinator/metrics_server.h"
 #include "coordinator/postgres_journal.h"
+#include "core/base/sleep.h"
 
 namespace orbweave {
 namespace {
@@ -31,13 +30,6 @@ struct ServeOptions {
   ServerOptions server{};
   CoordinatorOptions coordinator{};
 };
-
-void WaitForStop(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait(lock, stop, [] { return false; });
-}
 
 /// To stderr for who watches the process, and to a file beside the state for who comes later.
 absl::StatusOr<EventLog> OpenLog(const std::string& state_dir, MetricsCounters& counters) {
@@ -97,7 +89,7 @@ absl::Status Serve(const ServeOptions& options) {
   log({.event = "coordinator_ready",
        .message =
            absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
-  WaitForStop(end.get_token());
+  SleepUntilStopped(end.get_token());
   ORBWEAVE_RETURN_IF_ERROR(coordinator->health());  // workers stay, for the other coordinator
   coordinator->BeginShutdown();
   log({.event = "coordinator_stops",
@@ -107,10 +99,11 @@ absl::Status Serve(const ServeOptions& options) {
 
 }  // namespace
 
-void AddServeCommand(CLI::App& app, SelectedCommand& selected) {
+void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup& find_plan) {
   CLI::App* command =
       app.add_subcommand("serve", "Run a coordinator: give the tasks of jobs to workers that join");
   const auto options = std::make_shared<ServeOptions>();
+  options->coordinator.find_plan = find_plan;
   command->add_option("--listen", options->listen, "unix:/path or host:port (port 0: any free one)")
       ->required();
   command

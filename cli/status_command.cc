@@ -27,8 +27,7 @@ struct StatusOptions {
   bool watch = false;
 };
 
-absl::StatusOr<std::vector<JobStatus>> WantedJobs(CoordinatorApi& coordinator,
-                                                  const std::string& prefix) {
+absl::StatusOr<std::vector<JobStatus>> WantedJobs(JobApi& coordinator, const std::string& prefix) {
   if (prefix.empty()) return coordinator.ListJobs();
   ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, FindJob(coordinator, prefix));
   return std::vector<JobStatus>{std::move(job)};
@@ -51,7 +50,7 @@ void Redraw(const JobStatus& job) {
 
 /// Follows the job asked for, or the last submitted one, to its end: on a terminal as a table that
 /// is drawn anew, elsewhere by a line now and then.
-absl::Status Watch(CoordinatorApi& coordinator, const JobStatus& job, const std::stop_token& stop) {
+absl::Status Watch(JobApi& coordinator, const JobStatus& job, const std::stop_token& stop) {
   ProgressBar bar(stderr);
   const bool is_terminal = ::isatty(STDOUT_FILENO) == 1;
   const auto show = [&](const JobStatus& status) {

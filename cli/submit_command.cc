@@ -13,13 +13,13 @@
 #include "cli/format_summary.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
-#include "cli/prepare_job.h"
 #include "cli/progress_bar.h"
 #include "cli/root_argument.h"
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
 #include "cli/write_outputs.h"
 #include "core/io/file.h"
+#include "stages/prepare_job.h"
 
 namespace orbweave {
 namespace {
@@ -34,7 +34,7 @@ struct SubmitArguments {
   OptionArguments options{};
 };
 
-absl::Status WaitAndWrite(CoordinatorApi& coordinator,
+absl::Status WaitAndWrite(ClientApi& coordinator,
                           const Digest& job,
                           const SubmitArguments& arguments,
                           const std::stop_token& stop) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/tracks_of_images.h"
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bearing_error.h"
 
 namespace orbweave {
 

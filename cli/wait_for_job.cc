@@ -3,33 +3,23 @@
 
 #include "cli/wait_for_job.h"
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include "core/base/sleep.h"
+#include "core/base/status.h"
 
 namespace orbweave {
-namespace {
 
-void Pause(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, std::chrono::milliseconds(200), [] { return false; });
-}
-
-}  // namespace
-
-absl::StatusOr<JobStatus> WaitForJob(CoordinatorApi& coordinator,
+absl::StatusOr<JobStatus> WaitForJob(JobApi& coordinator,
                                      const Digest& job,
                                      const JobListener& listener,
                                      const std::function<absl::Status()>& check,
                                      const std::stop_token& stop) {
+  constexpr double kPause_s = 0.2;
   while (!stop.stop_requested()) {
     ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status, coordinator.GetJob(job));
     if (listener) listener(status);
     if (status.state != JobState::kRunning) return status;
     if (check) ORBWEAVE_RETURN_IF_ERROR(check());
-    Pause(stop);
+    SleepUnlessStopped(kPause_s, stop);
   }
   return absl::CancelledError(
       "interrupted; what is finished is kept, the same command goes on from here");

@@ -5,7 +5,7 @@
 #include <functional>
 #include <stop_token>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 
 namespace orbweave {
 
@@ -15,7 +15,7 @@ using JobListener = std::function<void(const JobStatus&)>;
 /// Waits until a job is done, failed or cancelled and returns its last status, whichever it is.
 /// Errors: what `check` returns when it is not OK (asked every time); Cancelled when `stop` came
 /// first (the job goes on); those of GetJob.
-[[nodiscard]] absl::StatusOr<JobStatus> WaitForJob(CoordinatorApi& coordinator,
+[[nodiscard]] absl::StatusOr<JobStatus> WaitForJob(JobApi& coordinator,
                                                    const Digest& job,
                                                    const JobListener& listener,
                                                    const std::function<absl::Status()>& check,

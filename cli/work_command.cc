@@ -19,6 +19,7 @@
 #include "worker/certificate_keeper.h"
 #include "worker/grpc_coordinator_client.h"
 #include "worker/grpc_enrollment_client.h"
+#include "worker/machine_offers.h"
 #include "worker/task_process.h"
 
 namespace orbweave {
@@ -70,6 +71,24 @@ void AddTaskLimits(CLI::App& command, TaskLimits& limits) {
       ->transform(CLI::AsSizeValue(false));
 }
 
+/// What was said on the command line, the rest as this machine has it.
+WorkerOffers OffersOf(const WorkOptions& options) {
+  const WorkerOffers machine = OffersOfMachine();
+  return {.memory_bytes = options.memory_bytes.value_or(machine.memory_bytes),
+          .threads = options.worker.slots * static_cast<uint32_t>(options.worker.threads_per_task),
+          .gpus = options.gpus.value_or(machine.gpus)};
+}
+
+void AddOffers(CLI::App& command, WorkOptions& options) {
+  command
+      .add_option("--memory",
+                  options.memory_bytes,
+                  "Memory for all tasks together, in bytes or as in 64GiB; tasks that ask for more "
+                  "go elsewhere (default: what this machine has)")
+      ->transform(CLI::AsSizeValue(false));
+  command.add_option("--gpus", options.gpus, "GPUs for tasks (default: those of this machine)");
+}
+
 absl::Status Work(const WorkOptions& options) {
   if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
   const StopSignals signals;
@@ -79,18 +98,19 @@ absl::Status Work(const WorkOptions& options) {
   ORBWEAVE_RETURN_IF_ERROR(options.join.Check());
   const auto keeper = KeepCertificate(options.join);
   WorkerOptions worker = options.worker;
+  worker.offers = OffersOf(options);
   if (worker.name.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(worker.name, DefaultName(options.join));
   }
-  GrpcCoordinatorClient coordinator(
-      options.join.address, signals.token(), {.tls_folder = options.join.tls_folder});
+  GrpcCoordinatorClient coordinator(options.join.address, {.tls_folder = options.join.tls_folder});
   LogToStderr({.event = "worker_started",
                .worker = worker.name,
                .message = absl::StrCat("coordinator=", options.join.address)});
   const auto make_executor = [&options, &clock] {
     return std::make_unique<TaskProcess>(options.task_limits, clock);
   };
-  const absl::Status status = RunWorker(coordinator, make_executor, worker, signals.token());
+  const absl::Status status =
+      RunWorker(coordinator, coordinator, make_executor, worker, signals.token());
   LogToStderr({.level = status.ok() ? LogLevel::kInfo : LogLevel::kError,
                .event = "worker_ended",
                .worker = worker.name,
@@ -129,6 +149,7 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       options->worker.blob_folder,
       "The folder blobs in the coordinator's state folder, as this machine sees it; "
       "they are then read and written there and do not go through the coordinator");
+  AddOffers(*command, *options);
   AddTaskLimits(*command, options->task_limits);
   command
       ->add_option("--parent-pid", options->parent_pid, "End when this process, its parent, ends")

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cli/command.h"
@@ -16,7 +18,9 @@ struct WorkOptions {
   std::string token_path{};  ///< file of a join token; empty: none, or in the environment
   WorkerOptions worker{};
   TaskLimits task_limits{};
-  int parent_pid = 0;  ///< when given, the worker dies with that process
+  std::optional<uint64_t> memory_bytes{};  ///< offered; nothing: what the machine has
+  std::optional<uint32_t> gpus{};          ///< the same
+  int parent_pid = 0;                      ///< when given, the worker dies with that process
 };
 
 /// Declares the options of `orbweave work`. What the worker can do is up to `exec-tasks`.

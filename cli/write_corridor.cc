@@ -7,9 +7,10 @@
 
 #include "absl/strings/str_format.h"
 #include "core/io/cameras_csv.h"
-#include "core/io/colmap_database.h"
 #include "core/io/file.h"
+#include "core/io/write_colmap_database.h"
 #include "core/synthetic/corridor.h"
+#include "core/synthetic/make_corridor.h"
 
 namespace orbweave {
 namespace {

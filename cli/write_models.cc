@@ -12,7 +12,7 @@ namespace orbweave {
 
 namespace fs = std::filesystem;
 
-ModelWriter::ModelWriter(CoordinatorApi& coordinator,
+ModelWriter::ModelWriter(BlobAccess& coordinator,
                          std::vector<Digest> feature_names,
                          fs::path folder)
     : coordinator_(coordinator),

@@ -19,7 +19,7 @@ namespace orbweave {
 class ModelWriter final : public ModelListener {
  public:
   /// `feature_names` as of FetchFeatureNames; `coordinator` outlives the object.
-  ModelWriter(CoordinatorApi& coordinator,
+  ModelWriter(BlobAccess& coordinator,
               std::vector<Digest> feature_names,
               std::filesystem::path folder);
 
@@ -34,7 +34,7 @@ class ModelWriter final : public ModelListener {
  private:
   [[nodiscard]] absl::Status AddImages();
 
-  CoordinatorApi& coordinator_;
+  BlobAccess& coordinator_;
   std::vector<Digest> feature_names_;
   std::filesystem::path folder_;
   absl::Status status_;  ///< of the folders

@@ -16,6 +16,7 @@
 #include "core/io/trace_json.h"
 #include "core/io/trajectory_geojson.h"
 #include "core/pipeline/build_version.h"
+#include "core/report/build_job_report.h"
 
 namespace orbweave {
 namespace {
@@ -64,7 +65,7 @@ absl::Status WritePoseFiles(const JobReport& report,
   return WriteFileAtomically(geojson_path, geojson);
 }
 
-absl::Status WriteTrace(CoordinatorApi& coordinator,
+absl::Status WriteTrace(JobApi& coordinator,
                         const Digest& job,
                         const std::filesystem::path& folder) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskTiming> timings, coordinator.GetTimings(job));
@@ -83,7 +84,7 @@ absl::Status WriteTrace(CoordinatorApi& coordinator,
 
 }  // namespace
 
-absl::StatusOr<JobReport> WriteOutputs(CoordinatorApi& coordinator,
+absl::StatusOr<JobReport> WriteOutputs(ClientApi& coordinator,
                                        const JobStatus& status,
                                        const std::string& folder) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,

@@ -10,7 +10,9 @@ endif()
 
 find_program(ORBWEAVE_CCACHE ccache)
 if(ORBWEAVE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${ORBWEAVE_CCACHE}")
+  # What ccache overlooks to take precompiled headers (OrbweavePch.cmake); no source of the house says __TIME__.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    "${CMAKE_COMMAND}" -E env "CCACHE_SLOPPINESS=pch_defines,time_macros" "${ORBWEAVE_CCACHE}")
 endif()
 
 add_library(orbweave_warnings INTERFACE)
@@ -24,6 +26,10 @@ endif()
 
 # The same source gives the same bits: no contraction of a*b+c that depends on the call site.
 add_compile_options(-ffp-contract=off)
+
+# The code of tests is optimised little: assertions are long to compile and quick to run. What they test is
+# in libraries, which are optimised as users have them.
+set(ORBWEAVE_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 if(ORBWEAVE_SANITIZE)
   add_compile_options(-fsanitize=${ORBWEAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -13,7 +13,7 @@
 namespace orbweave {
 namespace {
 
-absl::StatusOr<JobNeeds> NeedsOfAllJobs(const JobDesk::FindPlan& find_plan,
+absl::StatusOr<JobNeeds> NeedsOfAllJobs(const PlanLookup& find_plan,
                                         BlobStore& blobs,
                                         Journal& journal) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> jobs, journal.LoadJobs());
@@ -42,7 +42,7 @@ bool IsComplete(const TaskResult& result, const BlobStore& blobs) {
 }  // namespace
 
 absl::StatusOr<GarbageReport> CollectGarbage(const GarbageOptions& options,
-                                             const JobDesk::FindPlan& find_plan,
+                                             const PlanLookup& find_plan,
                                              BlobStore& blobs,
                                              Journal& journal) {
   if (!std::isfinite(options.unused_s) || options.unused_s < 0.0)

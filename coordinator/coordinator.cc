@@ -39,8 +39,9 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
                             options.open_journal(options.state_dir));
   std::unique_ptr<Coordinator> coordinator(
       new Coordinator(options, clock, std::move(lock), std::move(blobs), std::move(journal)));
-  ORBWEAVE_RETURN_IF_ERROR(coordinator->desk_.Resume(options.leases_survive));
+  ORBWEAVE_RETURN_IF_ERROR(coordinator->job_service_.Resume(options.leases_survive));
   coordinator->planner_.Start();
+  coordinator->matchmaker_.Start();
   coordinator->watch_.emplace(
       *coordinator->journal_,
       options.lease_s * kBeat,
@@ -63,8 +64,11 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
                    .log = options.log,
                    .changed = [this] { Wake(); }},
                   journal_->generation()),
-      desk_(mutex_, dispatcher_, *journal_, options.find_plan, options.max_running_jobs, clock),
-      planner_(mutex_, dispatcher_, desk_, blobs_, *journal_, clock) {}
+      job_service_(
+          mutex_, dispatcher_, *journal_, options.find_plan, options.max_running_jobs, clock),
+      planner_(mutex_, dispatcher_, job_service_, blobs_, *journal_, clock),
+      matchmaker_(
+          mutex_, dispatcher_, clock, [this](uint64_t session) { return CheckTaker(session); }) {}
 
 Coordinator::~Coordinator() { BeginShutdown(); }
 
@@ -124,12 +128,12 @@ void Coordinator::BeginShutdown() {
 }
 
 void Coordinator::Wake() {
-  if (dispatcher_.MayHaveWork()) changed_.notify_all();
+  if (dispatcher_.MayHaveWork()) matchmaker_.Wake();
   planner_.Wake();
 }
 
 void Coordinator::WakeAll() {
-  changed_.notify_all();
+  matchmaker_.WakeAll();
   planner_.Wake();
 }
 

@@ -3,16 +3,16 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include "coordinator/dispatcher.h"
-#include "coordinator/job_desk.h"
+#include "coordinator/job_service.h"
 #include "coordinator/journal.h"
 #include "coordinator/journal_watch.h"
+#include "coordinator/matchmaker.h"
 #include "coordinator/open_journal.h"
 #include "coordinator/planner.h"
 #include "coordinator/state_lock.h"
@@ -32,7 +32,7 @@ struct CoordinatorOptions {
       20.0;  ///< a worker silent for so long loses its tasks; it beats ten times as often
   uint32_t max_running_jobs = 1000;  ///< more are not taken
   RetryPolicy retry{};
-  JobDesk::FindPlan find_plan = FindJobPlan;
+  PlanLookup find_plan = FindNoPlan;
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
       open_journal = OpenJournal;
   EventLog log{};
@@ -45,8 +45,8 @@ struct CoordinatorOptions {
 /// The coordinator: gives tasks to workers that ask, takes each result once, and remembers jobs,
 /// leases and results. A lease is durable before it is handed out, a result before it is
 /// acknowledged. Opened again on the same state it goes on where it was: a task whose result and
-/// blobs are there is not computed again. Thread-safe; see CoordinatorApi for the contract of each
-/// call.
+/// blobs are there is not computed again. Thread-safe; see CoordinatorApi and its parts for
+/// the contract of each call.
 class Coordinator final : public CoordinatorApi {
  public:
   /// FailedPrecondition: the state is in use by another coordinator, or of another version.
@@ -63,9 +63,9 @@ class Coordinator final : public CoordinatorApi {
                                    const NextPiece& next) override;
 
   [[nodiscard]] absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) override;
-  [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
-                                                               uint32_t slot,
-                                                               double wait_s) override;
+  using WorkerApi::LeaseTask;
+  [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(
+      uint64_t session, uint32_t slot, double wait_s, const std::stop_token& left) override;
   [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(
       uint64_t session, const std::vector<LeaseProgress>& leases) override;
   [[nodiscard]] absl::Status CompleteTask(uint64_t session,
@@ -110,15 +110,22 @@ class Coordinator final : public CoordinatorApi {
               StateLock lock,
               BlobStore blobs,
               std::unique_ptr<Journal> journal);
-  /// Writes a lease down; only then it may leave the house.
-  [[nodiscard]] absl::StatusOr<Lease> HandOut(uint64_t session, const Grant& grant);
+  /// Writes a lease down; only then it may leave the house. Nothing: it ended meanwhile.
+  [[nodiscard]] absl::StatusOr<std::optional<Lease>> HandOut(const TaskRequest& request,
+                                                             const Grant& grant);
+  /// With the lock: a lease that was granted goes to nobody.
+  void TakeBack(uint64_t session, const Grant& grant, const std::string& reason);
   /// What `look` says of a job, with the lock. NotFound: there is no such job.
   template <typename Look>
   [[nodiscard]] auto LookAt(const Digest& job, Look&& look)
       -> absl::StatusOr<decltype(look(std::declval<const Job&>()))>;
+  /// With the lock.
+  [[nodiscard]] JobStatus StatusOf(const Job& job, double now_s) const;
   void JournalIsLost(const absl::Status& why);
   /// With the lock: health(), to workers.
   [[nodiscard]] absl::Status CheckServing() const;
+  /// With the lock: whether a worker may be given tasks.
+  [[nodiscard]] absl::Status CheckTaker(uint64_t session);
   /// With the lock: logs what became of a lease's result.
   void LogOf(const Lease& lease,
              LogLevel level,
@@ -138,12 +145,12 @@ class Coordinator final : public CoordinatorApi {
 
   std::mutex collecting_mutex_;  ///< one collection of garbage at a time; taken before all others
   std::mutex mutex_;
-  std::condition_variable changed_;  ///< a task may be ready, or the end is near
   Dispatcher dispatcher_;
   bool stopping_ = false;
   absl::Status health_;
-  JobDesk desk_;
+  JobService job_service_;
   Planner planner_;
+  Matchmaker matchmaker_;
   std::optional<JournalWatch> watch_;  ///< last: ends before what it uses
 };
 

@@ -37,9 +37,7 @@ absl::Status Coordinator::Write(const Digest& digest, uint64_t size_bytes, const
 }
 
 absl::StatusOr<std::vector<bool>> Coordinator::StatBlobs(const std::vector<Digest>& digests) {
-  std::vector<bool> stored;
-  for (const Digest& digest : digests) stored.push_back(blobs_.Use(digest));
-  return stored;
+  return blobs_.StatBlobs(digests);
 }
 
 absl::Status Coordinator::LinkFile(const Digest& digest, const std::string& path) {

@@ -14,7 +14,7 @@ absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
     return absl::NotFoundError(
         absl::StrCat("the job's input blob ", input.ToShortHex(), " is not stored"));
   }
-  return desk_.Submit(spec);
+  return job_service_.Submit(spec);
 }
 
 template <typename Look>
@@ -27,12 +27,15 @@ auto Coordinator::LookAt(const Digest& id, Look&& look)
   return absl::NotFoundError(absl::StrCat("there is no job ", id.ToShortHex()));
 }
 
+JobStatus Coordinator::StatusOf(const Job& job, double now_s) const {
+  JobStatus status = job.machine->Status(now_s);
+  status.unmet = dispatcher_.UnmetOf(job, now_s);
+  status.workers = dispatcher_.WorkerStatuses(now_s);
+  return status;
+}
+
 absl::StatusOr<JobStatus> Coordinator::GetJob(const Digest& id) {
-  return LookAt(id, [this](const Job& job) {
-    JobStatus status = job.machine->Status(clock_.NowSeconds());
-    status.workers = dispatcher_.WorkerStatuses(clock_.NowSeconds());
-    return status;
-  });
+  return LookAt(id, [this](const Job& job) { return StatusOf(job, clock_.NowSeconds()); });
 }
 
 absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
@@ -41,8 +44,7 @@ absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
   dispatcher_.ExpireLeases(now_s);
   std::vector<JobStatus> jobs;
   for (const auto& [number, id] : dispatcher_.jobs().order()) {
-    jobs.push_back(dispatcher_.jobs().At(id).machine->Status(now_s));
-    jobs.back().workers = dispatcher_.WorkerStatuses(now_s);
+    jobs.push_back(StatusOf(dispatcher_.jobs().At(id), now_s));
   }
   return jobs;
 }
@@ -57,11 +59,11 @@ absl::Status Coordinator::CancelJob(const Digest& id) {
     dispatcher_.CancelJob(id, clock_.NowSeconds());
     return id;
   });
-  if (cancelled.ok()) desk_.SaveEnd(id);
+  if (cancelled.ok()) job_service_.SaveEnd(id);
   return cancelled.status();
 }
 
-absl::Status Coordinator::ForgetJob(const Digest& id) { return desk_.Forget(id); }
+absl::Status Coordinator::ForgetJob(const Digest& id) { return job_service_.Forget(id); }
 
 absl::StatusOr<std::vector<TaskOutcome>> Coordinator::GetOutcomes(const Digest& id) {
   return LookAt(id, [](const Job& job) { return job.machine->Outcomes(); });

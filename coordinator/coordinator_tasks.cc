@@ -5,7 +5,7 @@
 // saved.
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/coordinator.h"
@@ -13,8 +13,9 @@
 namespace orbweave {
 namespace {
 
-/// Waiting calls look at the clock this often: leases that ended and retries whose time has come.
-constexpr std::chrono::milliseconds kLook{100};
+/// Who asks for a task waits no longer: a call that nobody waits for any more, which is not
+/// noticed, is over then.
+constexpr double kLongestWait_s = 60.0;
 
 /// A journal that is another coordinator's is none that refuses a worker: the other takes its
 /// result.
@@ -24,49 +25,59 @@ absl::Status ForWorkers(const absl::Status& saved) {
 
 }  // namespace
 
-absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
-                                                            uint32_t slot,
-                                                            double wait_s) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait_s);
-  std::unique_lock lock(mutex_);
-  while (true) {
-    ORBWEAVE_RETURN_IF_ERROR(CheckServing());
-    if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
-    const double now_s = clock_.NowSeconds();
-    ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, now_s));
-    if (dispatcher_.roster().IsDraining(session))
-      return absl::CancelledError("the worker is to leave");
-    dispatcher_.ExpireLeases(now_s);
-    if (const std::optional<Grant> grant = dispatcher_.GrantNext(session, slot, now_s)) {
-      lock.unlock();
-      return HandOut(session, *grant);
-    }
-    const auto now = std::chrono::steady_clock::now();
-    if (now >= deadline) return std::nullopt;
-    changed_.wait_for(lock, std::min<std::chrono::duration<double>>(kLook, deadline - now));
-  }
+absl::Status Coordinator::CheckTaker(uint64_t session) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckServing());
+  if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Check(session));
+  if (!dispatcher_.roster().IsDraining(session)) return absl::OkStatus();
+  return absl::CancelledError("the worker is to leave");
 }
 
-absl::StatusOr<Lease> Coordinator::HandOut(uint64_t session, const Grant& grant) {
+absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
+                                                            uint32_t slot,
+                                                            double wait_s,
+                                                            const std::stop_token& left) {
+  if (!std::isfinite(wait_s) || wait_s < 0.0)
+    return absl::InvalidArgumentError("who asks for a task waits for a number of seconds");
+  std::unique_lock lock(mutex_);
+  ORBWEAVE_RETURN_IF_ERROR(CheckTaker(session));
+  const double now_s = clock_.NowSeconds();
+  // Once: that a call is still here says nothing about who made it.
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, now_s));
+  const TaskRequest request{session, slot, now_s + std::min(wait_s, kLongestWait_s), left};
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Grant> grant, matchmaker_.Await(lock, request));
+  lock.unlock();
+  if (!grant) return std::nullopt;
+  return HandOut(request, *grant);
+}
+
+absl::StatusOr<std::optional<Lease>> Coordinator::HandOut(const TaskRequest& request,
+                                                          const Grant& grant) {
   const absl::Status saved = journal_->SaveStart(grant.attempt);
-  if (saved.ok()) return grant.lease;
   const std::lock_guard lock(mutex_);
-  dispatcher_.Log({.level = LogLevel::kError,
-                   .event = "start_not_saved",
-                   .job = grant.attempt.job,
-                   .stage = grant.attempt.stage,
-                   .part = grant.attempt.part,
-                   .task = grant.attempt.task,
-                   .worker = grant.attempt.worker,
-                   .epoch = grant.attempt.epoch,
-                   .message = std::string(saved.message())});
-  dispatcher_
-      .TaskFailed(session,
-                  grant.lease,
-                  absl::CancelledError(absl::StrCat("not handed out: ", saved.message())),
-                  clock_.NowSeconds())
+  const bool goes_on = dispatcher_.Begin(request.session, grant.lease, clock_.NowSeconds());
+  if (!saved.ok()) {
+    dispatcher_.Log({.level = LogLevel::kError,
+                     .event = "start_not_saved",
+                     .job = grant.attempt.job,
+                     .stage = grant.attempt.stage,
+                     .part = grant.attempt.part,
+                     .task = grant.attempt.task,
+                     .worker = grant.attempt.worker,
+                     .epoch = grant.attempt.epoch,
+                     .message = std::string(saved.message())});
+    TakeBack(request.session, grant, absl::StrCat("not handed out: ", saved.message()));
+    return ForWorkers(saved);
+  }
+  if (!goes_on) return std::nullopt;
+  if (!request.left.stop_requested()) return grant.lease;
+  TakeBack(request.session, grant, "nobody waits for it any more");
+  return absl::CancelledError("nobody waits for a task any more");
+}
+
+void Coordinator::TakeBack(uint64_t session, const Grant& grant, const std::string& reason) {
+  dispatcher_.TaskFailed(session, grant.lease, absl::CancelledError(reason), clock_.NowSeconds())
       .IgnoreError();  // the lease may have ended meanwhile
-  return ForWorkers(saved);
 }
 
 absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,

@@ -12,6 +12,12 @@
 namespace orbweave {
 namespace {
 
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+
+bool EveryWorkerMeets(const StageNeeds& needs) {
+  return needs.memory_bytes == 0 && needs.threads <= 1 && needs.gpus == 0;
+}
+
 uint64_t FirstOfGeneration(uint64_t generation) { return generation << 32; }
 
 }  // namespace
@@ -86,30 +92,76 @@ bool Dispatcher::MayHaveWork() const {
   });
 }
 
+bool Dispatcher::MayHaveWork(double now_s) const {
+  return std::ranges::any_of(jobs_.order(), [&](const auto& item) {
+    return jobs_.At(item.second).machine->MayHaveWork(now_s);
+  });
+}
+
+size_t Dispatcher::CountAt(uint64_t session, uint32_t slot) const {
+  return book_.CountAt({roster_.NameOf(session), slot});
+}
+
 std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at,
-                                                        size_t held,
+                                                        const std::vector<std::string>& serving,
                                                         double now_s) {
-  if (held > 1) return std::nullopt;
+  const size_t held = book_.CountAt(at);
+  if (held > 1 || !std::ranges::binary_search(serving, at.worker)) return std::nullopt;
   const bool ahead = held == 1;
-  const std::vector<std::string> serving = roster_.Serving(now_s);
-  if (!std::ranges::binary_search(serving, at.worker)) return std::nullopt;
+  const StageNeeds taken = TakenBeside(at);
   for (const auto& [number, id] : jobs_.order()) {
-    const auto ref = jobs_.At(id).machine->NextReady(at, serving, now_s, ahead);
-    if (ref) return JobTask{id, *ref};
+    const JobMachine& machine = *jobs_.At(id).machine;
+    const StageRule* stage = machine.StageToGiveOut();
+    if (stage == nullptr) continue;
+    std::vector<std::string> those_able;
+    const std::vector<std::string>& able = EveryWorkerMeets(stage->needs)
+                                               ? serving
+                                               : (those_able = roster_.Able(serving, stage->needs));
+    if (!std::ranges::binary_search(able, at.worker)) continue;
+    if (roster_.HasRoom(at.worker, taken, stage->needs)) {
+      const auto ref = machine.NextReady(at, able, now_s, ahead);
+      if (ref) return JobTask{id, *ref};
+    } else if (!book_.Holds(at.worker, id)) {
+      return std::nullopt;  // or later jobs' small tasks would never leave room for this one's
+    }
   }
   if (ahead) return std::nullopt;
   const uint32_t slots = roster_.Slots(now_s);
   for (const auto& [number, id] : jobs_.order()) {
-    const auto ref = jobs_.At(id).machine->NextStraggler(at.worker, slots, now_s);
-    if (ref) return JobTask{id, *ref};
+    const JobMachine& machine = *jobs_.At(id).machine;
+    const auto ref = machine.NextStraggler(at.worker, slots, now_s);
+    if (ref && roster_.HasRoom(at.worker, taken, machine.Needs(*ref))) return JobTask{id, *ref};
   }
   return std::nullopt;
 }
 
-std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, double now_s) {
-  if (!MayHaveWork()) return std::nullopt;
+StageNeeds Dispatcher::TakenBeside(const WorkerSlot& at) const {
+  StageNeeds taken{.threads = 0};
+  for (const LeaseEntry* entry : book_.RunningBeside(at)) {
+    // Of a lease whose task has no place in its job yet nobody knows what it takes.
+    const StageNeeds needs =
+        entry->ref ? jobs_.At(entry->job).machine->Needs(*entry->ref) : StageNeeds{};
+    taken.memory_bytes += needs.memory_bytes;
+    taken.threads += needs.threads;
+    taken.gpus += needs.gpus;
+  }
+  return taken;
+}
+
+std::string Dispatcher::UnmetOf(const Job& job, double now_s) const {
+  const StageRule* stage = job.machine->StageToGiveOut();
+  if (stage == nullptr) return {};
+  const std::string missing = roster_.Missing(stage->needs, now_s);
+  if (missing.empty()) return {};
+  return absl::StrCat("a task of stage ", stage->stage, " asks for ", missing);
+}
+
+std::optional<Grant> Dispatcher::GrantNext(uint64_t session,
+                                           uint32_t slot,
+                                           const std::vector<std::string>& serving,
+                                           double now_s) {
   const std::string worker = roster_.NameOf(session);
-  const std::optional<JobTask> next = NextTask({worker, slot}, book_.CountAt(session, slot), now_s);
+  const std::optional<JobTask> next = NextTask({worker, slot}, serving, now_s);
   if (!next) return std::nullopt;
   const auto& [job, ref] = *next;
   JobMachine& machine = *jobs_.At(job).machine;
@@ -122,10 +174,33 @@ std::optional<Grant> Dispatcher::GrantNext(uint64_t session, uint32_t slot, doub
                          .worker = worker,
                          .slot = slot,
                          .session = session,
-                         .until_s = now_s + options_.lease_s};
+                         .until_s = kNoEnd};
   book_.Grant(entry);
+  starting_.insert(entry.epoch);
   Log(Describe(entry, "task_leased"));
   return Grant{lease, {lease.epoch, lease.task, job, lease.spec.stage, ref.part, worker, slot}};
+}
+
+bool Dispatcher::Begin(uint64_t session, const Lease& lease, double now_s) {
+  starting_.erase(lease.epoch);
+  if (book_.Renew(lease.epoch, lease.task, session, now_s + options_.lease_s) != nullptr)
+    return true;
+  options_.changed();  // its end may be written down now
+  return false;
+}
+
+bool Dispatcher::HasLooseEnds() const {
+  return roster_.HasBlames() || std::ranges::any_of(ends_, [this](const AttemptEnd& end) {
+           return !starting_.contains(end.epoch);
+         });
+}
+
+LooseEnds Dispatcher::TakeLooseEnds() {
+  const auto later = std::ranges::stable_partition(
+      ends_, [this](const AttemptEnd& end) { return !starting_.contains(end.epoch); });
+  std::vector<AttemptEnd> kept(later.begin(), later.end());
+  ends_.erase(later.begin(), later.end());
+  return {std::exchange(ends_, std::move(kept)), roster_.TakeBlames()};
 }
 
 void Dispatcher::Await(const Attempt& attempt, double now_s) {
@@ -156,7 +231,6 @@ absl::StatusOr<HeartbeatReply> Dispatcher::Heartbeat(uint64_t session,
 
 absl::Status Dispatcher::Hold(uint64_t session, const Lease& lease, double now_s) {
   ExpireLeases(now_s);
-  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
   if (book_.Renew(lease.epoch, lease.task, session, kNoEnd) != nullptr) return absl::OkStatus();
   return StaleLease(lease.epoch, lease.task);
 }

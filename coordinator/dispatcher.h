@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,13 +63,27 @@ class Dispatcher {
   /// Of every worker that ever joined, by name.
   [[nodiscard]] std::vector<WorkerStatus> WorkerStatuses(double now_s) const;
 
-  /// Whether there may be a task to grant; quick.
+  /// What a job's ready tasks ask for and no worker that is there ever has, in words that name the
+  /// stage; empty: nothing.
+  [[nodiscard]] std::string UnmetOf(const Job& job, double now_s) const;
+  /// Whether there may be a task to grant, ever; quick.
   [[nodiscard]] bool MayHaveWork() const;
-  /// A slot that holds a lease may get one more, ahead; see ChoosePart.
-  [[nodiscard]] std::optional<Grant> GrantNext(uint64_t session, uint32_t slot, double now_s);
+  /// Whether there may be one now: a task is ready, or a straggler may be done once more.
+  [[nodiscard]] bool MayHaveWork(double now_s) const;
+  /// How many leases a slot holds.
+  [[nodiscard]] size_t CountAt(uint64_t session, uint32_t slot) const;
+  /// A slot that holds a lease may get one more, ahead; see ChoosePart. `serving`: those of the
+  /// roster now. The lease has no end, and an end of its attempt is no loose end, until it begins.
+  [[nodiscard]] std::optional<Grant> GrantNext(uint64_t session,
+                                               uint32_t slot,
+                                               const std::vector<std::string>& serving,
+                                               double now_s);
+  /// A lease that was granted is written down, or could not be: its time runs from now on. False:
+  /// it ended before.
+  bool Begin(uint64_t session, const Lease& lease, double now_s);
   /// A lease of an earlier generation, whose holder has one lease time to come back.
   void Await(const Attempt& attempt, double now_s);
-  /// See CoordinatorApi::Heartbeat.
+  /// See WorkerApi::Heartbeat.
   [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(uint64_t session,
                                                          const std::vector<LeaseProgress>& leases,
                                                          double now_s);
@@ -94,10 +109,9 @@ class Dispatcher {
   /// before the last of them may have missed it.
   [[nodiscard]] uint64_t early_results() const { return early_results_; }
 
-  [[nodiscard]] bool HasLooseEnds() const { return !ends_.empty() || roster_.HasBlames(); }
-  [[nodiscard]] LooseEnds TakeLooseEnds() {
-    return {std::exchange(ends_, {}), roster_.TakeBlames()};
-  }
+  [[nodiscard]] bool HasLooseEnds() const;
+  /// Without attempts whose start is not written down yet: their end would not find it.
+  [[nodiscard]] LooseEnds TakeLooseEnds();
   /// The epoch that was given out last.
   [[nodiscard]] uint64_t last_epoch() const { return last_epoch_; }
   void Log(const LogEvent& event) const;
@@ -109,7 +123,11 @@ class Dispatcher {
   };
   /// What a worker is to do next in this slot, which holds so many leases: what is ready in the
   /// oldest job, or else a straggler.
-  [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at, size_t held, double now_s);
+  [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at,
+                                                const std::vector<std::string>& serving,
+                                                double now_s);
+  /// What the tasks take that a worker runs in its other slots.
+  [[nodiscard]] StageNeeds TakenBeside(const WorkerSlot& at) const;
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
   /// Its worker is lost. A task that only waited there has not been tried.
   void EndLost(const LeaseEntry& entry, const absl::Status& error, double now_s);
@@ -125,6 +143,7 @@ class Dispatcher {
   JobTable jobs_;
   LeaseBook book_;
   WorkerRoster roster_;
+  std::set<uint64_t> starting_;  ///< epochs that were granted and not written down yet
   std::vector<AttemptEnd> ends_;
   uint64_t last_epoch_;
   uint64_t last_session_;

@@ -9,7 +9,7 @@
 namespace orbweave {
 namespace {
 
-absl::Status NoDesk() {
+absl::Status NoEnrollment() {
   return absl::FailedPreconditionError(
       "this coordinator gives no certificates: its --tls folder has no ca.key and token.key");
 }
@@ -19,20 +19,20 @@ absl::Status NoDesk() {
 grpc::Status GrpcEnrollment::Enroll(grpc::ServerContext*,
                                     const v1::EnrollRequest* request,
                                     v1::CertificateReply* reply) {
-  if (desk_ == nullptr) return OnWire(NoDesk());
+  if (enrollment_service_ == nullptr) return OnWire(NoEnrollment());
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(
       *reply->mutable_certificate(),
-      desk_->Enroll(request->token(), request->request(), request->name()));
+      enrollment_service_->Enroll(request->token(), request->request(), request->name()));
   return grpc::Status::OK;
 }
 
 grpc::Status GrpcEnrollment::Renew(grpc::ServerContext* context,
                                    const v1::RenewRequest* request,
                                    v1::CertificateReply* reply) {
-  if (desk_ == nullptr) return OnWire(NoDesk());
+  if (enrollment_service_ == nullptr) return OnWire(NoEnrollment());
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeerOf(*context->auth_context()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(*reply->mutable_certificate(),
-                                 desk_->Renew(peer, request->request()));
+                                 enrollment_service_->Renew(peer, request->request()));
   return grpc::Status::OK;
 }
 

@@ -6,15 +6,16 @@
 #include <memory>
 #include <string>
 
-#include "coordinator/enrollment_desk.h"
+#include "coordinator/enrollment_service.h"
 #include "orbweave/v1/enrollment.grpc.pb.h"
 
 namespace orbweave {
 
-/// EnrollmentDesk on the wire. Without a desk every call is FailedPrecondition.
+/// EnrollmentService on the wire. Without a service every call is FailedPrecondition.
 class GrpcEnrollment final : public v1::Enrollment::Service {
  public:
-  explicit GrpcEnrollment(std::unique_ptr<EnrollmentDesk> desk) : desk_(std::move(desk)) {}
+  explicit GrpcEnrollment(std::unique_ptr<EnrollmentService> enrollment_service)
+      : enrollment_service_(std::move(enrollment_service)) {}
 
   grpc::Status Enroll(grpc::ServerContext*,
                       const v1::EnrollRequest*,
@@ -22,7 +23,7 @@ class GrpcEnrollment final : public v1::Enrollment::Service {
   grpc::Status Renew(grpc::ServerContext*, const v1::RenewRequest*, v1::CertificateReply*) override;
 
  private:
-  std::unique_ptr<EnrollmentDesk> desk_;
+  std::unique_ptr<EnrollmentService> enrollment_service_;
 };
 
 }  // namespace orbweave

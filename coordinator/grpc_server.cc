@@ -36,7 +36,7 @@ void SetLimits(grpc::ServerBuilder& builder, const ServerLimits& limits) {
 }
 
 /// Null where the TLS folder is not made for it.
-absl::StatusOr<std::unique_ptr<EnrollmentDesk>> OpenDesk(const ServerOptions& options) {
+absl::StatusOr<std::unique_ptr<EnrollmentService>> OpenEnrollment(const ServerOptions& options) {
   const TlsFolder folder{options.tls_folder};
   std::error_code error;
   if (options.used_tokens_folder.empty() ||
@@ -44,7 +44,7 @@ absl::StatusOr<std::unique_ptr<EnrollmentDesk>> OpenDesk(const ServerOptions& op
       !std::filesystem::exists(folder.TokenKeyPath(), error)) {
     return nullptr;
   }
-  return EnrollmentDesk::Open(
+  return EnrollmentService::Open(
       {.tls = folder, .used_folder = options.used_tokens_folder, .log = options.log});
 }
 
@@ -64,14 +64,14 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   const bool has_tls = !options.tls_folder.empty();
   ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address, has_tls ? Wire::kEncrypted : Wire::kPlain));
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
-  std::unique_ptr<EnrollmentDesk> desk;
+  std::unique_ptr<EnrollmentService> enrollment_service;
   if (has_tls) {
-    ORBWEAVE_ASSIGN_OR_RETURN(desk, OpenDesk(options));
-    const Strangers strangers = desk ? Strangers::kLetToEnrol : Strangers::kRefused;
+    ORBWEAVE_ASSIGN_OR_RETURN(enrollment_service, OpenEnrollment(options));
+    const Strangers strangers = enrollment_service ? Strangers::kLetToEnrol : Strangers::kRefused;
     ORBWEAVE_ASSIGN_OR_RETURN(credentials,
                               MakeTlsCredentials({options.tls_folder}, strangers, options.log));
   }
-  std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(desk)));
+  std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(enrollment_service)));
   grpc::EnableDefaultHealthCheckService(true);
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
@@ -95,10 +95,10 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
 
 GrpcServer::GrpcServer(CoordinatorApi& api,
                        const ServerOptions& options,
-                       std::unique_ptr<EnrollmentDesk> desk)
+                       std::unique_ptr<EnrollmentService> enrollment_service)
     : service_(
           api, options.tls_folder.empty() ? Peers::kTrusted : Peers::kCertified, options.roots),
-      enrollment_(std::move(desk)) {}
+      enrollment_(std::move(enrollment_service)) {}
 
 GrpcServer::~GrpcServer() {
   if (server_ == nullptr) return;

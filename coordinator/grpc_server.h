@@ -47,7 +47,7 @@ class GrpcServer {
  private:
   GrpcServer(CoordinatorApi& api,
              const ServerOptions& options,
-             std::unique_ptr<EnrollmentDesk> desk);
+             std::unique_ptr<EnrollmentService> enrollment_service);
 
   GrpcService service_;
   GrpcEnrollment enrollment_;

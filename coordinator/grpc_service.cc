@@ -49,8 +49,9 @@ grpc::Status GrpcService::LeaseTask(Context* context,
                                     v1::LeaseTaskReply* reply) {
   ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(
-      const std::optional<Lease> lease,
-      api_.LeaseTask(request->session(), request->slot(), request->wait_s()));
+      const std::optional<Lease> lease, calls_.During(*context, [&](const std::stop_token& left) {
+        return api_.LeaseTask(request->session(), request->slot(), request->wait_s(), left);
+      }));
   if (!lease) return grpc::Status::OK;
   if (context->IsCancelled()) {  // nobody is there to take it
     return OnWire(

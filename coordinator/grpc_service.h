@@ -3,6 +3,7 @@
 #pragma once
 
 #include "coordinator/file_roots.h"
+#include "coordinator/grpc_call_watch.h"
 #include "coordinator/session_owners.h"
 #include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
@@ -65,6 +66,7 @@ class GrpcService final : public v1::Coordinator::Service {
   Peers peers_;
   FileRoots roots_;
   SessionOwners owners_;
+  GrpcCallWatch calls_;
 };
 
 }  // namespace orbweave

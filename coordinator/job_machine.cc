@@ -42,6 +42,15 @@ bool JobMachine::MayHaveWork() const {
   return !runs_.back().ready.empty() || runs_.back().straggler_after_s;
 }
 
+bool JobMachine::MayHaveWork(double now_s) const {
+  return MayHaveWork() && (!runs_.back().ready.empty() || runs_.back().HasStraggler(now_s));
+}
+
+const StageRule* JobMachine::StageToGiveOut() const {
+  if (state_ != JobState::kRunning || runs_.empty() || runs_.back().ready.empty()) return nullptr;
+  return &plan_.stages[runs_.back().stage];
+}
+
 std::optional<TaskRef> JobMachine::FindReady(const Digest& task) const {
   const auto it = refs_.find(task);
   if (it == refs_.end() || !runs_[it->second.run].ready.Contains(it->second.part)) return {};

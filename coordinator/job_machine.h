@@ -13,7 +13,7 @@
 #include "coordinator/journal.h"
 #include "coordinator/retry_policy.h"
 #include "coordinator/stage_run.h"
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 #include "core/pipeline/job_plan.h"
 
 namespace orbweave {
@@ -55,11 +55,16 @@ class JobMachine {
   [[nodiscard]] const std::vector<std::vector<TaskResult>>& results() const { return results_; }
   [[nodiscard]] const TaskSpec& Spec(TaskRef ref) const { return Task(ref).spec; }
   [[nodiscard]] const Digest& TaskId(TaskRef ref) const { return Task(ref).id; }
+  [[nodiscard]] const StageNeeds& Needs(TaskRef ref) const { return RuleOf(ref.run).needs; }
+  /// The stage whose tasks are given out now; nullptr: none is ready.
+  [[nodiscard]] const StageRule* StageToGiveOut() const;
 
   /// The stage whose tasks are to be written down now: all that come before it are done.
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
-  /// Whether a task may be ready, or wait too long for the one who does it.
+  /// Whether a task may be ready, or wait too long for the one who does it, now or later.
   [[nodiscard]] bool MayHaveWork() const;
+  /// The same of this moment.
+  [[nodiscard]] bool MayHaveWork(double now_s) const;
   /// The task that a worker had better do next in this slot; see ChoosePart.
   [[nodiscard]] std::optional<TaskRef> NextReady(const WorkerSlot& at,
                                                  const std::vector<std::string>& alive,
@@ -102,6 +107,9 @@ class JobMachine {
 
  private:
   [[nodiscard]] const TaskRecord& Task(TaskRef ref) const { return runs_[ref.run].tasks[ref.part]; }
+  [[nodiscard]] const StageRule& RuleOf(uint32_t run) const {
+    return plan_.stages[runs_[run].stage];
+  }
   [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
   /// The stage that comes after the last run; the number of stages: none.
   [[nodiscard]] uint32_t NextStage() const;

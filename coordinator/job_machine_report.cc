@@ -12,7 +12,12 @@ namespace orbweave {
 JobStatus JobMachine::Status(double now_s) const {
   JobStatus status{.id = spec_.Id(), .state = state_, .error = error_, .spec = spec_};
   status.elapsed_s = (state_ == JobState::kRunning ? now_s : ended_s_) - submitted_s_;
-  for (const StageRule& rule : plan_.stages) status.stages.push_back({.stage = rule.stage});
+  for (const StageRule& rule : plan_.stages) {
+    status.stages.push_back({.stage = rule.stage,
+                             .weight = rule.weight,
+                             .usual_runs = rule.usual_runs,
+                             .has_parts = !rule.HasOnePart()});
+  }
   for (const StageRun& run : runs_) run.AddTo(status.stages[run.stage]);
   return status;
 }

@@ -9,6 +9,7 @@
 
 #include "coordinator/job_machine.h"
 #include "coordinator/prepare_stage.h"
+#include "core/pipeline/worker_api.h"
 
 namespace orbweave {
 

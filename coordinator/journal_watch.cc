@@ -3,10 +3,9 @@
 
 #include "coordinator/journal_watch.h"
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <utility>
+
+#include "core/base/sleep.h"
 
 namespace orbweave {
 
@@ -14,12 +13,7 @@ JournalWatch::JournalWatch(Journal& journal,
                            double period_s,
                            std::function<void(const absl::Status& why)> on_lost)
     : thread_([&journal, period_s, on_lost = std::move(on_lost)](const std::stop_token& stop) {
-        std::mutex mutex;
-        std::condition_variable_any never;
-        while (true) {
-          std::unique_lock lock(mutex);
-          never.wait_for(lock, stop, std::chrono::duration<double>(period_s), [] { return false; });
-          if (stop.stop_requested()) return;
+        while (SleepUnlessStopped(period_s, stop)) {
           const absl::Status status = journal.Confirm();
           if (!absl::IsFailedPrecondition(status)) continue;
           on_lost(status);

@@ -4,7 +4,6 @@
 #include "coordinator/lease_book.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -12,9 +11,7 @@
 namespace orbweave {
 namespace {
 
-bool IsAtTheSlotOf(const LeaseEntry& x, const LeaseEntry& y) {
-  return x.worker == y.worker && x.slot == y.slot;
-}
+WorkerSlot PlaceOf(const LeaseEntry& entry) { return {entry.worker, entry.slot}; }
 
 }  // namespace
 
@@ -24,15 +21,22 @@ absl::Status StaleLease(uint64_t epoch, const Digest& task) {
 }
 
 void LeaseBook::Grant(LeaseEntry entry) {
-  entry.waits = std::ranges::any_of(
-      entries_, [&](const auto& item) { return IsAtTheSlotOf(entry, item.second); });
+  std::set<uint64_t>& at = epochs_at_[PlaceOf(entry)];
+  entry.waits = !at.empty();
+  at.insert(entry.epoch);
+  earliest_end_s_ = std::min(earliest_end_s_, entry.until_s);
   entries_.emplace(entry.epoch, std::move(entry));
 }
 
+void LeaseBook::Forget(const LeaseEntry& gone) {
+  const auto at = epochs_at_.find(PlaceOf(gone));
+  at->second.erase(gone.epoch);
+  if (at->second.empty()) epochs_at_.erase(at);
+}
+
 void LeaseBook::LetNextBegin(const LeaseEntry& gone) {
-  const auto next = std::ranges::find_if(
-      entries_, [&](const auto& item) { return IsAtTheSlotOf(gone, item.second); });
-  if (next != entries_.end()) next->second.waits = false;
+  const auto at = epochs_at_.find(PlaceOf(gone));
+  if (at != epochs_at_.end()) entries_.at(*at->second.begin()).waits = false;
 }
 
 const LeaseEntry* LeaseBook::Renew(uint64_t epoch,
@@ -43,6 +47,7 @@ const LeaseEntry* LeaseBook::Renew(uint64_t epoch,
   if (it == entries_.end() || it->second.task != task || it->second.session != session)
     return nullptr;
   it->second.until_s = until_s;
+  earliest_end_s_ = std::min(earliest_end_s_, until_s);
   return &it->second;
 }
 
@@ -53,6 +58,7 @@ absl::StatusOr<LeaseEntry> LeaseBook::Take(uint64_t epoch, const Digest& task, u
   }
   const LeaseEntry entry = it->second;
   entries_.erase(it);
+  Forget(entry);
   LetNextBegin(entry);
   return entry;
 }
@@ -65,6 +71,7 @@ std::vector<LeaseEntry> LeaseBook::TakeIf(Predicate predicate) {
     taken.push_back(item.second);
     return true;
   });
+  for (const LeaseEntry& entry : taken) Forget(entry);
   return taken;
 }
 
@@ -76,7 +83,13 @@ std::vector<LeaseEntry> LeaseBook::TakeEndedIf(Predicate predicate) {
 }
 
 std::vector<LeaseEntry> LeaseBook::TakeExpired(double now_s) {
-  return TakeIf([now_s](const LeaseEntry& entry) { return entry.until_s < now_s; });
+  if (earliest_end_s_ >= now_s) return {};
+  std::vector<LeaseEntry> taken =
+      TakeIf([now_s](const LeaseEntry& entry) { return entry.until_s < now_s; });
+  earliest_end_s_ = kNoEnd;
+  for (const auto& [epoch, entry] : entries_)
+    earliest_end_s_ = std::min(earliest_end_s_, entry.until_s);
+  return taken;
 }
 
 std::vector<LeaseEntry> LeaseBook::TakeSession(uint64_t session) {
@@ -97,22 +110,40 @@ std::vector<LeaseEntry> LeaseBook::Adopt(std::string_view worker,
       continue;
     it->second.session = session;
     it->second.until_s = until_s;
+    earliest_end_s_ = std::min(earliest_end_s_, until_s);
   }
   return TakeIf(
       [&](const LeaseEntry& entry) { return entry.worker == worker && entry.session != session; });
 }
 
-size_t LeaseBook::CountAt(uint64_t session, uint32_t slot) const {
-  return static_cast<size_t>(std::ranges::count_if(entries_, [&](const auto& item) {
-    return item.second.session == session && item.second.slot == slot;
-  }));
+size_t LeaseBook::CountAt(const WorkerSlot& place) const {
+  const auto at = epochs_at_.find(place);
+  return at == epochs_at_.end() ? 0 : at->second.size();
+}
+
+std::vector<const LeaseEntry*> LeaseBook::RunningBeside(const WorkerSlot& but) const {
+  std::vector<const LeaseEntry*> running;
+  for (auto at = epochs_at_.lower_bound({but.worker, 0});
+       at != epochs_at_.end() && at->first.worker == but.worker;
+       ++at) {
+    if (at->first.slot != but.slot) running.push_back(&entries_.at(*at->second.begin()));
+  }
+  return running;
+}
+
+bool LeaseBook::Holds(const std::string& worker, const Digest& job) const {
+  for (auto at = epochs_at_.lower_bound({worker, 0});
+       at != epochs_at_.end() && at->first.worker == worker;
+       ++at) {
+    const auto is_of_job = [&](uint64_t epoch) { return entries_.at(epoch).job == job; };
+    if (std::ranges::any_of(at->second, is_of_job)) return true;
+  }
+  return false;
 }
 
 std::map<std::string, uint32_t> LeaseBook::BusySlots() const {
-  std::set<std::pair<std::string_view, uint32_t>> busy;
-  for (const auto& [epoch, entry] : entries_) busy.emplace(entry.worker, entry.slot);
   std::map<std::string, uint32_t> counts;
-  for (const auto& [worker, slot] : busy) ++counts[std::string(worker)];
+  for (const auto& [place, epochs] : epochs_at_) ++counts[place.worker];
   return counts;
 }
 

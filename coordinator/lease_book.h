@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "coordinator/job_machine.h"
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/worker_api.h"
 
 namespace orbweave {
 
@@ -56,7 +58,11 @@ class LeaseBook {
   [[nodiscard]] std::vector<LeaseEntry*> AwaitingPlace(const Digest& job);
 
   /// How many leases a slot holds.
-  [[nodiscard]] size_t CountAt(uint64_t session, uint32_t slot) const;
+  [[nodiscard]] size_t CountAt(const WorkerSlot& place) const;
+  /// The leases of a worker whose tasks run, but for those of slot `but`.
+  [[nodiscard]] std::vector<const LeaseEntry*> RunningBeside(const WorkerSlot& but) const;
+  /// Whether a worker holds leases of a job.
+  [[nodiscard]] bool Holds(const std::string& worker, const Digest& job) const;
   /// How many slots of a worker hold leases, of those that do.
   [[nodiscard]] std::map<std::string, uint32_t> BusySlots() const;
 
@@ -72,10 +78,15 @@ class LeaseBook {
   /// The same for leases whose workers go on: what waited behind them begins.
   template <typename Predicate>
   std::vector<LeaseEntry> TakeEndedIf(Predicate predicate);
+  /// Its slot does not hold `gone` any more.
+  void Forget(const LeaseEntry& gone);
   /// The slot of `gone` is free for the lease that waited longest.
   void LetNextBegin(const LeaseEntry& gone);
 
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
   std::map<uint64_t, LeaseEntry> entries_;
+  std::map<WorkerSlot, std::set<uint64_t>> epochs_at_;  ///< of the leases that slots hold
+  double earliest_end_s_ = kNoEnd;  ///< no lease ends before: most often there is nothing to expire
 };
 
 }  // namespace orbweave

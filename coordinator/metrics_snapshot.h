@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 #include "core/storage/blob_store.h"
 
 namespace orbweave {

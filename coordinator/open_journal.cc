@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/sqlite_journal.h"
+#include "core/base/status.h"
 
 namespace orbweave {
 namespace {

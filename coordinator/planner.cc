@@ -3,16 +3,16 @@
 
 #include "coordinator/planner.h"
 
-#include <chrono>
 #include <utility>
 
 #include "core/base/fault_point.h"
+#include "core/base/sleep.h"
 
 namespace orbweave {
 namespace {
 
 /// Before a journal that was away is asked again.
-constexpr std::chrono::milliseconds kPause{500};
+constexpr double kPause_s = 0.5;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void Planner::Run(const std::stop_token& stop) {
     lock.unlock();
     Save(ends);
     if (to_plan) PlanNextStage(*to_plan, stop);
-    if (to_save) desk_.SaveEnd(*to_save);
+    if (to_save) job_service_.SaveEnd(*to_save);
   }
   const LooseEnds ends = [this] {
     const std::lock_guard lock(mutex_);
@@ -87,9 +87,7 @@ absl::StatusOr<PreparedStage> Planner::Prepare(const JobSnapshot& snapshot,
   while (true) {
     absl::StatusOr<PreparedStage> prepared = PrepareStage(snapshot, blobs_, journal_);
     if (!absl::IsUnavailable(prepared.status()) || stop.stop_requested()) return prepared;
-    std::mutex never_mutex;
-    std::unique_lock never(never_mutex);
-    std::condition_variable_any().wait_for(never, stop, kPause, [] { return false; });
+    SleepUnlessStopped(kPause_s, stop);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "coordinator/dispatcher.h"
-#include "coordinator/job_desk.h"
+#include "coordinator/job_service.h"
 #include "coordinator/journal.h"
 #include "core/base/clock.h"
 #include "core/storage/blob_store.h"
@@ -22,13 +22,13 @@ class Planner {
   /// `mutex` guards `dispatcher`.
   Planner(std::mutex& mutex,
           Dispatcher& dispatcher,
-          JobDesk& desk,
+          JobService& job_service,
           BlobStore& blobs,
           Journal& journal,
           const Clock& clock)
       : mutex_(mutex),
         dispatcher_(dispatcher),
-        desk_(desk),
+        job_service_(job_service),
         blobs_(blobs),
         journal_(journal),
         clock_(clock) {}
@@ -48,7 +48,7 @@ class Planner {
 
   std::mutex& mutex_;
   Dispatcher& dispatcher_;
-  JobDesk& desk_;
+  JobService& job_service_;
   BlobStore& blobs_;
   Journal& journal_;
   const Clock& clock_;

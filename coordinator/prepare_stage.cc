@@ -5,21 +5,8 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_cat.h"
-
 namespace orbweave {
 namespace {
-
-absl::StatusOr<std::vector<Digest>> ReadListedRecipes(const JobSnapshot& snapshot,
-                                                      BlobAccess& blobs) {
-  const std::optional<uint32_t> input = snapshot.plan.stages[snapshot.stage].parts_listed_in;
-  if (!input) return std::vector<Digest>{};
-  if (*input >= snapshot.spec.inputs.size()) {
-    return absl::InvalidArgumentError(absl::StrCat("the job has no input ", *input));
-  }
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(snapshot.spec.inputs[*input]));
-  return DecodeCollection(bytes);
-}
 
 bool IsComplete(const TaskResult& result, bool verify, BlobStore& blobs) {
   const auto is_there = [&](const Digest& blob) {
@@ -32,7 +19,8 @@ bool IsComplete(const TaskResult& result, bool verify, BlobStore& blobs) {
 }  // namespace
 
 absl::StatusOr<StagePlan> PlanSnapshot(const JobSnapshot& snapshot, BlobAccess& blobs) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed, ReadListedRecipes(snapshot, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed,
+                            ReadListedRecipes(snapshot.plan, snapshot.stage, snapshot.spec, blobs));
   return PlanStage(snapshot.plan, snapshot.stage, snapshot.spec, snapshot.results, listed);
 }
 

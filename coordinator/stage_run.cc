@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/base/quantile.h"
+
 namespace orbweave {
 namespace {
 
@@ -48,9 +50,18 @@ void StageRun::UpdateStragglerTime(const RetryPolicy& policy) {
   straggler_after_s.reset();
   const size_t computed = tasks.size() - reused;
   if (!ready.empty() || durations_s.empty() || 2 * durations_s.size() < computed) return;
-  const auto middle = durations_s.begin() + static_cast<ptrdiff_t>(durations_s.size() / 2);
-  std::nth_element(durations_s.begin(), middle, durations_s.end());
-  straggler_after_s = policy.StragglerAfter(*middle);
+  straggler_after_s = policy.StragglerAfter(UpperMedian(durations_s));
+}
+
+bool StageRun::HasStraggler(double now_s) const {
+  return straggler_after_s && std::ranges::any_of(running, [&](uint32_t part) {
+           const std::vector<RunningAttempt>& attempts = tasks[part].attempts;
+           return attempts.size() == 1 && IsLate(attempts.front(), now_s);
+         });
+}
+
+bool StageRun::IsLate(const RunningAttempt& attempt, double now_s) const {
+  return now_s - attempt.leased_s > *straggler_after_s;
 }
 
 std::optional<uint32_t> StageRun::FindStraggler(const std::string& worker,
@@ -63,9 +74,9 @@ std::optional<uint32_t> StageRun::FindStraggler(const std::string& worker,
   for (const uint32_t part : running) {
     const std::vector<RunningAttempt>& attempts = tasks[part].attempts;
     if (attempts.size() > 1) ++duplicates;
-    const bool is_late = now_s - attempts.front().leased_s > *straggler_after_s;
     const bool is_elsewhere = attempts.front().holder.worker != worker;
-    if (!found && attempts.size() == 1 && is_late && is_elsewhere) found = part;
+    if (!found && attempts.size() == 1 && IsLate(attempts.front(), now_s) && is_elsewhere)
+      found = part;
   }
   return duplicates < policy.MaxDuplicates(slots) ? found : std::nullopt;
 }
@@ -78,6 +89,8 @@ void StageRun::AddTo(StageStatus& status) const {
   status.retries += retries;
   if (first_lease_s) status.wall_s += std::max(0.0, last_result_s - *first_lease_s);
   status.cpu_s += cpu_s;
+  ++status.runs;
+  status.busy_s += wall_s;
   for (const uint32_t part : running) status.fraction_running += tasks[part].Fraction();
 }
 

@@ -51,6 +51,10 @@ struct StageRun {
   /// To be called when a task was leased, done or failed: stragglers there are only when no task is
   /// ready and half of those that are computed are done.
   void UpdateStragglerTime(const RetryPolicy& policy);
+  /// Whether an attempt has run too long, where there are stragglers.
+  [[nodiscard]] bool IsLate(const RunningAttempt& attempt, double now_s) const;
+  /// Whether a task has run too long, and nobody does it a second time.
+  [[nodiscard]] bool HasStraggler(double now_s) const;
   /// The first straggler that `worker` does not do itself, unless as many run twice as may of all
   /// `slots`.
   [[nodiscard]] std::optional<uint32_t> FindStraggler(const std::string& worker,

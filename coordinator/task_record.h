@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "coordinator/retry_policy.h"
-#include "core/pipeline/coordinator_api.h"
+#include "core/base/stage_context.h"
+#include "core/pipeline/job_api.h"
 
 namespace orbweave {
 

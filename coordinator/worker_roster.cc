@@ -3,6 +3,8 @@
 
 #include "coordinator/worker_roster.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -34,6 +36,7 @@ void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s
   record.session = session;
   record.heard_s = now_s;
   record.slots = worker.slots;
+  record.offers = worker.offers;
   record.draining = false;
   const bool is_another = worker.process == 0 || worker.process != record.process;
   record.process = worker.process;
@@ -41,12 +44,14 @@ void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s
   names_[session] = worker.name;
 }
 
+absl::Status WorkerRoster::Check(uint64_t session) const {
+  if (names_.contains(session)) return absl::OkStatus();
+  return absl::NotFoundError(absl::StrCat("session ", session, " is over: join again"));
+}
+
 absl::Status WorkerRoster::Hear(uint64_t session, double now_s) {
-  const auto it = names_.find(session);
-  if (it == names_.end()) {
-    return absl::NotFoundError(absl::StrCat("session ", session, " is over: join again"));
-  }
-  records_[it->second].heard_s = now_s;
+  ORBWEAVE_RETURN_IF_ERROR(Check(session));
+  records_[names_.at(session)].heard_s = now_s;
   return absl::OkStatus();
 }
 
@@ -116,6 +121,34 @@ uint32_t WorkerRoster::Slots(double now_s) const {
     if (IsAlive(record, now_s)) slots += record.slots;
   }
   return slots;
+}
+
+std::vector<std::string> WorkerRoster::Able(const std::vector<std::string>& workers,
+                                            const StageNeeds& needs) const {
+  std::vector<std::string> able;
+  std::ranges::copy_if(workers, std::back_inserter(able), [&](const std::string& name) {
+    const Record& record = records_.at(name);
+    return TasksAtOnce(record.offers, record.slots, needs) > 0;
+  });
+  return able;
+}
+
+bool WorkerRoster::HasRoom(std::string_view name,
+                           const StageNeeds& taken,
+                           const StageNeeds& needs) const {
+  const auto it = records_.find(name);
+  return it != records_.end() &&
+         orbweave::HasRoom(it->second.offers, it->second.slots, taken, needs);
+}
+
+std::string WorkerRoster::Missing(const StageNeeds& needs, double now_s) const {
+  std::vector<WorkerOffers> offers;
+  for (const std::string& name : Serving(now_s)) {
+    const Record& record = records_.at(name);
+    if (TasksAtOnce(record.offers, record.slots, needs) > 0) return {};
+    offers.push_back(WithThreads(record.offers, record.slots));
+  }
+  return offers.empty() ? "" : DescribeMissing(offers, needs);
 }
 
 std::vector<WorkerStatus> WorkerRoster::Status(double now_s) const {

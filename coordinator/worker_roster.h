@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "coordinator/journal.h"
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
+#include "core/pipeline/worker_api.h"
 
 namespace orbweave {
 
@@ -31,6 +32,8 @@ class WorkerRoster {
 
   /// Begins session `session` of a worker, which ends the one it had.
   void Join(const WorkerInfo& worker, uint64_t session, double now_s);
+  /// NotFound: a session is unknown, or over.
+  [[nodiscard]] absl::Status Check(uint64_t session) const;
   /// Notes that a session was heard. NotFound: it is unknown, or over.
   [[nodiscard]] absl::Status Hear(uint64_t session, double now_s);
   /// Ends a session; the worker stays listed as not alive.
@@ -50,12 +53,23 @@ class WorkerRoster {
   /// Slots of all workers that are alive.
   [[nodiscard]] uint32_t Slots(double now_s) const;
   [[nodiscard]] std::vector<WorkerStatus> Status(double now_s) const;
+  /// Those of `workers` that can do a task of these needs when they do nothing else.
+  [[nodiscard]] std::vector<std::string> Able(const std::vector<std::string>& workers,
+                                              const StageNeeds& needs) const;
+  /// Whether a worker has room for a task beside those that took `taken` of it.
+  [[nodiscard]] bool HasRoom(std::string_view name,
+                             const StageNeeds& taken,
+                             const StageNeeds& needs) const;
+  /// What is missing that no worker that is given tasks will ever have; empty: one has it all, or
+  /// there is none at all.
+  [[nodiscard]] std::string Missing(const StageNeeds& needs, double now_s) const;
 
  private:
   struct Record {
     uint64_t session = 0;  ///< 0: none
     double heard_s = 0.0;
     uint32_t slots = 1;
+    WorkerOffers offers{};
     uint32_t tasks_done = 0;
     bool draining = false;
     uint64_t process = 0;

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Installs what deploy/packages.txt lists and this machine lacks. Nothing missing: does nothing.
+# Installs what a list of packages has and this machine lacks. Nothing missing: does nothing.
+#   deploy/install_packages.sh [LIST, by default deploy/packages.txt]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 missing=()
 while read -r package; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
-done < <(grep -v '^#' "$here/packages.txt")
+done < <(grep -v '^#' "${1:-$here/packages.txt}")
 
 if [ ${#missing[@]} -eq 0 ]; then
   exit 0

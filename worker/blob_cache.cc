@@ -27,15 +27,15 @@ absl::StatusOr<SharedBytes> BlobCache::Get(const Digest& digest) {
     }
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const SharedBytes bytes,
-                            RetryWhileUnavailable(stop_, [&] { return Fetch(source_, digest); }));
+                            Retry({.stop = stop_}, [&] { return Fetch(source_, digest); }));
   Keep(digest, bytes);
   return bytes;
 }
 
 absl::Status BlobCache::Put(const Digest& digest, const SharedBytes& bytes) {
   const std::string_view view = bytes.View();
-  ORBWEAVE_RETURN_IF_ERROR(RetryWhileUnavailable(
-      stop_, [&] { return source_.Write(digest, view.size(), PiecesOf(view)); }));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Retry({.stop = stop_}, [&] { return source_.Write(digest, view.size(), PiecesOf(view)); }));
   Keep(digest, bytes);
   return absl::OkStatus();
 }

@@ -3,9 +3,9 @@
 
 #include "worker/certificate_keeper.h"
 
-#include <condition_variable>
-#include <mutex>
 #include <utility>
+
+#include "core/base/sleep.h"
 
 namespace orbweave {
 
@@ -17,13 +17,9 @@ bool IsDueForRenewal(const CertificateFacts& certificate, int64_t now_unix_s) {
 
 CertificateKeeper::CertificateKeeper(CertificateKeeperOptions options)
     : options_(std::move(options)), thread_([this](const std::stop_token& stop) {
-        std::mutex mutex;
-        std::condition_variable_any never;
         while (!stop.stop_requested()) {
           Look();
-          std::unique_lock lock(mutex);
-          never.wait_for(
-              lock, stop, std::chrono::duration<double>(options_.look_s), [] { return false; });
+          SleepUnlessStopped(options_.look_s, stop);
         }
       }) {}
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -52,12 +53,10 @@ v1::JobRequest RequestFor(const Digest& job) {
 }  // namespace
 
 GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
-                                             std::stop_token stop,
                                              const ClientOptions& options)
     : handshake_(address, options.tls_folder),
       channel_(OpenChannel(address, options.tls_folder)),
       stub_(v1::Coordinator::NewStub(channel_)),
-      stop_(std::move(stop)),
       roots_(options.roots) {}
 
 void GrpcCoordinatorClient::AwaitHandshake() {
@@ -118,14 +117,16 @@ absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) 
 
 absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t session,
                                                                       uint32_t slot,
-                                                                      double wait_s) {
+                                                                      double wait_s,
+                                                                      const std::stop_token& left) {
+  if (!std::isfinite(wait_s)) return absl::InvalidArgumentError("a wait is a number of seconds");
   v1::LeaseTaskRequest request;
   request.set_session(session);
   request.set_slot(slot);
   request.set_wait_s(wait_s);
   grpc::ClientContext context;
   Begin(context, wait_s + kQuick_s);
-  const std::stop_callback on_stop(stop_, [&context] { context.TryCancel(); });
+  const std::stop_callback on_left(left, [&context] { context.TryCancel(); });
   v1::LeaseTaskReply reply;
   ORBWEAVE_RETURN_IF_ERROR(
       handshake_.Explain(FromWire(stub_->LeaseTask(&context, request, &reply))));

@@ -24,10 +24,8 @@ struct ClientOptions {
 /// Unauthenticated when it will never be, see RefusedHandshake. Thread-safe.
 class GrpcCoordinatorClient final : public CoordinatorApi {
  public:
-  /// `address` as the server prints it. `stop` ends a waiting LeaseTask with Cancelled.
-  explicit GrpcCoordinatorClient(const std::string& address,
-                                 std::stop_token stop = {},
-                                 const ClientOptions& options = {});
+  /// `address` as the server prints it.
+  explicit GrpcCoordinatorClient(const std::string& address, const ClientOptions& options = {});
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   [[nodiscard]] absl::StatusOr<Digest> Put(std::string_view bytes) override;
@@ -37,9 +35,9 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
                                    const NextPiece& next) override;
 
   [[nodiscard]] absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) override;
-  [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
-                                                               uint32_t slot,
-                                                               double wait_s) override;
+  using WorkerApi::LeaseTask;
+  [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(
+      uint64_t session, uint32_t slot, double wait_s, const std::stop_token& left) override;
   [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(
       uint64_t session, const std::vector<LeaseProgress>& leases) override;
   [[nodiscard]] absl::Status CompleteTask(uint64_t session,
@@ -87,7 +85,6 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   RefusedHandshake handshake_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::Coordinator::Stub> stub_;
-  std::stop_token stop_;
   std::map<std::string, std::string> roots_;
 };
 

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/worker_api.h"
 
 namespace orbweave {
 

@@ -4,20 +4,22 @@
 #include "worker/retry.h"
 
 #include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
+
+#include "core/base/sleep.h"
 
 namespace orbweave {
 
 bool Backoff::Wait(const std::stop_token& stop) {
   constexpr double kLongest = 5.0;
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, std::chrono::duration<double>(next_s_), [] { return false; });
+  const bool goes_on = SleepUnlessStopped(next_s_, stop);
   next_s_ = std::min(2.0 * next_s_, kLongest);
-  return !stop.stop_requested();
+  return goes_on;
+}
+
+bool RetryRule::Repeats(const absl::Status& status) const {
+  if (status.ok() || stop.stop_requested()) return false;
+  if (!(is_passing ? is_passing(status) : absl::IsUnavailable(status))) return false;
+  return !goes_on || goes_on(status);
 }
 
 }  // namespace orbweave

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <stop_token>
-#include <utility>
 
 #include "core/base/status.h"
 
@@ -19,24 +19,28 @@ class Backoff {
   double next_s_ = 0.2;
 };
 
-/// Calls `call()` (a Status or StatusOr) until it returns another code than Unavailable, or until
-/// `stop`; before every wait says why to `waits(status)`.
-template <typename Call, typename Waits>
-auto RetryWhileUnavailable(const std::stop_token& stop, Call&& call, Waits&& waits)
-    -> decltype(call()) {
+/// How long a call is repeated.
+struct RetryRule {
+  std::stop_token stop{};
+  /// The errors that may pass. Empty: Unavailable.
+  std::function<bool(const absl::Status&)> is_passing{};
+  /// Told such an error before every wait; false: no more attempts. Empty: on and on.
+  std::function<bool(const absl::Status&)> goes_on{};
+
+  /// Whether there is to be another attempt after `status`, but for the wait before it.
+  [[nodiscard]] bool Repeats(const absl::Status& status) const;
+};
+
+/// What `call()` (a Status or StatusOr) answers at last: what is no passing error, or the error
+/// after which `goes_on` said no or `stop` came.
+template <typename Call>
+auto Retry(const RetryRule& rule, Call&& call) -> decltype(call()) {
   Backoff backoff;
   while (true) {
     auto answer = call();
     const absl::Status status = internal::StatusOf(answer);
-    if (!absl::IsUnavailable(status)) return answer;
-    waits(status);
-    if (!backoff.Wait(stop)) return answer;
+    if (!rule.Repeats(status) || !backoff.Wait(rule.stop)) return answer;
   }
-}
-
-template <typename Call>
-auto RetryWhileUnavailable(const std::stop_token& stop, Call&& call) -> decltype(call()) {
-  return RetryWhileUnavailable(stop, std::forward<Call>(call), [](const absl::Status&) {});
 }
 
 }  // namespace orbweave

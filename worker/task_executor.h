@@ -15,8 +15,8 @@ namespace orbweave {
 class TaskExecutor {
  public:
   virtual ~TaskExecutor() = default;
-  /// Runs a task and measures it; its blobs are those of `blobs`, where what the task left may still
-  /// be on its way. Errors: those of the stage; Cancelled once `context.stop` is requested.
+  /// Runs a task and measures it; its blobs are those of `blobs`, where what the task left may
+  /// still be on its way. Errors: those of the stage; Cancelled once `context.stop` is requested.
   [[nodiscard]] virtual absl::StatusOr<TaskResult> Run(const TaskSpec& spec,
                                                        TaskBlobs& blobs,
                                                        const StageContext& context) = 0;

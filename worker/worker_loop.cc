@@ -3,8 +3,6 @@
 
 #include "worker/worker_loop.h"
 
-#include <chrono>
-#include <condition_variable>
 #include <latch>
 #include <mutex>
 #include <random>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/sleep.h"
 #include "core/pipeline/build_version.h"
 #include "worker/blob_cache.h"
 #include "worker/held_leases.h"
@@ -42,31 +41,40 @@ bool IsRefusal(const absl::Status& status) {
   return absl::IsPermissionDenied(status) || absl::IsUnauthenticated(status);
 }
 
-/// A slot has one executor and two hands: while one's task runs, the other stores and hands in the
+/// What asking for a task again may get over: all but what an answer is to.
+bool MayPass(const absl::Status& status) {
+  return !absl::IsNotFound(status) && !absl::IsCancelled(status) && !IsRefusal(status);
+}
+
+/// A slot has one executor and two lanes: while one's task runs, the other stores and hands in the
 /// result before it and takes what the coordinator gives ahead.
-constexpr int kHands = 2;
+constexpr int kLanes = 2;
 
 struct Slot {
   uint32_t number = 0;
   std::unique_ptr<TaskExecutor> executor{};
-  std::mutex asking{};         ///< one hand asks for a task at a time
+  std::mutex asking{};         ///< one lane asks for a task at a time
   std::mutex running{};        ///< of the executor
-  std::latch leaving{kHands};  ///< its process dies with the hand that started it
+  std::latch leaving{kLanes};  ///< its process dies with the lane that started it
 };
 
 class Worker {
  public:
-  Worker(CoordinatorApi& api, const MakeTaskExecutor& make_executor, const WorkerOptions& options)
+  Worker(WorkerApi& api,
+         BlobAccess& blobs,
+         const MakeTaskExecutor& make_executor,
+         const WorkerOptions& options)
       : api_(api),
         make_executor_(make_executor),
         options_(options),
-        store_(api, options.blob_folder),
+        store_(blobs, options.blob_folder),
         session_(api,
                  store_,
                  {.name = options.name,
                   .version = std::string(BuildVersion()),
                   .slots = options.slots,
-                  .process = NameOfProcess()},
+                  .process = NameOfProcess(),
+                  .offers = options.offers},
                  leases_,
                  [this](const absl::Status& why) { SayAway(why); }),
         blobs_(store_, options.cache_bytes, ending_.get_token()) {}
@@ -77,7 +85,7 @@ class Worker {
       const std::jthread heartbeat([this] { BeatUntilEnd(); });
       std::vector<std::jthread> slots;
       for (uint32_t slot = 0; slot < options_.slots; ++slot) {
-        slots.emplace_back([this, slot] { Staff(slot); });
+        slots.emplace_back([this, slot] { StartLanes(slot); });
       }
       slots.clear();  // joins: the heart beats until the last task is handed in or given back
       beating_.request_stop();
@@ -129,11 +137,11 @@ class Worker {
     return std::nullopt;
   }
 
-  void Staff(uint32_t number) {
+  void StartLanes(uint32_t number) {
     Slot slot{.number = number, .executor = make_executor_()};
-    std::vector<std::jthread> hands;
-    for (int hand = 0; hand < kHands; ++hand) {
-      hands.emplace_back([this, &slot] {
+    std::vector<std::jthread> lanes;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      lanes.emplace_back([this, &slot] {
         WorkUntilEnd(slot);
         slot.leaving.arrive_and_wait();
       });
@@ -141,13 +149,18 @@ class Worker {
   }
 
   void WorkUntilEnd(Slot& slot) {
-    Backoff backoff;
+    const RetryRule until_told{.stop = draining_.get_token(),
+                               .is_passing = MayPass,
+                               .goes_on = [this](const absl::Status& why) {
+                                 SayAway(why);
+                                 return true;
+                               }};
     while (!draining_.stop_requested()) {
       const std::optional<JoinReply> session = Session();
       if (!session) return;
-      const absl::StatusOr<std::optional<Lease>> lease = Ask(slot, session->session);
+      const absl::StatusOr<std::optional<Lease>> lease =
+          Retry(until_told, [&] { return Ask(slot, session->session); });
       if (lease.ok()) {
-        backoff = {};
         if (*lease) Work(**lease, slot);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
@@ -155,9 +168,6 @@ class Worker {
         draining_.request_stop();
       } else if (IsRefusal(lease.status())) {
         End(lease.status());
-      } else if (!draining_.stop_requested()) {
-        SayAway(lease.status());
-        backoff.Wait(draining_.get_token());
       }
     }
   }
@@ -166,7 +176,7 @@ class Worker {
   absl::StatusOr<std::optional<Lease>> Ask(Slot& slot, uint64_t session) {
     const std::lock_guard asking(slot.asking);
     if (draining_.stop_requested()) return std::nullopt;
-    return api_.LeaseTask(session, slot.number, options_.poll_s);
+    return api_.LeaseTask(session, slot.number, options_.poll_s, draining_.get_token());
   }
 
   /// The slot's next task begins while what this one left is still on its way to the store.
@@ -213,7 +223,7 @@ class Worker {
       const absl::StatusOr<JoinReply> session = session_.Get(ending_.get_token());
       if (!session.ok()) return session.status();
       const absl::Status status =
-          RetryWhileUnavailable(ending_.get_token(), [&] { return call(session->session); });
+          Retry({.stop = ending_.get_token()}, [&] { return call(session->session); });
       if (!absl::IsNotFound(status)) return status;
       session_.Forget(session->session);
     }
@@ -240,11 +250,7 @@ class Worker {
     }
   }
 
-  void WaitUntilAllIsIn(double longest_s) {
-    std::unique_lock lock(wait_mutex_);
-    never_.wait_for(
-        lock, beating_.get_token(), std::chrono::duration<double>(longest_s), [] { return false; });
-  }
+  void WaitUntilAllIsIn(double longest_s) { SleepUnlessStopped(longest_s, beating_.get_token()); }
 
   /// One heartbeat; returns the seconds until the next.
   double Beat() {
@@ -266,7 +272,7 @@ class Worker {
     return session->heartbeat_s;
   }
 
-  CoordinatorApi& api_;
+  WorkerApi& api_;
   const MakeTaskExecutor& make_executor_;
   const WorkerOptions& options_;
   std::mutex mutex_;
@@ -274,8 +280,6 @@ class Worker {
   std::stop_source draining_;  ///< take no more
   std::stop_source ending_;    ///< give back what runs
   std::stop_source beating_;   ///< all is handed in
-  std::mutex wait_mutex_;
-  std::condition_variable_any never_;
   HeldLeases leases_;
   SharedStore store_;
   WorkerSession session_;
@@ -285,11 +289,12 @@ class Worker {
 
 }  // namespace
 
-absl::Status RunWorker(CoordinatorApi& api,
+absl::Status RunWorker(WorkerApi& coordinator,
+                       BlobAccess& blobs,
                        const MakeTaskExecutor& make_executor,
                        const WorkerOptions& options,
                        const std::stop_token& stop) {
-  return Worker(api, make_executor, options).Run(stop);
+  return Worker(coordinator, blobs, make_executor, options).Run(stop);
 }
 
 }  // namespace orbweave

@@ -5,8 +5,9 @@
 #include <stop_token>
 #include <string>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/blob_access.h"
 #include "core/pipeline/log_event.h"
+#include "core/pipeline/worker_api.h"
 #include "worker/task_executor.h"
 
 namespace orbweave {
@@ -14,6 +15,7 @@ namespace orbweave {
 struct WorkerOptions {
   std::string name{};  ///< unique among the workers of a coordinator
   uint32_t slots = 1;  ///< tasks at a time
+  WorkerOffers offers{};
   int threads_per_task = 1;
   double grace_s = 30.0;  ///< for tasks that run when the worker is told to end
   double poll_s = 10.0;   ///< how long one question for a task waits at the coordinator
@@ -28,8 +30,9 @@ struct WorkerOptions {
 /// back, and so is all when the coordinator shuts down. Outlasts a coordinator that is away for a
 /// while. Returns OK after leaving; FailedPrecondition when the coordinator does not take this
 /// worker (another version), or the blob folder is not its; PermissionDenied or Unauthenticated
-/// when it refuses its certificate.
-[[nodiscard]] absl::Status RunWorker(CoordinatorApi& api,
+/// when it refuses its certificate. `blobs`: those of the coordinator.
+[[nodiscard]] absl::Status RunWorker(WorkerApi& coordinator,
+                                     BlobAccess& blobs,
                                      const MakeTaskExecutor& make_executor,
                                      const WorkerOptions& options,
                                      const std::stop_token& stop);

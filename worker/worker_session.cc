@@ -11,8 +11,12 @@ absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
   const std::lock_guard lock(mutex_);
   if (reply_.session != 0) return reply_;
   if (stop.stop_requested()) return absl::CancelledError("the worker is stopping");
-  absl::StatusOr<JoinReply> joined = RetryWhileUnavailable(
-      stop, [this] { return Join(); }, away_);
+  const auto say = [this](const absl::Status& why) {
+    away_(why);
+    return true;
+  };
+  absl::StatusOr<JoinReply> joined =
+      Retry({.stop = stop, .goes_on = say}, [this] { return Join(); });
   if (!joined.ok())
     return stop.stop_requested() ? absl::CancelledError("the worker is stopping") : joined.status();
   reply_ = *joined;

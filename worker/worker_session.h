@@ -6,7 +6,7 @@
 #include <mutex>
 #include <stop_token>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/worker_api.h"
 #include "worker/held_leases.h"
 #include "worker/shared_store.h"
 
@@ -18,7 +18,7 @@ class WorkerSession {
  public:
   /// `store` is checked with each session. `away` is told whenever the coordinator could not be
   /// joined, and why.
-  WorkerSession(CoordinatorApi& api,
+  WorkerSession(WorkerApi& api,
                 SharedStore& store,
                 WorkerInfo info,
                 HeldLeases& leases,
@@ -37,7 +37,7 @@ class WorkerSession {
  private:
   [[nodiscard]] absl::StatusOr<JoinReply> Join();
 
-  CoordinatorApi& api_;
+  WorkerApi& api_;
   SharedStore& store_;
   WorkerInfo info_;
   HeldLeases& leases_;

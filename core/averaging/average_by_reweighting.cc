@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/robust/loss.h"
 
 namespace orbweave {
@@ -19,10 +20,7 @@ constexpr double kExact = 1e-6;
 constexpr double kAtRest = 1e-2;
 
 double Median(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.data(), values.data() + values.size());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return UpperMedian({values.data(), values.data() + values.size()});
 }
 
 class Reweighting {

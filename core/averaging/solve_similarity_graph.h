@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/averaging/average_similarities.h"
+#include "core/averaging/similarity_graph.h"
+#include "core/base/stage_context.h"
 
 namespace orbweave {
 

@@ -13,22 +13,23 @@ namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-uint32_t CountEliminated(uint32_t num_blocks, const std::vector<uint8_t>& is_kept) {
-  const auto num_kept =
-      std::count_if(is_kept.begin(), is_kept.end(), [](uint8_t kept) { return kept != 0; });
+uint32_t CountEliminated(uint32_t num_blocks, const std::vector<uint8_t>& is_retained) {
+  const auto num_kept = std::count_if(
+      is_retained.begin(), is_retained.end(), [](uint8_t retained) { return retained != 0; });
   return num_blocks - static_cast<uint32_t>(num_kept);
 }
 
-// position[block]: the eliminated blocks in the AMD order of their own graph, then the kept ones.
+// position[block]: the eliminated blocks in the AMD order of their own graph, then the retained
+// ones.
 std::vector<uint32_t> EliminationPositions(const SymmetricBlockMatrix& pattern,
-                                           const std::vector<uint8_t>& is_kept) {
-  const int n = static_cast<int>(CountEliminated(pattern.num_blocks, is_kept));
+                                           const std::vector<uint8_t>& is_retained) {
+  const int n = static_cast<int>(CountEliminated(pattern.num_blocks, is_retained));
   std::vector<uint32_t> block_of_node;
   std::vector<uint32_t> position(
-      pattern.num_blocks);  // first the node, kept ones behind the others
+      pattern.num_blocks);  // first the node, retained ones behind the others
   auto next_kept = static_cast<uint32_t>(n);
   for (uint32_t block = 0; block < pattern.num_blocks; ++block) {
-    if (!is_kept.empty() && is_kept[block]) {
+    if (!is_retained.empty() && is_retained[block]) {
       position[block] = next_kept++;
     } else {
       position[block] = static_cast<uint32_t>(block_of_node.size());
@@ -112,17 +113,16 @@ void SolveLowerTransposed(const Block6& L, Vector6& x) {
 }  // namespace
 
 BlockCholesky::BlockCholesky(const SymmetricBlockMatrix& pattern,
-                             const std::vector<uint8_t>& is_kept)
+                             const std::vector<uint8_t>& is_retained)
     : num_blocks_(pattern.num_blocks),
-      num_eliminated_(CountEliminated(pattern.num_blocks, is_kept)),
-      position_(EliminationPositions(pattern, is_kept)) {
+      num_eliminated_(CountEliminated(pattern.num_blocks, is_retained)),
+      position_(EliminationPositions(pattern, is_retained)) {
   Analyze(pattern);
   values_.resize(rows_.size());
   slot_.resize(num_blocks_);
   next_row_.resize(num_blocks_);
   list_head_.resize(num_blocks_);
   list_next_.resize(num_blocks_);
-  permuted_.resize(num_blocks_);
 }
 
 // Where each block of A lands, and the pattern of L: a column holds the rows of A below its
@@ -153,8 +153,8 @@ void BlockCholesky::Analyze(const SymmetricBlockMatrix& pattern) {
       for (uint32_t p = column_start_[child]; p < column_start_[child + 1]; ++p) add(rows_[p]);
     }
     std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(first), rows_.end());
-    // What is left to do for an eliminated column is its parent's; kept ones have no parent, and
-    // each takes its share.
+    // What is left to do for an eliminated column is its parent's; retained ones have no parent,
+    // and each takes its share.
     const bool is_eliminated = j < num_eliminated_;
     for (size_t p = first + 1; is_eliminated && p < rows_.size(); ++p) {
       children[rows_[p]].push_back(j);
@@ -224,25 +224,27 @@ void BlockCholesky::Solve(std::vector<Vector6>& x) const {
 }
 
 void BlockCholesky::SolveForward(std::vector<Vector6>& x) const {
-  for (uint32_t i = 0; i < num_blocks_; ++i) permuted_[position_[i]] = x[i];
+  std::vector<Vector6> permuted(num_blocks_);
+  for (uint32_t i = 0; i < num_blocks_; ++i) permuted[position_[i]] = x[i];
   for (uint32_t j = 0; j < num_eliminated_; ++j) {
-    SolveLower(values_[column_start_[j]], permuted_[j]);
+    SolveLower(values_[column_start_[j]], permuted[j]);
     for (uint32_t p = column_start_[j] + 1; p < column_start_[j + 1]; ++p) {
-      permuted_[rows_[p]].noalias() -= values_[p] * permuted_[j];
+      permuted[rows_[p]].noalias() -= values_[p] * permuted[j];
     }
   }
-  for (uint32_t i = 0; i < num_blocks_; ++i) x[i] = permuted_[position_[i]];
+  for (uint32_t i = 0; i < num_blocks_; ++i) x[i] = permuted[position_[i]];
 }
 
 void BlockCholesky::SolveBackward(std::vector<Vector6>& x) const {
-  for (uint32_t i = 0; i < num_blocks_; ++i) permuted_[position_[i]] = x[i];
+  std::vector<Vector6> permuted(num_blocks_);
+  for (uint32_t i = 0; i < num_blocks_; ++i) permuted[position_[i]] = x[i];
   for (uint32_t j = num_eliminated_; j-- > 0;) {
     for (uint32_t p = column_start_[j] + 1; p < column_start_[j + 1]; ++p) {
-      permuted_[j].noalias() -= values_[p].transpose() * permuted_[rows_[p]];
+      permuted[j].noalias() -= values_[p].transpose() * permuted[rows_[p]];
     }
-    SolveLowerTransposed(values_[column_start_[j]], permuted_[j]);
+    SolveLowerTransposed(values_[column_start_[j]], permuted[j]);
   }
-  for (uint32_t i = 0; i < num_blocks_; ++i) x[i] = permuted_[position_[i]];
+  for (uint32_t i = 0; i < num_blocks_; ++i) x[i] = permuted[position_[i]];
 }
 
 SymmetricBlockMatrix BlockCholesky::Remaining() const {

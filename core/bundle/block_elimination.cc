@@ -24,13 +24,13 @@ std::vector<uint8_t> Filled(std::vector<uint8_t> flags, uint32_t size) {
 }  // namespace
 
 BlockElimination::BlockElimination(const SymmetricBlockMatrix& pattern,
-                                   std::vector<uint8_t> is_kept)
-    : is_kept_(Filled(std::move(is_kept), pattern.num_blocks)),
-      kept_(Indices(is_kept_)),
-      cholesky_(pattern, is_kept_) {}
+                                   std::vector<uint8_t> is_retained)
+    : is_retained_(Filled(std::move(is_retained), pattern.num_blocks)),
+      retained_(Indices(is_retained_)),
+      cholesky_(pattern, is_retained_) {}
 
 bool BlockElimination::Eliminate(double lambda, NormalSystem& system) {
-  DampPoses(lambda, system, is_kept_);
+  DampPoses(lambda, system, is_retained_);
   if (!cholesky_.Factorize(system.S)) return false;
   forward_ = system.rhs;
   cholesky_.SolveForward(forward_);
@@ -39,17 +39,18 @@ bool BlockElimination::Eliminate(double lambda, NormalSystem& system) {
 
 NormalSystem BlockElimination::Remaining(const NormalSystem& system) const {
   NormalSystem remaining = MakeNormalSystem(cholesky_.Remaining());
-  for (size_t i = 0; i < kept_.size(); ++i) {
-    remaining.rhs[i] = forward_[kept_[i]];
-    remaining.gradient[i] = system.gradient[kept_[i]];
-    remaining.trace[i] = system.trace[kept_[i]];
+  for (size_t i = 0; i < retained_.size(); ++i) {
+    remaining.rhs[i] = forward_[retained_[i]];
+    remaining.gradient[i] = system.gradient[retained_[i]];
+    remaining.trace[i] = system.trace[retained_[i]];
   }
   return remaining;
 }
 
-std::vector<Vector6> BlockElimination::BackSubstitute(const std::vector<Vector6>& kept_step) const {
+std::vector<Vector6> BlockElimination::BackSubstitute(
+    const std::vector<Vector6>& retained_step) const {
   std::vector<Vector6> step = forward_;
-  for (size_t i = 0; i < kept_.size(); ++i) step[kept_[i]] = kept_step[i];
+  for (size_t i = 0; i < retained_.size(); ++i) step[retained_[i]] = retained_step[i];
   cholesky_.SolveBackward(step);
   return step;
 }
@@ -58,7 +59,7 @@ double BlockElimination::PredictedDecrease(const NormalSystem& system,
                                            const std::vector<Vector6>& step) const {
   double decrease = 0.0;
   for (size_t block = 0; block < step.size(); ++block) {
-    if (is_kept_[block]) continue;
+    if (is_retained_[block]) continue;
     decrease += 0.5 * (system.damping[block].dot(step[block].cwiseAbs2()) -
                        system.gradient[block].dot(step[block]));
   }

@@ -5,20 +5,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/block_elimination.h"
 #include "core/bundle/bundle_layout.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/bundle/bundle_state.h"
 #include "core/bundle/gauge.h"
-#include "core/bundle/kept_points.h"
 #include "core/bundle/levenberg_marquardt.h"
 #include "core/bundle/reduced_system.h"
+#include "core/bundle/retained_points.h"
 #include "core/bundle/trial_step.h"
 
 namespace orbweave {
 
 /// Variables on which terms outside a problem depend too; indices ascending.
-struct KeptVariables {
+struct RetainedVariables {
   std::vector<uint32_t> poses{};
   std::vector<uint32_t> biases{};
   std::vector<uint32_t> points{};
@@ -28,26 +29,26 @@ struct KeptVariables {
 struct EvaluatedState {
   BundleState variables{};
   PointCosts costs{};  ///< of the points that are eliminated
-  /// Of the kept points, where they were before the step that led here.
-  std::vector<Eigen::Vector3d> kept_points_before{};
+  /// Of the retained points, where they were before the step that led here.
+  std::vector<Eigen::Vector3d> retained_points_before{};
 };
 
 /// One problem's part in the judgement of a step.
 struct TrialCost {
-  double cost = 0.0;                ///< without kept points
+  double cost = 0.0;                ///< without retained points
   double predicted_decrease = 0.0;  ///< of the eliminated variables
-  std::vector<KeptPointTrial> kept_points{};
+  std::vector<RetainedPointTrial> retained_points{};
 };
 
-/// The two halves of a Levenberg-Marquardt step on one problem. Linearize eliminates points in
-/// fixed chunks and then poses and biases, all but the kept variables; BackSubstitute turns a step
-/// of those into one of all. Nothing kept: both together are the whole step. `problem`, `gauge`
-/// outlive the object. Same bytes for any number of threads.
+/// The two halves of a Levenberg-Marquardt step on one problem. Linearise eliminates points in
+/// fixed chunks and then poses and biases, all but the retained variables; BackSubstitute turns a
+/// step of those into one of all. Nothing retained: both together are the whole step. `problem`,
+/// `gauge` outlive the object. Same bytes for any number of threads.
 class BundleEliminator {
  public:
   BundleEliminator(const BundleProblem& problem,
                    const Gauge& gauge,
-                   const KeptVariables& kept,
+                   const RetainedVariables& retained,
                    const BundleOptions& options,
                    int num_threads);
 
@@ -62,15 +63,15 @@ class BundleEliminator {
 
   /// False when the eliminated part is not positive definite; neither of the two below may be
   /// called then.
-  [[nodiscard]] bool Linearize(const EvaluatedState& state, const StepControl& control);
+  [[nodiscard]] bool Linearise(const EvaluatedState& state, const StepControl& control);
 
-  /// Of the kept blocks: poses, biases, points; undamped.
+  /// Of the retained blocks: poses, biases, points; undamped.
   [[nodiscard]] NormalSystem Remaining() const { return elimination_.Remaining(system_); }
 
-  /// `state` is that of the last Linearize; `trial` is overwritten. Kept points take the whole of
+  /// `state` is that of the last Linearise; `trial` is overwritten. Kept points take the whole of
   /// their step; TrialCost says what shorter ones would cost.
   TrialCost BackSubstitute(const EvaluatedState& state,
-                           const std::vector<Vector6>& kept_step,
+                           const std::vector<Vector6>& retained_step,
                            EvaluatedState& trial);
 
   [[nodiscard]] const BundleLayout& layout() const { return layout_; }
@@ -87,7 +88,7 @@ class BundleEliminator {
   ReducedSystem system_;
 };
 
-/// Poses and points of `state` into `problem`. Held poses and points without observations keep
+/// Poses and points of `state` into `problem`. Held poses and points without observations retained
 /// their bits.
 void WriteBack(const BundleLayout& layout, const BundleState& state, BundleProblem& problem);
 

@@ -20,7 +20,7 @@ void NumberBlocks(const BundleProblem& problem, const Gauge& gauge, BundleLayout
   for (size_t group = 0; group < problem.bias_sigma_m.size(); ++group) {
     if (problem.bias_sigma_m[group] > 0.0) layout.bias_block[group] = layout.num_blocks++;
   }
-  layout.first_kept_point = layout.num_blocks;
+  layout.first_retained_point = layout.num_blocks;
 }
 
 // Observation indices by point (start has one entry more than there are points).
@@ -51,16 +51,17 @@ ObservationsByPoint SortByPoint(const BundleProblem& problem) {
   return sorted;
 }
 
-// Points with observations but the kept ones; those that start at the same pose become neighbours.
+// Points with observations but the retained ones; those that start at the same pose become
+// neighbours.
 std::vector<uint32_t> OrderPoints(const BundleProblem& problem,
                                   const ObservationsByPoint& by_point,
                                   const std::vector<uint32_t>& pose_block,
-                                  const std::vector<uint32_t>& kept_points) {
+                                  const std::vector<uint32_t>& retained_points) {
   std::vector<uint32_t> first_block(problem.points_in_world.size(), kHeld);
   std::vector<uint32_t> order;
   for (uint32_t point = 0; point < first_block.size(); ++point) {
     if (by_point.start[point] == by_point.start[point + 1]) continue;
-    if (std::binary_search(kept_points.begin(), kept_points.end(), point)) continue;
+    if (std::binary_search(retained_points.begin(), retained_points.end(), point)) continue;
     order.push_back(point);
     for (uint32_t k = by_point.start[point]; k < by_point.start[point + 1]; ++k) {
       const uint32_t block = pose_block[problem.observations[by_point.indices[k]].pose];
@@ -74,7 +75,7 @@ std::vector<uint32_t> OrderPoints(const BundleProblem& problem,
 }
 
 void PackObservations(const BundleProblem& problem,
-                      const std::vector<uint32_t>& kept_points,
+                      const std::vector<uint32_t>& retained_points,
                       BundleLayout& layout) {
   const ObservationsByPoint by_point = SortByPoint(problem);
   layout.observations.reserve(problem.observations.size());
@@ -90,11 +91,11 @@ void PackObservations(const BundleProblem& problem,
     packed.is_fixed = !problem.point_is_fixed.empty() && problem.point_is_fixed[point];
     points.push_back(packed);
   };
-  for (const uint32_t point : OrderPoints(problem, by_point, layout.pose_block, kept_points)) {
+  for (const uint32_t point : OrderPoints(problem, by_point, layout.pose_block, retained_points)) {
     pack(point, layout.points);
   }
-  for (const uint32_t point : kept_points) pack(point, layout.kept_points);
-  layout.num_blocks += static_cast<uint32_t>(kept_points.size());
+  for (const uint32_t point : retained_points) pack(point, layout.retained_points);
+  layout.num_blocks += static_cast<uint32_t>(retained_points.size());
 }
 
 void CutIntoChunks(BundleLayout& layout) {
@@ -170,11 +171,12 @@ void BuildMatrix(const BundleProblem& problem, BundleLayout& layout) {
     const uint32_t bias = prior.bias_group ? layout.bias_block[*prior.bias_group] : kHeld;
     if (pose != kHeld && bias != kHeld) pattern.push_back({.column = bias, .row = pose});
   }
-  for (uint32_t k = 0; k < layout.kept_points.size(); ++k) {
-    const PackedPoint& point = layout.kept_points[k];
+  for (uint32_t k = 0; k < layout.retained_points.size(); ++k) {
+    const PackedPoint& point = layout.retained_points[k];
     for (uint32_t i = point.first; i < point.end; ++i) {
       const uint32_t pose = layout.pose_block[layout.observations[i].pose];
-      if (pose != kHeld) pattern.push_back({.column = layout.first_kept_point + k, .row = pose});
+      if (pose != kHeld)
+        pattern.push_back({.column = layout.first_retained_point + k, .row = pose});
     }
   }
   layout.matrix = MakeBlockMatrix(layout.num_blocks, std::move(pattern));
@@ -191,10 +193,10 @@ void BuildMatrix(const BundleProblem& problem, BundleLayout& layout) {
 
 BundleLayout MakeBundleLayout(const BundleProblem& problem,
                               const Gauge& gauge,
-                              const std::vector<uint32_t>& kept_points) {
+                              const std::vector<uint32_t>& retained_points) {
   BundleLayout layout;
   NumberBlocks(problem, gauge, layout);
-  PackObservations(problem, kept_points, layout);
+  PackObservations(problem, retained_points, layout);
   CutIntoChunks(layout);
   BuildMatrix(problem, layout);
   return layout;

@@ -7,8 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/block_matrix.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/bundle/gauge.h"
 
 namespace orbweave {
@@ -51,25 +52,25 @@ struct PointChunk {
 inline size_t PairIndex(uint32_t i, uint32_t j) { return static_cast<size_t>(j) * (j + 1) / 2 + i; }
 
 /// The fixed structure of one solve. Blocks: free poses in pose order, then estimated biases, then
-/// kept points, which are variables of the matrix instead of being eliminated.
+/// retained points, which are variables of the matrix instead of being eliminated.
 /// Chunks depend on the problem alone, so that sums merged in chunk order have the same bits
 /// for any number of threads.
 struct BundleLayout {
   std::vector<uint32_t> pose_block{};  ///< per pose
   std::vector<uint32_t> bias_block{};  ///< per bias group
-  uint32_t first_kept_point = 0;       ///< block of the first kept point
+  uint32_t first_retained_point = 0;   ///< block of the first retained point
   uint32_t num_blocks = 0;
   std::vector<PackedObservation> observations{};
   std::vector<PackedPoint> points{};  ///< those with observations, by smallest free pose
-  std::vector<PackedPoint> kept_points{};
+  std::vector<PackedPoint> retained_points{};
   std::vector<PointChunk> chunks{};
   SymmetricBlockMatrix matrix{};  ///< its pattern, no values
   BundleResidual residual = BundleResidual::kAngle;
 };
 
-/// `kept_points`: ascending, none of them fixed.
+/// `retained_points`: ascending, none of them fixed.
 [[nodiscard]] BundleLayout MakeBundleLayout(const BundleProblem& problem,
                                             const Gauge& gauge,
-                                            const std::vector<uint32_t>& kept_points = {});
+                                            const std::vector<uint32_t>& retained_points = {});
 
 }  // namespace orbweave

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_problem.h"
 
 namespace orbweave {
 

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/base/stage_context.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
+#include "core/bundle/bundle_report.h"
 
 namespace orbweave {
 

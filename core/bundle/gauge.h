@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_problem.h"
 
 namespace orbweave {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_options.h"
 
 namespace orbweave {
 

@@ -17,9 +17,9 @@ NormalSystem MakeNormalSystem(SymmetricBlockMatrix zero) {
   return system;
 }
 
-void DampPoses(double lambda, NormalSystem& system, const std::vector<uint8_t>& is_kept) {
+void DampPoses(double lambda, NormalSystem& system, const std::vector<uint8_t>& is_retained) {
   for (uint32_t block = 0; block < system.S.num_blocks; ++block) {
-    if (!is_kept.empty() && is_kept[block]) continue;
+    if (!is_retained.empty() && is_retained[block]) continue;
     // A block that nothing observes has no gradient either: any positive number holds it.
     const Eigen::Vector2d& trace = system.trace[block];
     const double mu_rotation = trace[0] > 0.0 ? lambda * trace[0] / 3.0 : 1.0;

@@ -24,9 +24,9 @@ struct NormalSystem {
 /// A system of zeros.
 [[nodiscard]] NormalSystem MakeNormalSystem(SymmetricBlockMatrix zero);
 
-/// Adds mu to the diagonal of S, once all terms are in, but for the kept blocks (empty: none):
+/// Adds mu to the diagonal of S, once all terms are in, but for the retained blocks (empty: none):
 /// mu = lambda x mean diagonal entry of each 3x3 block. Unlike Marquardt's diagonal it turns with
 /// the world, so that the steps do too.
-void DampPoses(double lambda, NormalSystem& system, const std::vector<uint8_t>& is_kept = {});
+void DampPoses(double lambda, NormalSystem& system, const std::vector<uint8_t>& is_retained = {});
 
 }  // namespace orbweave

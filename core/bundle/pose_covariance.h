@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/block_matrix.h"
 #include "core/bundle/bundle_layout.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/bundle/bundle_state.h"
 #include "core/bundle/gauge.h"
 #include "core/bundle/reduced_system.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_layout.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/bundle/bundle_state.h"
 #include "core/bundle/gauge.h"
 #include "core/bundle/reduced_system.h"

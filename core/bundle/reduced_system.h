@@ -28,7 +28,24 @@ struct PointFactor {
 
 /// Normal equations of all poses and biases after the points are eliminated:
 ///   S = U + mu I - sum W (V + mu I)^-1 W^T,   rhs = -(g - sum W (V + mu I)^-1 g_point).
-/// mu is as of DampPoses.
+/// mu is as of DampPoses. That is what is left of
+///
+///     [ U    W ] [ step       ]     [ g       ]     U: poses and biases
+///     [ W^T  V ] [ point step ] = - [ g_point ]     V: a 3x3 block per point, nothing beside it
+///
+/// and S, the reduced camera matrix, has a block wherever a point is seen by two poses: on a street
+/// a band, and a border for what all of it shares. Poses A to E, of which each shares points with
+/// the next two, b the bias of their drive, p a retained point that C and D see; stored are the
+/// blocks x of the upper triangle:
+///
+///           A B C D E b p
+///       A [ x x x     x   ]
+///       B [   x x x   x   ]
+///       C [     x x x x x ]
+///       D [       x x x x ]
+///       E [         x x   ]
+///       b [           x   ]
+///       p [             x ]
 struct ReducedSystem : NormalSystem {
   std::vector<PointFactor> points{};  ///< per layout.points
 };

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bearing_term.h"
+#include "core/bundle/bundle_options.h"
 
 namespace orbweave {
 

@@ -17,7 +17,7 @@ LevenbergMarquardt TakeStep(const LevenbergMarquardt& path,
                             BundleEliminator& eliminator,
                             EvaluatedState& state,
                             EvaluatedState& trial) {
-  if (!eliminator.Linearize(state, path.control)) return AfterFailure(path);
+  if (!eliminator.Linearise(state, path.control)) return AfterFailure(path);
   const TrialCost cost = eliminator.BackSubstitute(state, {}, trial);
   const LevenbergMarquardt next = AfterTrial(path, cost.cost, cost.predicted_decrease, options);
   if (next.accepted) std::swap(state, trial);

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_layout.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/bundle/bundle_state.h"
 #include "core/bundle/gauge.h"
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/drawing/color_scale.h"
 #include "core/drawing/lay_panorama.h"
 #include "core/drawing/spread_choice.h"
@@ -43,9 +45,8 @@ double ScaleEnd(const std::vector<PictureMatch>& inliers) {
   if (inliers.empty()) return 0.0;
   std::vector<double> angles;
   for (const PictureMatch& match : inliers) angles.push_back(match.angle_rad);
-  const auto high = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() * 19 / 20);
-  std::nth_element(angles.begin(), high, angles.end());
-  return *high;
+  const size_t high = angles.size() * 19 / 20;
+  return ValueOfRank(std::move(angles), high);
 }
 
 class PairDrawing {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/base/status.h"
 #include "core/estimators/align_cameras.h"
 #include "core/geometry/rotation.h"
@@ -22,12 +24,6 @@ std::vector<Eigen::Vector3d> Centres(std::span<const Rigid3> cams) {
   std::vector<Eigen::Vector3d> centres;
   for (const Rigid3& cam : cams) centres.push_back(cam.Centre());
   return centres;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::vector<double> Distances(const Sim3& b_from_a,
@@ -49,7 +45,7 @@ std::optional<Sim3> FitTrimmed(std::span<const Rigid3> cams_from_a,
     if (!next) return fit;
     fit = next;
     const std::vector<double> distances = Distances(*fit, a, b);
-    const double limit = std::max(3.0 * Median(distances), 1e-9);
+    const double limit = std::max(3.0 * UpperMedian(distances), 1e-9);
     std::vector<double> trimmed(a.size());
     std::transform(distances.begin(), distances.end(), trimmed.begin(), [&](double d) {
       return d <= limit ? 1.0 : 0.0;
@@ -108,7 +104,7 @@ std::optional<PoseErrors> ComparePoses(std::span<const Rigid3> cams_from_model,
       .reference_from_model = *fit,
       .position_rmse_m = Rms(distances),
       .position_max_m = *std::max_element(distances.begin(), distances.end()),
-      .rotation_median_deg = Median(rotations_deg),
+      .rotation_median_deg = UpperMedian(rotations_deg),
       .rotation_max_deg = *std::max_element(rotations_deg.begin(), rotations_deg.end()),
       .unaligned_rmse_m = Rms(Distances({}, in_model, in_reference)),
       .neighbour_rmse_m = Rms(steps),

@@ -8,7 +8,10 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/base/status.h"
 #include "core/estimators/bearing_pairs.h"
 #include "core/estimators/explain_by_ray_map.h"
@@ -17,6 +20,7 @@
 #include "core/estimators/resolve_cheirality.h"
 #include "core/estimators/split_by_height.h"
 #include "core/estimators/split_by_motion.h"
+#include "core/estimators/split_by_plane.h"
 #include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
@@ -40,6 +44,14 @@ constexpr double kMaxDrift_rad = 0.087;
 constexpr double kSameScene = 0.5;
 constexpr double kFewInScene = 5.0;
 constexpr double kAsEvident = 0.8;  // sky and scene then agree in one geometry
+// Of the evidence elsewhere that another pose has: aliases of a facade show none to a twentieth,
+// right poses a quarter and more.
+constexpr double kHardly = 0.2;
+constexpr double kClearlyMore = 10.0;  // decades: a moving bus counts as three matches, some four
+// Fifteen degrees: what is closer is one motion, measured twice.
+constexpr double kOneDirection_rad = 0.26;
+// A facade that is matched a window further on turns no camera, but by what a plane leaves open.
+constexpr double kTurned_rad = 1.0;
 constexpr int kFinalRefits = 3;
 constexpr int kFinalSteps = 20;
 
@@ -65,9 +77,7 @@ double MedianAngle(const SelectedBearings& inliers, const Eigen::Quaterniond& R)
   angles.reserve(inliers.a.size());
   for (size_t i = 0; i < inliers.a.size(); ++i)
     angles.push_back(AngleBetween(R * inliers.a[i], inliers.b[i]));
-  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), middle, angles.end());
-  return *middle;
+  return UpperMedian(std::move(angles));
 }
 
 bool IsSupported(size_t num_inliers, size_t num_putative, const TwoViewOptions& options) {
@@ -171,6 +181,12 @@ bool ShowsTheCarrierAlone(const TwoViewGeometry& geometry, double max_error_rad)
          RotationAngle(geometry.b_from_a.rotation) <= max_error_rad;
 }
 
+/// Whether one pose may be the other a window further on: turned alike, but led elsewhere.
+bool MayBeAliases(const Rigid3& x, const Rigid3& y) {
+  return AngleBetween(x.translation, y.translation) >= kOneDirection_rad &&
+         RotationAngle(x.rotation.conjugate() * y.rotation) < kTurned_rad;
+}
+
 /// Estimates from what two panoramas match, and looks below the sky.
 struct PairView {
   ImagePair pair{};
@@ -211,7 +227,41 @@ struct PairView {
     return TwoViewGeometry{.pair = pair, .num_putative = all.num_putative};
   }
 
+  /// Another geometry where one plane carries `all`, and what matches elsewhere hardly agrees with
+  /// `all` and clearly with that one (MatchesBesidesPlane).
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> BesidesPlane(
+      TwoViewGeometry all, std::span<const FeatureMatch> matches) const {
+    if (all.kind == TwoViewKind::kNone || all.kind == TwoViewKind::kPureRotation) return all;
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        const std::optional<std::vector<FeatureMatch>> elsewhere,
+        MatchesBesidesPlane(bearings_a, bearings_b, matches, all, max_error_rad, context));
+    if (!elsewhere) return all;
+    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry other, BelowSky(*elsewhere));
+    if (other.kind != TwoViewKind::kGeneral || !MayBeAliases(all.b_from_a, other.b_from_a))
+      return all;
+    const double of_all = EvidenceBelowSky(*elsewhere, all);
+    const double of_other = EvidenceBelowSky(*elsewhere, other);
+    if (of_all <= kHardly * of_other || of_other > of_all - kClearlyMore) return all;
+    return DropSky(Extended(other, matches), matches);
+  }
+
  private:
+  /// High, and moved as little as clouds do.
+  [[nodiscard]] bool MayBeSky(const FeatureMatch& match, const TwoViewGeometry& geometry) const {
+    const Vector3d& a = bearings_a[match.a];
+    const Vector3d& b = bearings_b[match.b];
+    return IsEitherHigh(a, b) && AngleBetween(geometry.b_from_a.rotation * a, b) < kMaxDrift_rad;
+  }
+
+  [[nodiscard]] double EvidenceBelowSky(std::span<const FeatureMatch> matches,
+                                        const TwoViewGeometry& geometry) const {
+    std::vector<FeatureMatch> scene;
+    std::ranges::copy_if(matches, std::back_inserter(scene), [&](const FeatureMatch& match) {
+      return !MayBeSky(match, geometry);
+    });
+    return EvidenceOf(Arranged(scene), geometry.b_from_a, max_error_rad).log10_false_alarms;
+  }
+
   [[nodiscard]] BearingPairs Arranged(std::span<const FeatureMatch> matches) const {
     return ArrangePairs(bearings_a, bearings_b, matches, context.seed);
   }
@@ -224,7 +274,7 @@ struct PairView {
     for (const FeatureMatch& match : geometry.inliers) {
       const Vector3d& a = bearings_a[match.a];
       const Vector3d& b = bearings_b[match.b];
-      if ((IsHigh(a) || IsHigh(b)) && InverseDepth(a, b, geometry.b_from_a) < 1.0 / kFarBaselines)
+      if (IsEitherHigh(a, b) && InverseDepth(a, b, geometry.b_from_a) < 1.0 / kFarBaselines)
         sky.push_back(match);
     }
     return sky;
@@ -267,12 +317,9 @@ struct PairView {
   [[nodiscard]] bool StandsStill(std::span<const FeatureMatch> putative,
                                  const TwoViewGeometry& scene) const {
     std::vector<FeatureMatch> far;
-    for (const FeatureMatch& match : putative) {
-      const Vector3d& a = bearings_a[match.a];
-      const Vector3d& b = bearings_b[match.b];
-      const bool hardly_moves = AngleBetween(scene.b_from_a.rotation * a, b) < kMaxDrift_rad;
-      if ((IsHigh(a) || IsHigh(b)) && hardly_moves) far.push_back(match);
-    }
+    std::ranges::copy_if(putative, std::back_inserter(far), [&](const FeatureMatch& match) {
+      return MayBeSky(match, scene);
+    });
     return static_cast<double>(Agreeing(Arranged(far), scene).size()) >=
            kStanding * static_cast<double>(far.size());
   }
@@ -321,6 +368,7 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
     if (moved.kind != TwoViewKind::kNone && moved.spread > split.fixed_spread) return moved;
   }
   ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, view.BelowSky(matches));
+  ORBWEAVE_ASSIGN_OR_RETURN(geometry, view.BesidesPlane(std::move(geometry), matches));
   if (ShowsTheCarrierAlone(geometry, max_error_rad)) {
     return TwoViewGeometry{.pair = pair, .num_putative = num_putative};
   }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
@@ -18,26 +20,24 @@ using Eigen::Vector3d;
 constexpr double kFarther = 8.0;
 constexpr double kTelling = 3.0;
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-bool IsAnyHigh(const BearingPairs& pairs, uint32_t i) {
-  return IsHigh(pairs.A(i)) || IsHigh(pairs.B(i));
+bool IsEitherHigh(const BearingPairs& pairs, uint32_t i) {
+  return orbweave::IsEitherHigh(pairs.A(i), pairs.B(i));
 }
 
 }  // namespace
 
 bool IsHigh(const Vector3d& bearing) { return -bearing.y() > std::sin(kSkyElevation_rad); }
 
+bool IsEitherHigh(const Vector3d& bearing_a, const Vector3d& bearing_b) {
+  return IsHigh(bearing_a) || IsHigh(bearing_b);
+}
+
 MatchesByHeight SplitByHeight(std::span<const Vector3d> bearings_a,
                               std::span<const Vector3d> bearings_b,
                               std::span<const FeatureMatch> matches) {
   MatchesByHeight split;
   for (const FeatureMatch& match : matches) {
-    const bool is_high = IsHigh(bearings_a[match.a]) || IsHigh(bearings_b[match.b]);
+    const bool is_high = IsEitherHigh(bearings_a[match.a], bearings_b[match.b]);
     (is_high ? split.high : split.low).push_back(match);
   }
   return split;
@@ -55,16 +55,16 @@ std::vector<uint32_t> WithoutSky(const BearingPairs& pairs,
                                  double max_error_rad) {
   std::vector<double> of_low;
   for (const uint32_t i : inliers) {
-    if (!IsAnyHigh(pairs, i)) of_low.push_back(InverseDepth(pairs.A(i), pairs.B(i), b_from_a));
+    if (!IsEitherHigh(pairs, i)) of_low.push_back(InverseDepth(pairs.A(i), pairs.B(i), b_from_a));
   }
   if (of_low.empty()) return {};
-  const double typical = MedianOf(std::move(of_low));
+  const double typical = UpperMedian(std::move(of_low));
   if (!(typical > kTelling * max_error_rad)) return {};
   std::vector<uint32_t> kept;
   for (const uint32_t i : inliers) {
     const bool is_far = InverseDepth(pairs.A(i), pairs.B(i), b_from_a) < typical / kFarther ||
                         AngleBetween(b_from_a.rotation * pairs.A(i), pairs.B(i)) <= max_error_rad;
-    if (!is_far || !IsAnyHigh(pairs, i)) kept.push_back(i);
+    if (!is_far || !IsEitherHigh(pairs, i)) kept.push_back(i);
   }
   return kept;
 }

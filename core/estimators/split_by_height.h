@@ -26,6 +26,8 @@ struct MatchesByHeight {
 constexpr double kSkyElevation_rad = 0.0873;
 
 [[nodiscard]] bool IsHigh(const Eigen::Vector3d& bearing);
+/// Whether one of two bearings of a match is.
+[[nodiscard]] bool IsEitherHigh(const Eigen::Vector3d& bearing_a, const Eigen::Vector3d& bearing_b);
 
 [[nodiscard]] MatchesByHeight SplitByHeight(std::span<const Eigen::Vector3d> bearings_a,
                                             std::span<const Eigen::Vector3d> bearings_b,

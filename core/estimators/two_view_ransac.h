@@ -6,7 +6,7 @@
 
 #include "core/base/stage_context.h"
 #include "core/estimators/bearing_pairs.h"
-#include "core/estimators/estimate_two_view.h"
+#include "core/estimators/two_view_options.h"
 #include "core/geometry/rigid3.h"
 
 namespace orbweave {

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "core/features/nearest_two.h"
 #include "core/scene/features.h"
 
 /// The inside of FindNearestTwo: what its kernels share.

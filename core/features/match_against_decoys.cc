@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/features/descriptor_distance.h"
+#include "core/features/match_guided.h"
 #include "core/geometry/place_pairs.h"
 #include "core/robust/false_alarms.h"
 

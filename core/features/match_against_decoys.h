@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "core/features/match_descriptors.h"
+#include "core/features/match_options.h"
 #include "core/features/nearest_two.h"
 #include "core/geometry/rigid3.h"
+#include "core/scene/features.h"
+#include "core/scene/ids.h"
 
 namespace orbweave {
 

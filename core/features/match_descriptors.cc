@@ -4,7 +4,7 @@
 #include "core/features/match_descriptors.h"
 
 #include "core/features/accept_matches.h"
-#include "core/features/nearest_two.h"
+#include "core/features/find_nearest_two.h"
 
 namespace orbweave {
 

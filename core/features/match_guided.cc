@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "core/features/match_guided.h"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,7 +11,7 @@
 
 #include "core/features/accept_matches.h"
 #include "core/features/descriptor_distance.h"
-#include "core/features/match_descriptors.h"
+#include "core/features/nearest_two.h"
 
 namespace orbweave {
 namespace {

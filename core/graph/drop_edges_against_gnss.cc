@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/quantile.h"
 #include "core/graph/disjoint_sets.h"
 
 namespace orbweave {
@@ -81,9 +82,7 @@ std::optional<double> MedianDepth(const std::vector<ViewEdge>& edges,
   std::vector<double> depths_m = Depths(edges, manifest, true);
   if (depths_m.size() < kEnough) depths_m = Depths(edges, manifest, false);
   if (depths_m.empty()) return std::nullopt;
-  const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
-  std::nth_element(depths_m.begin(), middle, depths_m.end());
-  return *middle;
+  return UpperMedian(std::move(depths_m));
 }
 
 bool IsWithin(const Slack& slack,
@@ -95,22 +94,23 @@ bool IsWithin(const Slack& slack,
          slack.sigmas * separation.sigma_m + slack.baselines * depth_m * ratio;
 }
 
-enum class Opinion : uint8_t { kNone, kAgrees, kDoubts, kDisagrees };
+enum class Agreement : uint8_t { kNone, kAgrees, kDoubts, kDisagrees };
 
 /// What GNSS thinks of each edge.
-std::vector<Opinion> FormOpinions(const std::vector<ViewEdge>& edges,
-                                  const ImageManifest& manifest) {
-  std::vector<Opinion> opinions(edges.size(), Opinion::kNone);
+std::vector<Agreement> FindAgreements(const std::vector<ViewEdge>& edges,
+                                      const ImageManifest& manifest) {
+  std::vector<Agreement> agreements(edges.size(), Agreement::kNone);
   const std::optional<double> depth_m = MedianDepth(edges, manifest);
-  if (!depth_m) return opinions;
+  if (!depth_m) return agreements;
   for (size_t e = 0; e < edges.size(); ++e) {
     const std::optional<Separation> separation = SeparationOf(edges[e], manifest);
     if (!separation) continue;
-    if (IsWithin(kNear, *separation, edges[e], *depth_m)) opinions[e] = Opinion::kAgrees;
-    if (!IsWithin(kFarAndSmooth, *separation, edges[e], *depth_m)) opinions[e] = Opinion::kDoubts;
-    if (!IsWithin(kFar, *separation, edges[e], *depth_m)) opinions[e] = Opinion::kDisagrees;
+    if (IsWithin(kNear, *separation, edges[e], *depth_m)) agreements[e] = Agreement::kAgrees;
+    if (!IsWithin(kFarAndSmooth, *separation, edges[e], *depth_m))
+      agreements[e] = Agreement::kDoubts;
+    if (!IsWithin(kFar, *separation, edges[e], *depth_m)) agreements[e] = Agreement::kDisagrees;
   }
-  return opinions;
+  return agreements;
 }
 
 /// Edges that GNSS disagrees with count against the others.
@@ -119,10 +119,10 @@ struct Votes {
   int agreeing = 0;
   int disagreeing = 0;
 
-  void Add(Opinion opinion) {
+  void Add(Agreement agreement) {
     ++all;
-    agreeing += opinion == Opinion::kAgrees ? 1 : 0;
-    disagreeing += opinion == Opinion::kDisagrees ? 1 : 0;
+    agreeing += agreement == Agreement::kAgrees ? 1 : 0;
+    disagreeing += agreement == Agreement::kDisagrees ? 1 : 0;
   }
 };
 
@@ -132,7 +132,7 @@ enum class Trust : uint8_t { kNone, kUsual, kSmooth };
 /// sequence, where there are two or more, else of all its edges; smooth where it agrees with every
 /// such neighbour. Look-alikes may be many; neighbours they are not.
 std::vector<Trust> FindTrust(const std::vector<ViewEdge>& edges,
-                             const std::vector<Opinion>& opinions,
+                             const std::vector<Agreement>& agreements,
                              const ImageManifest& manifest) {
   std::vector<Votes> all(manifest.images.size());
   std::vector<Votes> in_sequence(manifest.images.size());
@@ -140,8 +140,8 @@ std::vector<Trust> FindTrust(const std::vector<ViewEdge>& edges,
     if (edges[e].kind == TwoViewKind::kNone) continue;
     const bool is_in_sequence = IsInSequence(edges[e].pair, manifest);
     for (const ImageId image : {edges[e].pair.a, edges[e].pair.b}) {
-      all[image.value].Add(opinions[e]);
-      if (is_in_sequence) in_sequence[image.value].Add(opinions[e]);
+      all[image.value].Add(agreements[e]);
+      if (is_in_sequence) in_sequence[image.value].Add(agreements[e]);
     }
   }
   std::vector<Trust> trust(manifest.images.size(), Trust::kNone);
@@ -155,24 +155,24 @@ std::vector<Trust> FindTrust(const std::vector<ViewEdge>& edges,
 }
 
 /// Whether GNSS speaks against an edge of two images that it is trusted with so far.
-bool SpeaksAgainst(Opinion opinion, Trust a, Trust b) {
-  if (opinion == Opinion::kDoubts) return a == Trust::kSmooth && b == Trust::kSmooth;
-  return opinion == Opinion::kDisagrees && a != Trust::kNone && b != Trust::kNone;
+bool SpeaksAgainst(Agreement agreement, Trust a, Trust b) {
+  if (agreement == Agreement::kDoubts) return a == Trust::kSmooth && b == Trust::kSmooth;
+  return agreement == Agreement::kDisagrees && a != Trust::kNone && b != Trust::kNone;
 }
 
 /// Parts that edges which agree with GNSS hold together, and what joins them against it.
 class Crossings {
  public:
   Crossings(const std::vector<ViewEdge>& edges,
-            const std::vector<Opinion>& opinions,
+            const std::vector<Agreement>& agreements,
             uint32_t num_images)
       : parts_(num_images) {
     for (size_t e = 0; e < edges.size(); ++e) {
-      if (opinions[e] == Opinion::kAgrees)
+      if (agreements[e] == Agreement::kAgrees)
         parts_.Unite(edges[e].pair.a.value, edges[e].pair.b.value);
     }
     for (size_t e = 0; e < edges.size(); ++e) {
-      if (opinions[e] != Opinion::kDisagrees) continue;
+      if (agreements[e] != Agreement::kDisagrees) continue;
       const auto [a, b] = edges[e].pair;
       images_[{parts_.Find(a.value), parts_.Find(b.value)}].insert(a.value);
       images_[{parts_.Find(b.value), parts_.Find(a.value)}].insert(b.value);
@@ -203,16 +203,16 @@ class Crossings {
 
 EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest) {
-  const std::vector<Opinion> opinions = FormOpinions(edges, manifest);
-  const std::vector<Trust> trust = FindTrust(edges, opinions, manifest);
-  Crossings crossings(edges, opinions, static_cast<uint32_t>(manifest.images.size()));
+  const std::vector<Agreement> agreements = FindAgreements(edges, manifest);
+  const std::vector<Trust> trust = FindTrust(edges, agreements, manifest);
+  Crossings crossings(edges, agreements, static_cast<uint32_t>(manifest.images.size()));
   EdgesByGnss result;
   for (size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
     const bool is_wrong =
-        SpeaksAgainst(opinions[e], trust[a.value], trust[b.value]) &&
+        SpeaksAgainst(agreements[e], trust[a.value], trust[b.value]) &&
         (crossings.IsWithinAPart(edges[e].pair) ||
-         (opinions[e] == Opinion::kDisagrees && crossings.IsAChanceMeeting(edges[e].pair)));
+         (agreements[e] == Agreement::kDisagrees && crossings.IsAChanceMeeting(edges[e].pair)));
     if (!is_wrong) {
       result.kept.push_back(edges[e]);
       continue;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/graph/select_image_pairs.h"
+#include "core/graph/pair_options.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {

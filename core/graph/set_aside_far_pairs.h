@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/graph/select_image_pairs.h"
+#include "core/graph/pair_options.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/two_view_geometry.h"
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "core/io/colmap_pair_id.h"
+
 #include "core/base/status.h"
-#include "core/io/colmap_database.h"
 
 namespace orbweave {
 namespace {

@@ -58,7 +58,7 @@ struct ReportCluster {
   uint32_t images = 0;  ///< interior and overlap
   uint32_t interior = 0;
   uint32_t registered = 0;
-  uint32_t components = 0;
+  uint32_t submodels = 0;
   uint64_t points = 0;
   double residual_px_rms = 0.0;
 };
@@ -109,7 +109,8 @@ struct ReportGnss {
   uint32_t num_inliers = 0;
   double residual_median_m = 0.0;
   double residual_rms_inliers_m = 0.0;
-  double bend_m = 0.0;  ///< that the model was bent to the positions, at most; 0: it was rigid
+  double deformation_m =
+      0.0;  ///< that the model was bent to the positions, at most; 0: it was rigid
   std::vector<std::string> outliers{};  ///< names
 };
 
@@ -152,8 +153,8 @@ struct ReportPhase {
 
 /// The global adjustment of one model.
 struct ReportAdjustment {
-  std::vector<ReportPhase> phases{};       ///< with the robust loss, then one of least squares
-  std::vector<uint64_t> bytes_of_block{};  ///< what each block sends for a step, at most
+  std::vector<ReportPhase> phases{};            ///< with the robust loss, then one of least squares
+  std::vector<uint64_t> bytes_of_subproblem{};  ///< what each subproblem sends for a step, at most
 };
 
 struct ReportWorker {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "core/io/read_colmap_database.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include "core/base/status.h"
 #include "core/io/byte_stream.h"
 #include "core/io/check_colmap_rows.h"
-#include "core/io/colmap_database.h"
 #include "core/io/natural_order.h"
 #include "core/io/printable_text.h"
 #include "core/io/read_colmap_pairs.h"

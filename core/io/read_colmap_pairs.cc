@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/io/check_colmap_rows.h"
+#include "core/io/colmap_pair_id.h"
 
 namespace orbweave {
 namespace {

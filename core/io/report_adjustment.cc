@@ -26,13 +26,14 @@ std::string Row(size_t number, const ReportPhase& phase) {
                       "</td></tr>");
 }
 
-std::string BlocksText(const std::vector<uint64_t>& bytes_of_block) {
-  if (bytes_of_block.empty()) return "";
+std::string SubproblemsText(const std::vector<uint64_t>& bytes_of_subproblem) {
+  if (bytes_of_subproblem.empty()) return "";
   constexpr double kBytesPerKb = 1000.0;
-  const double largest_kb = static_cast<double>(std::ranges::max(bytes_of_block)) / kBytesPerKb;
+  const double largest_kb =
+      static_cast<double>(std::ranges::max(bytes_of_subproblem)) / kBytesPerKb;
   return absl::StrCat("<p class=\"sub\">",
-                      CountText(bytes_of_block.size()),
-                      bytes_of_block.size() == 1 ? " block" : " blocks",
+                      CountText(bytes_of_subproblem.size()),
+                      bytes_of_subproblem.size() == 1 ? " block" : " blocks",
                       "; for a step a block sends ",
                       ShortText(largest_kb),
                       " kB at most.</p>");
@@ -47,7 +48,7 @@ std::string AdjustmentHtml(const JobReport& report) {
   for (size_t i = 0; i < main.phases.size(); ++i) rows += Row(i + 1, main.phases[i]);
   return "<table><thead><tr><th>round</th><th>steps</th><th>cost before</th><th>cost after</th>"
          "<th class=\"text\">end</th></tr></thead><tbody>" +
-         rows + "</tbody></table>" + BlocksText(main.bytes_of_block);
+         rows + "</tbody></table>" + SubproblemsText(main.bytes_of_subproblem);
 }
 
 }  // namespace orbweave

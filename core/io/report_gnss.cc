@@ -30,8 +30,9 @@ std::string SummaryOf(const ReportGnss& gnss) {
       " m, rms of those that agree ",
       ShortText(gnss.residual_rms_inliers_m),
       " m.",
-      gnss.bend_m > 0.0
-          ? absl::StrCat(" The model was bent to them by up to ", ShortText(gnss.bend_m), " m.")
+      gnss.deformation_m > 0.0
+          ? absl::StrCat(
+                " The model was bent to them by up to ", ShortText(gnss.deformation_m), " m.")
           : "");
 }
 

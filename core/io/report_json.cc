@@ -27,7 +27,7 @@ Json Clusters(const JobReport& report) {
     list.push_back({{"images", cluster.images},
                     {"interior", cluster.interior},
                     {"registered", cluster.registered},
-                    {"components", cluster.components},
+                    {"components", cluster.submodels},
                     {"points", cluster.points},
                     {"residual_px_rms", cluster.residual_px_rms}});
   }
@@ -70,7 +70,7 @@ Json Gnss(const ReportGnss& gnss) {
           {"inliers", gnss.num_inliers},
           {"residual_median_m", gnss.residual_median_m},
           {"residual_rms_inliers_m", gnss.residual_rms_inliers_m},
-          {"bend_m", gnss.bend_m},
+          {"bend_m", gnss.deformation_m},
           {"outliers", gnss.outliers}};
 }
 
@@ -209,7 +209,8 @@ Json Adjustments(const JobReport& report) {
                         {"converged", phase.converged},
                         {"accepted_costs", phase.accepted_costs}});
     }
-    list.push_back({{"rounds", std::move(phases)}, {"bytes_of_block", adjustment.bytes_of_block}});
+    list.push_back(
+        {{"rounds", std::move(phases)}, {"bytes_of_block", adjustment.bytes_of_subproblem}});
   }
   return list;
 }

@@ -34,7 +34,7 @@ std::string ClustersHtml(const JobReport& report) {
                     "</td><td>",
                     CountText(cluster.registered),
                     "</td><td>",
-                    cluster.components,
+                    cluster.submodels,
                     "</td><td class=\"minor\">",
                     CountText(cluster.points),
                     "</td><td>",

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/quantile.h"
 #include "core/io/html_text.h"
 
 namespace orbweave {
@@ -62,10 +64,9 @@ std::vector<Ellipse> LeastCertain(const MapImages& images, const MapView& view) 
 double Enlargement(const std::vector<Ellipse>& ellipses) {
   std::vector<double> majors;
   for (const Ellipse& ellipse : ellipses) majors.push_back(ellipse.major_px);
-  const auto at = majors.begin() + static_cast<std::ptrdiff_t>(0.9 * double(majors.size() - 1));
-  std::nth_element(majors.begin(), at, majors.end());
-  if (!(*at > 0.0)) return 0.0;
-  const double wanted = kWanted_px / *at;
+  const double most_px = Quantile(std::move(majors), 0.9);
+  if (!(most_px > 0.0)) return 0.0;
+  const double wanted = kWanted_px / most_px;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   return power * (wanted >= 5.0 * power ? 5.0 : wanted >= 2.0 * power ? 2.0 : 1.0);
 }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "core/io/write_colmap_database.h"
+
 #include <unistd.h>
 
 #include <cstdio>
@@ -11,7 +13,7 @@
 #include "core/base/status.h"
 #include "core/geometry/rotation.h"
 #include "core/io/byte_stream.h"
-#include "core/io/colmap_database.h"
+#include "core/io/colmap_pair_id.h"
 #include "core/io/file.h"
 #include "core/io/sqlite_connection.h"
 

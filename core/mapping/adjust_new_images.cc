@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/complete_tracks.h"
 #include "core/mapping/filter_points.h"

@@ -4,6 +4,8 @@
 
 #include <span>
 
+#include "core/base/stage_context.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {

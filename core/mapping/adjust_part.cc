@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_problem.h"
+
 namespace orbweave {
 namespace {
 

@@ -4,7 +4,9 @@
 
 #include <span>
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/base/stage_context.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_report.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {

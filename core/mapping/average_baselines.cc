@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/averaging/average_differences.h"
+#include "core/base/quantile.h"
 #include "core/graph/disjoint_sets.h"
 
 namespace orbweave {
@@ -89,11 +90,9 @@ class RatioTable {
       if (std::min(edges_of[i], edges_of[j]) >= kMaxPartners) continue;
       ++edges_of[i];
       ++edges_of[j];
-      std::vector<double>& cell = cells_[i * pairs_.size() + j];
-      const auto middle = cell.begin() + static_cast<std::ptrdiff_t>(cell.size() / 2);
-      std::nth_element(cell.begin(), middle, cell.end());
+      const std::vector<double>& cell = cells_[i * pairs_.size() + j];
       graph.edges.push_back({pairs_[i], pairs_[j]});
-      ratios.push_back(*middle);
+      ratios.push_back(UpperMedian(cell));
       counts.push_back(static_cast<double>(cell.size()));
     }
   }

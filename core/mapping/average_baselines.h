@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/stage_context.h"
 #include "core/mapping/correspondence_graph.h"
 
 namespace orbweave {

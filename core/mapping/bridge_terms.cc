@@ -3,8 +3,9 @@
 
 #include "core/mapping/bridge_terms.h"
 
-#include <algorithm>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
 #include "core/mapping/baseline_length.h"
 
@@ -38,9 +39,7 @@ std::vector<BridgeMatch> MatchesOf(const MappingState& state, const BridgePair& 
 double MedianLength(std::vector<double>& lengths) {
   std::erase(lengths, 0.0);
   if (lengths.size() < kFewestLengths) return 0.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return UpperMedian(lengths);
 }
 
 void AddSights(const MappingState& a,

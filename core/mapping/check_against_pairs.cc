@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/epipolar.h"
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/reconstructed_share.h"
@@ -57,12 +58,6 @@ double JoinedShare(const MappingState& state, const std::vector<LinkedPair>& pai
   return static_cast<double>(largest) / static_cast<double>(state.Registered().size());
 }
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Median error per registered image, pixels at the equator.
 std::vector<double> ImageMedians(const MappingState& state) {
   const CorrespondenceGraph& graph = state.Graph();
@@ -75,7 +70,7 @@ std::vector<double> ImageMedians(const MappingState& state) {
       errors_px.push_back(NodeError(state, state.Point(point).position, node) /
                           AngleFromPixels(state, node, 1.0));
     }
-    if (!errors_px.empty()) medians.push_back(std::max(kErrorFloorPx, MedianOf(errors_px)));
+    if (!errors_px.empty()) medians.push_back(std::max(kErrorFloorPx, UpperMedian(errors_px)));
   }
   return medians;
 }
@@ -101,7 +96,8 @@ PairCheck CheckAgainstPairs(const MappingState& state, const MappingOptions& opt
   check.joined_share = JoinedShare(state, pairs);
   const std::vector<double> medians = ImageMedians(state);
   if (!medians.empty()) {
-    check.worst_image_ratio = *std::max_element(medians.begin(), medians.end()) / MedianOf(medians);
+    check.worst_image_ratio =
+        *std::max_element(medians.begin(), medians.end()) / UpperMedian(medians);
   }
   return check;
 }

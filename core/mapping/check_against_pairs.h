@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/mapping/reconstruct_cluster.h"
+#include "core/mapping/cluster_problem.h"
 
 namespace orbweave {
 

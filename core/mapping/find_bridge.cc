@@ -28,7 +28,7 @@ constexpr double kMaxSigmas = 3.0;
 constexpr size_t kPairsWithoutGnss = 3;
 constexpr size_t kImagesWithoutGnss = 2;
 
-/// Mean of the centres of one component's images in pairs.
+/// Mean of the centres of one submodel's images in pairs.
 Vector3d MeanCentre(const MappingState& state,
                     const std::vector<BridgePair>& pairs,
                     ImageSlot BridgePair::*end) {

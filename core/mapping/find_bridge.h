@@ -5,11 +5,12 @@
 #include <optional>
 
 #include "core/geometry/sim3.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {
 
-/// The similarity that joins component b to component a of the same cluster where too few scene
+/// The similarity that joins submodel b to submodel a of the same cluster where too few scene
 /// points are seen from both for their images to be registered with each other: from the relative
 /// rotations and directions of the verified pairs between them, the points of each that those pairs
 /// say the other sees, and GNSS (FitBridge). Steps of ten metres between plain walls leave hardly a

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {

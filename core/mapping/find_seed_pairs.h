@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mapping/correspondence_graph.h"
+#include "core/mapping/mapping_options.h"
 
 namespace orbweave {
 

@@ -11,13 +11,13 @@
 
 namespace orbweave {
 
-/// How two components a and b lie to each other, as one pair of their images has it.
+/// How two submodels a and b lie to each other, as one pair of their images has it.
 struct PairTurn {
   Eigen::Quaterniond a_from_b = Eigen::Quaterniond::Identity();
   double sigma_rad = 1.0;
 };
 
-/// A camera of one component sees a point of the other along `bearing`, unit, in its own frame.
+/// A camera of one submodel sees a point of the other along `bearing`, unit, in its own frame.
 /// That point may be a camera of the other: then the bearing is the direction of the pair's
 /// baseline.
 struct BridgeSight {
@@ -34,7 +34,7 @@ struct BridgeFix {
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
 };
 
-/// All that speaks for the place of component b in the frame of a.
+/// All that speaks for the place of submodel b in the frame of a.
 struct BridgeTerms {
   std::vector<PairTurn> turns{};
   std::vector<BridgeSight> from_a{};  ///< cameras of a, points of b

@@ -3,9 +3,10 @@
 
 #include "core/mapping/initialise_from_pair.h"
 
-#include <algorithm>
 #include <array>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/mapping_schedule.h"
@@ -36,9 +37,7 @@ double MedianErrorShare(const MappingState& state, const TrackLimits& limits) {
     }
   }
   if (shares.empty()) return 1.0;
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle;
+  return UpperMedian(std::move(shares));
 }
 
 }  // namespace

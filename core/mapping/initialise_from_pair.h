@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/base/stage_context.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {

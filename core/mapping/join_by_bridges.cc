@@ -15,7 +15,7 @@
 #include "core/mapping/bridge_terms.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/find_bridge.h"
-#include "core/mapping/grow_component.h"
+#include "core/mapping/grow_submodel.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/reconstructed_share.h"
 #include "core/mapping/triangulate_tracks.h"
@@ -47,43 +47,43 @@ class Joining {
           const StageContext& context)
       : problem_(problem), graph_(graph), options_(options), log_(log), context_(context) {}
 
-  absl::StatusOr<std::vector<MappingState>> Run(std::vector<MappingState> components) {
-    for (MappingState& component : components) Add(std::move(component));
+  absl::StatusOr<std::vector<MappingState>> Run(std::vector<MappingState> submodels) {
+    for (MappingState& submodel : submodels) Add(std::move(submodel));
     AddSingleImages();
     ORBWEAVE_RETURN_IF_ERROR(JoinAll());
     std::vector<MappingState> joined;
-    for (auto& [key, component] : components_) {
-      if (component.Registered().size() > 1) joined.push_back(std::move(component));
+    for (auto& [key, submodel] : submodels_) {
+      if (submodel.Registered().size() > 1) joined.push_back(std::move(submodel));
     }
     return joined;
   }
 
  private:
-  using Key = uint32_t;  ///< a new one for every state of a component
+  using Key = uint32_t;  ///< a new one for every state of a submodel
 
-  Key Add(MappingState component) {
+  Key Add(MappingState submodel) {
     const Key key = next_key_++;
-    for (const ImageSlot image : component.Registered()) component_of_[image] = key;
-    components_.emplace(key, std::move(component));
+    for (const ImageSlot image : submodel.Registered()) submodel_of_[image] = key;
+    submodels_.emplace(key, std::move(submodel));
     return key;
   }
 
   void AddSingleImages() {
     for (ImageSlot image = 0; image < graph_.NumImages(); ++image) {
-      if (component_of_.contains(image) || graph_.pairs_of_image[image].empty()) continue;
+      if (submodel_of_.contains(image) || graph_.pairs_of_image[image].empty()) continue;
       MappingState single(problem_, graph_);
       single.Register(image, Rigid3{});
       Add(std::move(single));
     }
   }
 
-  /// Pairs of components by the matches between them, most first.
+  /// Pairs of submodels by the matches between them, most first.
   [[nodiscard]] std::vector<std::pair<Key, Key>> Candidates() const {
     std::map<std::pair<Key, Key>, size_t> matches;
     for (const LinkedPair& pair : graph_.pairs) {
-      const auto a = component_of_.find(pair.a);
-      const auto b = component_of_.find(pair.b);
-      if (a == component_of_.end() || b == component_of_.end() || a->second == b->second) continue;
+      const auto a = submodel_of_.find(pair.a);
+      const auto b = submodel_of_.find(pair.b);
+      if (a == submodel_of_.end() || b == submodel_of_.end() || a->second == b->second) continue;
       matches[std::minmax(a->second, b->second)] += problem_.pairs[pair.index].inliers.size();
     }
     std::vector<std::pair<Key, Key>> candidates;
@@ -113,10 +113,10 @@ class Joining {
     // The larger is the frame.
     Key large = keys.first;
     Key small = keys.second;
-    if (components_.at(large).Registered().size() < components_.at(small).Registered().size())
+    if (submodels_.at(large).Registered().size() < submodels_.at(small).Registered().size())
       std::swap(large, small);
-    const MappingState& a = components_.at(large);
-    const MappingState& b = components_.at(small);
+    const MappingState& a = submodels_.at(large);
+    const MappingState& b = submodels_.at(small);
     if (a.Registered().size() == 1) return false;
     const std::optional<Sim3> a_from_b = FindBridge(a, b, options_);
     if (!a_from_b) return false;
@@ -167,18 +167,18 @@ class Joining {
            static_cast<double>(common) >= kMinCommonMatches * static_cast<double>(matches);
   }
 
-  /// Images that no component of several holds may join now.
+  /// Images that no submodel of several holds may join now.
   absl::Status Grow(MappingState& joined, Key large, Key small) {
     std::vector<uint8_t> available(graph_.NumImages(), 1);
-    for (const auto& [image, key] : component_of_) {
+    for (const auto& [image, key] : submodel_of_) {
       const bool is_other = key != large && key != small;
-      if (is_other && components_.at(key).Registered().size() > 1) available[image] = 0;
+      if (is_other && submodels_.at(key).Registered().size() > 1) available[image] = 0;
     }
     ResetAttempts(log_);
-    ORBWEAVE_RETURN_IF_ERROR(GrowComponent(joined, available, options_, log_, context_).status());
+    ORBWEAVE_RETURN_IF_ERROR(GrowSubmodel(joined, available, options_, log_, context_).status());
     for (const ImageSlot image : joined.Registered()) {
-      const auto single = component_of_.find(image);
-      if (single == component_of_.end() || single->second == large || single->second == small)
+      const auto single = submodel_of_.find(image);
+      if (single == submodel_of_.end() || single->second == large || single->second == small)
         continue;
       Remove(single->second);
     }
@@ -186,8 +186,8 @@ class Joining {
   }
 
   void Remove(Key key) {
-    for (const ImageSlot image : components_.at(key).Registered()) component_of_.erase(image);
-    components_.erase(key);
+    for (const ImageSlot image : submodels_.at(key).Registered()) submodel_of_.erase(image);
+    submodels_.erase(key);
   }
 
   const ClusterProblem& problem_;
@@ -195,21 +195,21 @@ class Joining {
   const MappingOptions& options_;
   RegistrationLog& log_;
   const StageContext& context_;
-  std::map<Key, MappingState> components_{};
-  std::map<ImageSlot, Key> component_of_{};
+  std::map<Key, MappingState> submodels_{};
+  std::map<ImageSlot, Key> submodel_of_{};
   std::set<std::pair<Key, Key>> failed_{};
   Key next_key_ = 0;
 };
 
 }  // namespace
 
-absl::StatusOr<std::vector<MappingState>> JoinByBridges(std::vector<MappingState> components,
+absl::StatusOr<std::vector<MappingState>> JoinByBridges(std::vector<MappingState> submodels,
                                                         const ClusterProblem& problem,
                                                         const CorrespondenceGraph& graph,
                                                         const MappingOptions& options,
                                                         RegistrationLog& log,
                                                         const StageContext& context) {
-  return Joining(problem, graph, options, log, context).Run(std::move(components));
+  return Joining(problem, graph, options, log, context).Run(std::move(submodels));
 }
 
 }  // namespace orbweave

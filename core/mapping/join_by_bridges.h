@@ -4,20 +4,21 @@
 
 #include <vector>
 
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 #include "core/mapping/registration_log.h"
 
 namespace orbweave {
 
-/// Joins components of one cluster, each image in at most one, that bridges hold together
+/// Joins submodels of one cluster, each image in at most one, that bridges hold together
 /// (FindBridge), and single images that are in none. Those with most matches between them come
 /// first; points of both are kept, those of the pairs between are added, all is adjusted, and what
-/// is joined grows on (GrowComponent). A join stays when nine tenths of its images and a quarter of
+/// is joined grows on (GrowSubmodel). A join stays when nine tenths of its images and a quarter of
 /// the matches of the pairs between, min_inliers at least, have a common point; else both sides
-/// are as they were. Leaves components by their first image; single images that nothing joins are
+/// are as they were. Leaves submodels by their first image; single images that nothing joins are
 /// none of them. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<std::vector<MappingState>> JoinByBridges(
-    std::vector<MappingState> components,
+    std::vector<MappingState> submodels,
     const ClusterProblem& problem,
     const CorrespondenceGraph& graph,
     const MappingOptions& options,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/bundle/adjust_bundle.h"
-#include "core/mapping/reconstruct_cluster.h"
+#include "core/bundle/bundle_options.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/triangulate_tracks.h"
 
 namespace orbweave {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bearing_error.h"
 
 namespace orbweave {
 

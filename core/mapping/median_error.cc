@@ -3,7 +3,9 @@
 
 #include "core/mapping/median_error.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {
@@ -29,9 +31,7 @@ double MedianErrorPx(const MappingState& state) {
   std::vector<double> errors_px = ErrorsOfTracks(state, 3);
   if (errors_px.size() < kEnough) errors_px = ErrorsOfTracks(state, 2);
   if (errors_px.empty()) return 0.0;
-  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
-  std::nth_element(errors_px.begin(), middle, errors_px.end());
-  return *middle;
+  return UpperMedian(std::move(errors_px));
 }
 
 }  // namespace orbweave

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/base/stage_context.h"
 #include "core/mapping/correspondence_graph.h"
+#include "core/mapping/mapping_options.h"
 
 namespace orbweave {
 

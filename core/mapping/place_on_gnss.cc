@@ -28,7 +28,7 @@ constexpr double kMaxSigmas = 3.0;
 /// The scale is then good to a tenth with 25 positions, to a quarter with 4.
 constexpr double kMinExtentSigmas = 2.0;
 
-/// A camera of the upright component and its position.
+/// A camera of the upright submodel and its position.
 struct Station {
   Vector3d centre = Vector3d::Zero();
   Vector3d position = Vector3d::Zero();

@@ -16,7 +16,7 @@ namespace orbweave {
 [[nodiscard]] std::vector<ImageSlot> ImagesNear(const MappingState& state,
                                                 const Eigen::Vector3d& place);
 
-/// Where a component stands by the GNSS of some of its images, as far as that is needed to tell
+/// Where a submodel stands by the GNSS of some of its images, as far as that is needed to tell
 /// which way the street goes on from there: the similarity to east, north, up that keeps the
 /// cameras' mean "up" vertical, from the horizontal positions by reweighted least squares (Cauchy).
 /// Four unknowns, so that a straight street determines them too.

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bearing_error.h"
 #include "core/estimators/refine_between_views.h"
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
@@ -205,6 +205,32 @@ double ChanceShare(const Rigid3& cam_from_world,
   return static_cast<double>(agreeing + 1) / static_cast<double>(num_shifts * n + 1);
 }
 
+/// What agrees with this length of the baseline from the strongest pair's image beyond what would
+/// with half or twice of it: what is far, or seen from that image alone, agrees with every length.
+struct Telling {
+  uint32_t points = 0;
+  uint32_t matches = 0;
+};
+
+Telling CountTelling(const Rigid3& cam_from_world,
+                     const Vector3d& neighbour_centre,
+                     const SceneCorrespondences& correspondences,
+                     const std::vector<ViewMatches>& views,
+                     double max_error_rad) {
+  const auto agreeing = [&](double factor) {
+    const Vector3d centre =
+        neighbour_centre + factor * (cam_from_world.Centre() - neighbour_centre);
+    const Rigid3 moved = Rigid3::FromCentre(cam_from_world.rotation, centre);
+    return Telling{SupportOf(moved, correspondences, max_error_rad).count,
+                   CountAgreeing(moved, views, max_error_rad)};
+  };
+  const Telling here = agreeing(1.0);
+  const Telling half = agreeing(0.5);
+  const Telling twice = agreeing(2.0);
+  return {here.points - std::min(here.points, std::max(half.points, twice.points)),
+          here.matches - std::min(here.matches, std::max(half.matches, twice.matches))};
+}
+
 double CrossingAngle(const Rigid3& cam_from_world,
                      const std::vector<ViewMatches>& views,
                      double max_error_rad) {
@@ -224,19 +250,86 @@ double CrossingAngle(const Rigid3& cam_from_world,
   return largest;
 }
 
+/// How many of a pair's matches show parallax, and how many of those agree.
+struct NearMatches {
+  uint32_t all = 0;
+  uint32_t agreeing = 0;
+};
+
+NearMatches CountNear(const Rigid3& cam_from_world,
+                      const ViewMatches& matches,
+                      double max_error_rad) {
+  Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
+  cam_from_view.translation.normalize();
+  const double min_cos_far = std::cos(2.0 * max_error_rad);
+  NearMatches near;
+  for (size_t i = 0; i < matches.in_view.size(); ++i) {
+    const Vector3d& a = matches.in_view[i];
+    const Vector3d& b = matches.in_image[i];
+    if (b.dot(cam_from_view.rotation * a) > min_cos_far) continue;
+    ++near.all;
+    const bool agrees = SymmetricEpipolarAngle(cam_from_view, a, b) <= max_error_rad &&
+                        IsInFrontOfBoth(cam_from_view, a, b);
+    near.agreeing += agrees ? 1U : 0U;
+  }
+  return near;
+}
+
+std::vector<ViewMatches> ViewsOf(const MappingState& state, ImageSlot image) {
+  std::vector<ViewMatches> views;
+  for (const uint32_t p : PairsByStrength(state, image)) {
+    const LinkedPair& pair = state.Graph().pairs[p];
+    if (state.Problem().pairs[pair.index].kind != TwoViewKind::kPureRotation)
+      views.push_back(MatchesOf(state, image, pair));  // others have no planes
+  }
+  return views;
+}
+
 }  // namespace
+
+bool ContradictsStrongPair(const MappingState& state,
+                           ImageSlot image,
+                           const Rigid3& cam_from_world,
+                           double max_error_rad) {
+  const std::vector<ViewMatches> views = ViewsOf(state, image);
+  return std::ranges::any_of(views, [&](const ViewMatches& view) {
+    if (2 * view.in_view.size() < views.front().in_view.size()) return false;
+    const NearMatches near = CountNear(cam_from_world, view, kSlack * max_error_rad);
+    return near.agreeing < kAgreeingShare * near.all;
+  });
+}
+
+uint32_t CountAgreeingMatches(const MappingState& state,
+                              ImageSlot image,
+                              const Rigid3& cam_from_world,
+                              double max_error_rad) {
+  return CountAgreeing(cam_from_world, ViewsOf(state, image), max_error_rad);
+}
+
+bool IsLengthTold(const MappingState& state,
+                  ImageSlot image,
+                  const Rigid3& cam_from_world,
+                  const SceneCorrespondences& correspondences,
+                  double max_error_rad) {
+  const std::vector<ViewMatches> views = ViewsOf(state, image);
+  if (views.empty()) return true;
+  const Telling telling = CountTelling(cam_from_world,
+                                       views.front().view_from_world.Centre(),
+                                       correspondences,
+                                       views,
+                                       max_error_rad);
+  return telling.points + telling.matches >= kFewestPoints;
+}
 
 std::optional<PoseFromPairs> EstimatePoseFromPairs(const MappingState& state,
                                                    ImageSlot image,
                                                    const SceneCorrespondences& correspondences,
                                                    double max_error_rad) {
-  std::vector<ViewMatches> views;
+  const std::vector<ViewMatches> views = ViewsOf(state, image);
   std::vector<PairHypothesis> hypotheses;
   for (const uint32_t p : PairsByStrength(state, image)) {
-    const LinkedPair& pair = state.Graph().pairs[p];
-    if (state.Problem().pairs[pair.index].kind != TwoViewKind::kPureRotation)
-      views.push_back(MatchesOf(state, image, pair));  // others have no planes
-    if (hypotheses.size() < kMaxPairs) hypotheses.push_back(HypothesisOf(state, image, pair));
+    if (hypotheses.size() == kMaxPairs) break;
+    hypotheses.push_back(HypothesisOf(state, image, state.Graph().pairs[p]));
   }
   const std::optional<Rigid3> best = BestCandidate(
       CandidatesOf(hypotheses, correspondences), correspondences, views, kSlack * max_error_rad);
@@ -247,10 +340,16 @@ std::optional<PoseFromPairs> EstimatePoseFromPairs(const MappingState& state,
     found.num_matches += static_cast<uint32_t>(view.in_view.size());
   found.agreeing_matches = CountAgreeing(found.cam_from_world, views, max_error_rad);
   found.crossing_angle_rad = CrossingAngle(found.cam_from_world, views, max_error_rad);
-  if (found.points.count >= kFewestPoints) {
+  const Telling telling = CountTelling(found.cam_from_world,
+                                       hypotheses.front().neighbour_centre,
+                                       correspondences,
+                                       views,
+                                       max_error_rad);
+  found.telling_matches = telling.matches;
+  if (telling.points >= kFewestPoints) {
     found.log10_false_alarms =
         Log10FalseAlarms(correspondences.size(),
-                         found.points.count,
+                         telling.points,
                          1,
                          ChanceShare(found.cam_from_world, correspondences, max_error_rad));
   }
@@ -263,7 +362,7 @@ bool IsHeldByPairs(const PoseFromPairs& pose, uint32_t min_matches) {
     return false;
   }
   return pose.log10_false_alarms <= kMaxLog10FalseAlarms ||
-         pose.crossing_angle_rad >= kMinCrossingRad;
+         (pose.crossing_angle_rad >= kMinCrossingRad && 2 * pose.telling_matches >= min_matches);
 }
 
 }  // namespace orbweave

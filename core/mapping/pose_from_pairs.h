@@ -15,8 +15,10 @@ struct PoseFromPairs {
   PoseSupport points{};           ///< scene points that agree
   uint32_t num_matches = 0;       ///< of pairs with registered images
   uint32_t agreeing_matches = 0;  ///< of those, near their epipolar planes and in front of both
-  /// Evidence for the length of the baseline: log10 of how many lengths as many points would agree
-  /// with by chance.
+  /// Matches that agree beyond those that would at half or twice the length of the baseline.
+  uint32_t telling_matches = 0;
+  /// Evidence for the length of the baseline: log10 of how many lengths would agree by chance with
+  /// as many points that do not agree with half or twice the length too.
   double log10_false_alarms = 0.0;
   /// Largest angle between the directions to two registered images with which half of the matches
   /// agree, at most 90 degrees; where it is not small the directions alone fix the centre.
@@ -35,8 +37,33 @@ struct PoseFromPairs {
     const SceneCorrespondences& correspondences,
     double max_error_rad);
 
+/// Whether a strong pair of `image` with a registered one speaks against the pose: one with half as
+/// many matches as the strongest or more, and of those that show parallax fewer than half agree.
+/// Windows that repeat let an image see points a whole window further on, more of them than where
+/// it is; but two that stand next to each other see which of them is in front.
+[[nodiscard]] bool ContradictsStrongPair(const MappingState& state,
+                                         ImageSlot image,
+                                         const Rigid3& cam_from_world,
+                                         double max_error_rad);
+
+/// Matches with registered images that agree with the pose.
+[[nodiscard]] uint32_t CountAgreeingMatches(const MappingState& state,
+                                            ImageSlot image,
+                                            const Rigid3& cam_from_world,
+                                            double max_error_rad);
+
+/// Whether four points or matches agree with the pose that would neither at half nor at twice the
+/// distance from the image of its strongest pair: else nothing says how long that step is. True
+/// without such a pair.
+[[nodiscard]] bool IsLengthTold(const MappingState& state,
+                                ImageSlot image,
+                                const Rigid3& cam_from_world,
+                                const SceneCorrespondences& correspondences,
+                                double max_error_rad);
+
 /// Whether the pairs hold the pose: half of the matches agree with it, `min_matches` at least, and
-/// either points give the length of the baseline with evidence, or two directions cross.
+/// either points give the length of the baseline with evidence, or two directions cross and half of
+/// `min_matches` tell it.
 [[nodiscard]] bool IsHeldByPairs(const PoseFromPairs& pose, uint32_t min_matches);
 
 }  // namespace orbweave

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <string>
 
-#include "core/mapping/export_component.h"
+#include "core/bundle/bearing_error.h"
+#include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
-#include "core/mapping/reconstruct_component.h"
+#include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/weigh_pixels_alike.h"
 
 namespace orbweave {
@@ -58,39 +59,39 @@ std::string ReasonOf(const CorrespondenceGraph& graph,
   return ReasonOf(log[image], static_cast<uint32_t>(ScheduleOf(options).min_visible));
 }
 
-void SortLargestFirst(std::vector<Reconstruction>& components) {
+void SortLargestFirst(std::vector<Reconstruction>& submodels) {
   std::stable_sort(
-      components.begin(), components.end(), [](const Reconstruction& x, const Reconstruction& y) {
+      submodels.begin(), submodels.end(), [](const Reconstruction& x, const Reconstruction& y) {
         return x.images.size() > y.images.size();
       });
 }
 
-/// Grows components until no images are left, then joins those that bridges hold together.
-absl::StatusOr<std::vector<MappingState>> MapComponents(const ClusterProblem& problem,
-                                                        const CorrespondenceGraph& graph,
-                                                        const MappingOptions& options,
-                                                        const StageContext& context,
-                                                        RegistrationLog& log,
-                                                        ClusterReconstruction& result) {
+/// Grows submodels until no images are left, then joins those that bridges hold together.
+absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& problem,
+                                                       const CorrespondenceGraph& graph,
+                                                       const MappingOptions& options,
+                                                       const StageContext& context,
+                                                       RegistrationLog& log,
+                                                       ClusterReconstruction& result) {
   std::vector<uint8_t> available(problem.images.size(), 1);
   std::vector<MappingState> states;
   size_t largest = 0;
   while (CountAvailable(available) >= kFewestImages) {
     ORBWEAVE_ASSIGN_OR_RETURN(
-        ComponentResult component,
-        ReconstructComponent(problem, graph, available, options, log, context));
-    result.num_global_adjustments += component.growth.num_global_adjustments;
-    result.num_local_adjustments += component.growth.num_local_adjustments;
-    if (states.empty()) result.start_remark = component.start_remark;
-    if (!component.state || component.state->Registered().empty()) break;
-    const std::vector<ImageSlot>& registered = component.state->Registered();
+        SubmodelResult submodel,
+        ReconstructSubmodel(problem, graph, available, options, log, context));
+    result.num_global_adjustments += submodel.growth.num_global_adjustments;
+    result.num_local_adjustments += submodel.growth.num_local_adjustments;
+    if (states.empty()) result.start_remark = submodel.start_remark;
+    if (!submodel.state || submodel.state->Registered().empty()) break;
+    const std::vector<ImageSlot>& registered = submodel.state->Registered();
     for (const ImageSlot image : registered) available[image] = 0;
     if (registered.size() > largest) {
       largest = registered.size();
-      result.started_globally = component.started_globally;
-      result.start_remark = component.start_remark;
+      result.started_globally = submodel.started_globally;
+      result.start_remark = submodel.start_remark;
     }
-    states.push_back(*std::move(component.state));
+    states.push_back(*std::move(submodel.state));
   }
   if (!ScheduleOf(options).relaxes_registration) return states;
   const size_t grown = states.size();
@@ -100,12 +101,12 @@ absl::StatusOr<std::vector<MappingState>> MapComponents(const ClusterProblem& pr
   return states;
 }
 
-void TakeComponent(const MappingState& state,
-                   const MappingOptions& options,
-                   ResidualSum& residuals,
-                   ClusterReconstruction& result) {
-  result.components.push_back(ExportComponent(state));
-  residuals.Add(state.Problem(), result.components.back());
+void TakeSubmodel(const MappingState& state,
+                  const MappingOptions& options,
+                  ResidualSum& residuals,
+                  ClusterReconstruction& result) {
+  result.submodels.push_back(ExportSubmodel(state));
+  residuals.Add(state.Problem(), result.submodels.back());
   const JudgedPairs judged = JudgePairs(state, options);
   result.contradicted_pairs.insert(
       result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
@@ -127,13 +128,13 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   RegistrationLog log(problem.images.size());
   ClusterReconstruction result;
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MappingState> states,
-                            MapComponents(problem, graph, options, context, log, result));
+                            MapSubmodels(problem, graph, options, context, log, result));
   ResidualSum residuals;
   std::vector<std::string> reasons(problem.images.size());
   for (const MappingState& state : states) {
     const size_t size = state.Registered().size();
     if (size >= static_cast<size_t>(options.min_component_images)) {
-      TakeComponent(state, options, residuals, result);
+      TakeSubmodel(state, options, residuals, result);
       continue;
     }
     for (const ImageSlot image : state.Registered()) {
@@ -142,12 +143,12 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
     }
   }
 
-  SortLargestFirst(result.components);
+  SortLargestFirst(result.submodels);
   result.residual_rms_px = residuals.Rms();
   for (ImageSlot image = 0; image < problem.images.size(); ++image) {
     const ImageId id = problem.images[image].id;
     const bool registered = std::ranges::any_of(
-        result.components, [&](const Reconstruction& each) { return each.images.contains(id); });
+        result.submodels, [&](const Reconstruction& each) { return each.images.contains(id); });
     if (registered) continue;
     if (reasons[image].empty()) reasons[image] = ReasonOf(graph, image, log, options);
     result.not_registered.push_back({id, reasons[image]});

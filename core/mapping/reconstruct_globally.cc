@@ -21,7 +21,7 @@ absl::StatusOr<GlobalModel> ReconstructGlobally(const ClusterProblem& problem,
     model.fault = "pairs place " + std::to_string(state.Registered().size()) + " images only";
     return model;
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(model.growth, GrowComponent(state, available, options, log, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(model.growth, GrowSubmodel(state, available, options, log, context));
   model.fault = FaultOf(CheckAgainstPairs(state, options));
   model.state.emplace(std::move(state));
   return model;

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/mapping/grow_component.h"
+#include "core/mapping/grow_submodel.h"
 
 namespace orbweave {
 
@@ -17,7 +17,7 @@ struct GlobalModel {
 };
 
 /// A model of the available images begun with all of them at once (StartGlobally), grown like any
-/// other (GrowComponent), then checked against the pairs (CheckAgainstPairs). Cancelled when asked
+/// other (GrowSubmodel), then checked against the pairs (CheckAgainstPairs). Cancelled when asked
 /// to stop.
 [[nodiscard]] absl::StatusOr<GlobalModel> ReconstructGlobally(const ClusterProblem& problem,
                                                               const CorrespondenceGraph& graph,

@@ -45,6 +45,10 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     const PoseSupport support = SupportOf(cam_from_world, correspondences, max_error_rad);
     attempt.num_inliers = std::max(attempt.num_inliers, support.count);
     if (support.count < needed) return false;
+    if (limits.propose_from_pairs &&
+        !IsLengthTold(state, image, cam_from_world, correspondences, max_error_rad)) {
+      return false;  // so few points may all be far
+    }
     state.Register(image, cam_from_world);
     return true;
   };
@@ -55,13 +59,24 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                  max_error_rad,
                                                  {.min_inliers = 6},
                                                  ContextOf(context, problem_image.id)));
-  attempt.registered = pose && accept(pose->cam_from_world);
-  if (!attempt.registered && limits.propose_from_pairs) {
-    const std::optional<PoseFromPairs> proposed =
-        EstimatePoseFromPairs(state, image, correspondences, max_error_rad);
-    attempt.registered = proposed && accept(proposed->cam_from_world);
-    if (proposed && !attempt.registered &&
-        IsHeldByPairs(*proposed, static_cast<uint32_t>(limits.min_inliers))) {
+  const bool is_doubtful = pose && limits.heeds_pairs &&
+                           ContradictsStrongPair(state, image, pose->cam_from_world, max_error_rad);
+  std::optional<PoseFromPairs> proposed;
+  if (is_doubtful || limits.propose_from_pairs)
+    proposed = EstimatePoseFromPairs(state, image, correspondences, max_error_rad);
+  const auto agreeing = [&](const Rigid3& cam_from_world) {
+    return SupportOf(cam_from_world, correspondences, max_error_rad).count +
+           CountAgreeingMatches(state, image, cam_from_world, max_error_rad);
+  };
+  const bool pairs_know_better =
+      is_doubtful && proposed &&
+      agreeing(proposed->cam_from_world) > agreeing(pose->cam_from_world);
+  if (pose && !pairs_know_better) attempt.registered = accept(pose->cam_from_world);
+  if (!attempt.registered && proposed) {
+    const bool is_held = IsHeldByPairs(*proposed, static_cast<uint32_t>(limits.min_inliers));
+    // What contradicts the points must itself know how long the step is: far points never do.
+    attempt.registered = (is_held || !pairs_know_better) && accept(proposed->cam_from_world);
+    if (!attempt.registered && limits.propose_from_pairs && is_held) {
       state.Register(image, proposed->cam_from_world);
       attempt.registered = true;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/base/stage_context.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {
@@ -10,6 +11,7 @@ struct RegistrationLimits {
   double max_error_px = 4.0;
   int min_inliers = 20;
   double min_inlier_share = 0.25;   ///< of the features that correspond to a point
+  bool heeds_pairs = true;          ///< where strong pairs contradict what P3P finds
   bool propose_from_pairs = false;  ///< try EstimatePoseFromPairs where P3P finds nothing
 };
 
@@ -24,7 +26,10 @@ struct RegistrationAttempt {
 
 /// Absolute orientation of an unregistered image (paper 3.4): P3P with RANSAC over its scene
 /// correspondences, refined. Registers it when enough points agree; with limits.propose_from_pairs
-/// also when pairs with registered images hold it (IsHeldByPairs). Cancelled when asked to stop.
+/// only where they tell how long the step is (IsLengthTold), but also when pairs with registered
+/// images hold it (IsHeldByPairs). With limits.heeds_pairs a pose that a strong pair contradicts
+/// gives way to what pairs and points together propose where more of them agree with that; if too
+/// few do, the image waits. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                                 ImageSlot image,
                                                                 const RegistrationLimits& limits,

@@ -25,7 +25,7 @@ using RegistrationLog = std::vector<RegistrationRecord>;
 /// Lets every image be tried anew.
 void ResetAttempts(RegistrationLog& log);
 
-/// Why an image that has verified matches is in no component: one sentence for the report.
+/// Why an image that has verified matches is in no submodel: one sentence for the report.
 [[nodiscard]] std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible);
 
 }  // namespace orbweave

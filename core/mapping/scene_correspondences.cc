@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bearing_error.h"
 
 namespace orbweave {
 namespace {

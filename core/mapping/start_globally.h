@@ -4,6 +4,8 @@
 
 #include <span>
 
+#include "core/base/stage_context.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {
@@ -13,7 +15,7 @@ namespace orbweave {
 /// loose ones hold wrong rays that the adjustment bent them to. Images that then do not agree with
 /// as many of the points they should see as registration asks for are left to it. `state` must be
 /// empty. False, with the state as it may be: fewer than options.min_component_images images stay.
-/// GrowComponent goes on from here. Cancelled when asked to stop.
+/// GrowSubmodel goes on from here. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<bool> StartGlobally(MappingState& state,
                                                  std::span<const uint8_t> available,
                                                  const MappingOptions& options,

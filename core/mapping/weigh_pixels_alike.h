@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/mapping/reconstruct_cluster.h"
+#include "core/mapping/cluster_problem.h"
 
 namespace orbweave {
 

@@ -12,8 +12,9 @@
 #include <utility>
 
 #include "core/averaging/average_similarities.h"
+#include "core/averaging/similarity_graph.h"
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

@@ -22,22 +22,23 @@ struct WorldTotals {
   std::optional<ImageId> farthest{};
 };
 
-WorldTotals TotalsOf(const std::vector<BlockInspection>& blocks) {
+WorldTotals TotalsOf(const std::vector<SubproblemInspection>& subproblems) {
   WorldTotals totals;
-  for (const BlockInspection& block : blocks) {
-    totals.sum_of_squares += block.sum_of_squares;
-    totals.weighted_sum_of_squares += block.weighted_sum_of_squares;
-    totals.redundancy += block.redundancy;
-    totals.correlation.Add(block.correlation);
-    if (block.held) totals.held = block.held;
-    if (block.farthest) totals.farthest = block.farthest;
+  for (const SubproblemInspection& subproblem : subproblems) {
+    totals.sum_of_squares += subproblem.sum_of_squares;
+    totals.weighted_sum_of_squares += subproblem.weighted_sum_of_squares;
+    totals.redundancy += subproblem.redundancy;
+    totals.correlation.Add(subproblem.correlation);
+    if (subproblem.held) totals.held = subproblem.held;
+    if (subproblem.farthest) totals.farthest = subproblem.farthest;
   }
   return totals;
 }
 
-SeparatorSystem SumOfBearings(std::vector<BlockInspection> blocks) {
+SeparatorSystem SumOfBearings(std::vector<SubproblemInspection> subproblems) {
   std::vector<SeparatorSystem> systems;
-  for (BlockInspection& block : blocks) systems.push_back(std::move(block.bearings));
+  for (SubproblemInspection& subproblem : subproblems)
+    systems.push_back(std::move(subproblem.bearings));
   return AddSystems(systems);
 }
 
@@ -139,13 +140,13 @@ double GaugeFreedoms(const GlobalProblem& problem, bool holds_distance) {
 
 }  // namespace
 
-AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,
+AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
                           const GlobalProblem& problem,
                           const std::vector<Eigen::Vector3d>& biases_m,
                           const ImageManifest& manifest) {
   AssessedWorld assessed;
-  const WorldTotals totals = TotalsOf(blocks);
-  SeparatorSystem sum = SumOfBearings(std::move(blocks));
+  const WorldTotals totals = TotalsOf(subproblems);
+  SeparatorSystem sum = SumOfBearings(std::move(subproblems));
   const auto num_split = static_cast<double>(
       std::ranges::count(sum.variables, SeparatorId::Kind::kPoint, &SeparatorId::kind));
   SeparatorSystem bearings = WithoutPoints(std::move(sum));

@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "core/merging/global_options.h"
 #include "core/merging/global_problem.h"
-#include "core/merging/inspect_block.h"
+#include "core/merging/inspect_subproblem.h"
+#include "core/partitioned_ba/global_options.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {
@@ -18,15 +18,15 @@ struct AssessedWorld {
   UncertaintyReport report{};
 };
 
-/// The uncertainty of the poses of an adjusted world: what its blocks' bearings say of poses
-/// (InspectBlock), in their order, is added - every panorama's bearings weighted by their own
+/// The uncertainty of the poses of an adjusted world: what its subproblems' bearings say of poses
+/// (InspectSubproblem), in their order, is added - every panorama's bearings weighted by their own
 /// scatter, so that a place where they scatter more claims less, and all by how errors go together
 /// along tracks (TrackCorrelation) -, and the normal equations of all poses with GNSS and gravity
 /// terms give the covariances (CovariancesOfSystem). Memory grows with the panoramas, not with the
 /// points. GNSS errors count as correlated as they are found along the sequence
 /// (EstimateGnssVariance): an offset common to all positions shows nowhere. `problem` holds the
 /// world's poses and GNSS terms (AddGnss), `biases_m` are those of its drives.
-[[nodiscard]] AssessedWorld AssessWorld(std::vector<BlockInspection> blocks,
+[[nodiscard]] AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
                                         const GlobalProblem& problem,
                                         const std::vector<Eigen::Vector3d>& biases_m,
                                         const ImageManifest& manifest);

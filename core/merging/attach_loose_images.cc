@@ -16,7 +16,7 @@ namespace {
 /// Rotations of observed images by drive.
 using Turns = std::map<uint32_t, std::map<ImageId, Eigen::Quaterniond>>;
 
-Turns TurnsOf(const ConcludedWorld& world, const ImageManifest& manifest) {
+Turns TurnsOf(const FinalisedWorld& world, const ImageManifest& manifest) {
   Turns turns;
   for (const auto& [id, image] : world.images) {
     if (!image.loose) turns[manifest.At(id).drive][id] = image.cam_from_world.rotation;
@@ -49,12 +49,12 @@ Eigen::Quaterniond TurnOf(const ImageRecord& image, const Turns& turns) {
 
 }  // namespace
 
-void AttachLooseImages(const ImageManifest& manifest, std::vector<ConcludedWorld>& worlds) {
-  const auto is_georeferenced = [](const ConcludedWorld& world) { return world.report.gnss.used; };
+void AttachLooseImages(const ImageManifest& manifest, std::vector<FinalisedWorld>& worlds) {
+  const auto is_georeferenced = [](const FinalisedWorld& world) { return world.report.gnss.used; };
   const auto main = std::ranges::find_if(worlds, is_georeferenced);
   if (main == worlds.end()) return;
   std::set<ImageId> placed;
-  for (const ConcludedWorld& world : worlds) {
+  for (const FinalisedWorld& world : worlds) {
     if (!is_georeferenced(world)) continue;
     for (const auto& [id, image] : world.images) placed.insert(id);
   }

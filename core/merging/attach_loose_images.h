@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/merging/conclude_adjustment.h"
+#include "core/merging/finalise_adjustment.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {
@@ -15,6 +15,6 @@ namespace orbweave {
 /// this world observes and is next to them in id order (of two the earlier); where there is none
 /// they stand level and look where their heading prior says, or north. Nothing happens when no
 /// world is georeferenced.
-void AttachLooseImages(const ImageManifest& manifest, std::vector<ConcludedWorld>& worlds);
+void AttachLooseImages(const ImageManifest& manifest, std::vector<FinalisedWorld>& worlds);
 
 }  // namespace orbweave

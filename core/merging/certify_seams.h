@@ -28,14 +28,14 @@ struct SeamCertificate {
   double rotation_noise_deg = 0.0;
 };
 
-/// Certifies the seams of one adjusted world from its blocks' placements; memory grows with the
-/// overlaps.
+/// Certifies the seams of one adjusted world from its subproblems' placements; memory grows with
+/// the overlaps.
 class SeamCertifier {
  public:
   /// Seams of which one side is not among the world's `clusters` are left out.
   SeamCertifier(const std::vector<Seam>& seams, const std::set<uint32_t>& clusters);
 
-  /// In order of the blocks.
+  /// In order of the subproblems.
   void Add(std::span<const SidePlacement> placements);
 
   /// In order of the seams. `bearing_factor`: a-posteriori over claimed variance of bearings.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/merging/georeference_reconstruction.h"
+#include "core/merging/georeference.h"
 #include "core/merging/global_problem.h"
 #include "core/scene/cross_check.h"
 #include "core/scene/image_manifest.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {

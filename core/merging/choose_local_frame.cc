@@ -5,9 +5,9 @@
 
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/merging/estimate_gravity.h"
 #include "core/merging/find_gravity.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "core/merging/georeference_reconstruction.h"
-#include "core/merging/world_block.h"
+#include "core/merging/georeference.h"
+#include "core/partitioned_ba/subproblem.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
 
@@ -16,11 +16,12 @@ namespace orbweave {
 void DropLooseObservations(Reconstruction& scene);
 
 /// Divides a world among the clusters that own its images (`owners` names one for each), in order
-/// of clusters; one that owns nothing has no block. Tracks that one owner's images see are that
-/// owner's; AssignTracks decides about the others. GNSS priors (AddGnss) go to the owner of their
-/// image when the world is georeferenced; otherwise a gauge is chosen: the first image is held, and
-/// its distance from the one farthest away kept. Observations of loose images are left out.
-[[nodiscard]] std::vector<WorldBlock> DivideWorld(Reconstruction scene,
+/// of clusters; one that owns nothing has no subproblem. Tracks that one owner's images see are
+/// that owner's; AssignTracks decides about the others. GNSS priors (AddGnss) go to the owner of
+/// their image when the world is georeferenced; otherwise a gauge is chosen: the first image is
+/// held, and its distance from the one farthest away kept. Observations of loose images are left
+/// out.
+[[nodiscard]] std::vector<Subproblem> DivideWorld(Reconstruction scene,
                                                   uint32_t world,
                                                   const std::map<ImageId, uint32_t>& owners,
                                                   const Georeference& georeference,

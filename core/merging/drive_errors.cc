@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "core/base/quantile.h"
 #include "core/merging/correlated_noise.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

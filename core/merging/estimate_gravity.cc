@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
 #include "core/merging/find_gravity.h"
-#include "core/merging/quantile.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {

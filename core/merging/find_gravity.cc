@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 #include "core/robust/loss.h"
 
 namespace orbweave {

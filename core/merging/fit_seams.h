@@ -39,13 +39,13 @@ struct FittedSeam {
 
 /// One cluster's share of what AlignSubmodels needs.
 struct SeamsOfCluster {
-  std::vector<SubmodelOutline> submodels{};  ///< of the cluster, by component
+  std::vector<SubmodelOutline> submodels{};  ///< of the cluster, by submodel
   std::vector<FittedSeam> seams{};           ///< with each other and with later clusters, by (a, b)
 };
 
-/// Outlines of a cluster's submodels (`own`, by component) and their seams (FitSeam) with each
-/// other and with `later` (sorted by name, of clusters after it). Rims (RimOf) are enough.
-/// `max_error`: in standard deviations of a bearing. Same bytes for any number of threads;
+/// Outlines of a cluster's submodels (`own`, by submodel) and their seams (FitSeam) with each
+/// other and with `later` (sorted by name, of clusters after it). Boundaries (BoundaryTracksOf) are
+/// enough. `max_error`: in standard deviations of a bearing. Same bytes for any number of threads;
 /// Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<SeamsOfCluster> FitSeams(std::span<const Submodel> own,
                                                       std::span<const Submodel> later,

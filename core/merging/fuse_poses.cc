@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {
@@ -25,22 +25,22 @@ double AngleOf(const Rigid3& x, const Rigid3& y) {
   return RotationAngle(x.rotation * y.rotation.conjugate());
 }
 
-const PoseOpinion& Heaviest(const std::vector<PoseOpinion>& opinions) {
+const PoseEstimate& Heaviest(const std::vector<PoseEstimate>& estimates) {
   return *std::max_element(
-      opinions.begin(), opinions.end(), [](const PoseOpinion& x, const PoseOpinion& y) {
+      estimates.begin(), estimates.end(), [](const PoseEstimate& x, const PoseEstimate& y) {
         return x.weight < y.weight;
       });
 }
 
-HuberScales MeasureDisagreement(const PoseOpinions& opinions) {
+HuberScales MeasureDisagreement(const PoseEstimates& estimates) {
   std::vector<double> distances;
   std::vector<double> angles_rad;
-  for (const auto& [id, of_image] : opinions) {
-    const PoseOpinion& heaviest = Heaviest(of_image);
-    for (const PoseOpinion& opinion : of_image) {
-      if (&opinion == &heaviest) continue;
-      distances.push_back(DistanceOf(opinion.cam_from_world, heaviest.cam_from_world));
-      angles_rad.push_back(AngleOf(opinion.cam_from_world, heaviest.cam_from_world));
+  for (const auto& [id, of_image] : estimates) {
+    const PoseEstimate& heaviest = Heaviest(of_image);
+    for (const PoseEstimate& estimate : of_image) {
+      if (&estimate == &heaviest) continue;
+      distances.push_back(DistanceOf(estimate.cam_from_world, heaviest.cam_from_world));
+      angles_rad.push_back(AngleOf(estimate.cam_from_world, heaviest.cam_from_world));
     }
   }
   return {3.0 * Quantile(std::move(distances), 0.5), 3.0 * Quantile(std::move(angles_rad), 0.5)};
@@ -52,21 +52,21 @@ double HuberWeight(double residual, double scale) {
   return std::max(scale, std::numeric_limits<double>::min()) / residual;
 }
 
-Rigid3 RobustMean(const std::vector<PoseOpinion>& opinions, const HuberScales& scales) {
-  Rigid3 mean = Heaviest(opinions).cam_from_world;
-  if (opinions.size() == 1) return mean;
+Rigid3 RobustMean(const std::vector<PoseEstimate>& estimates, const HuberScales& scales) {
+  Rigid3 mean = Heaviest(estimates).cam_from_world;
+  if (estimates.size() == 1) return mean;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();
     double centre_weight = 0.0;
     double turn_weight = 0.0;
-    for (const PoseOpinion& opinion : opinions) {
-      const Rigid3& pose = opinion.cam_from_world;
+    for (const PoseEstimate& estimate : estimates) {
+      const Rigid3& pose = estimate.cam_from_world;
       const double by_distance =
-          opinion.weight * HuberWeight(DistanceOf(pose, mean), scales.distance);
+          estimate.weight * HuberWeight(DistanceOf(pose, mean), scales.distance);
       centre += by_distance * pose.Centre();
       centre_weight += by_distance;
-      const double by_angle = opinion.weight * HuberWeight(AngleOf(pose, mean), scales.angle_rad);
+      const double by_angle = estimate.weight * HuberWeight(AngleOf(pose, mean), scales.angle_rad);
       turn += by_angle * VectorFromRotation(pose.rotation * mean.rotation.conjugate());
       turn_weight += by_angle;
     }
@@ -78,14 +78,14 @@ Rigid3 RobustMean(const std::vector<PoseOpinion>& opinions, const HuberScales& s
 
 }  // namespace
 
-std::map<ImageId, RegisteredImage> FusePoses(const PoseOpinions& opinions) {
-  PoseOpinions firm;
-  for (const auto& [id, of_image] : opinions) {
-    std::vector<PoseOpinion>& kept = firm[id];
-    std::copy_if(
-        of_image.begin(), of_image.end(), std::back_inserter(kept), [](const PoseOpinion& opinion) {
-          return !opinion.loose;
-        });
+std::map<ImageId, RegisteredImage> FusePoses(const PoseEstimates& estimates) {
+  PoseEstimates firm;
+  for (const auto& [id, of_image] : estimates) {
+    std::vector<PoseEstimate>& kept = firm[id];
+    std::copy_if(of_image.begin(),
+                 of_image.end(),
+                 std::back_inserter(kept),
+                 [](const PoseEstimate& estimate) { return !estimate.loose; });
     if (kept.empty()) kept = of_image;
   }
   const HuberScales scales = MeasureDisagreement(firm);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/base/random.h"
 #include "core/estimators/estimate_similarity.h"
 #include "core/geometry/rotation.h"
@@ -19,7 +20,6 @@
 #include "core/merging/gnss_smoothness.h"
 #include "core/merging/gnss_track.h"
 #include "core/merging/height_inflation.h"
-#include "core/merging/quantile.h"
 #include "core/merging/refine_georeference.h"
 
 namespace orbweave {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/bundle/adjust_bundle.h"
-#include "core/merging/georeference_reconstruction.h"
+#include "core/bundle/bundle_problem.h"
+#include "core/merging/georeference.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {

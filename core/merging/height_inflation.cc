@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
 #include "core/merging/gnss_variance.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

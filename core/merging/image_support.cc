@@ -133,11 +133,12 @@ std::string Number(double value) { return std::to_string(std::lround(value)); }
 
 }  // namespace
 
-std::vector<PatchSupport> SupportOf(const WorldBlock& block) {
+std::vector<PatchSupport> SupportOf(const Subproblem& subproblem) {
   Patches patches;
-  for (const Track& track : block.scene.tracks) TrackTerms(track, block.scene).AddTo(patches);
-  for (const SplitTrack& track : block.split) {
-    if (track.part.observations.size() > 1) TrackTerms(track.part, block.scene).AddTo(patches);
+  for (const Track& track : subproblem.scene.tracks)
+    TrackTerms(track, subproblem.scene).AddTo(patches);
+  for (const SplitTrack& track : subproblem.split) {
+    if (track.part.observations.size() > 1) TrackTerms(track.part, subproblem.scene).AddTo(patches);
   }
   std::vector<PatchSupport> sorted;
   for (auto& [key, support] : patches) sorted.push_back(support);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/bundle/block_matrix.h"
-#include "core/merging/world_block.h"
+#include "core/partitioned_ba/subproblem.h"
 
 namespace orbweave {
 
@@ -33,10 +33,11 @@ struct PatchSupport {
   double redundancy = 0.0;             ///< its share: 2 - 3 / n of a point that n images see
 };
 
-/// Sorted by image and patch. Of a track that is split over blocks the part that is here counts.
-[[nodiscard]] std::vector<PatchSupport> SupportOf(const WorldBlock& block);
+/// Sorted by image and patch. Of a track that is split over subproblems the part that is here
+/// counts.
+[[nodiscard]] std::vector<PatchSupport> SupportOf(const Subproblem& subproblem);
 
-/// Adds what several blocks know of the same patches; sums in the order given.
+/// Adds what several subproblems know of the same patches; sums in the order given.
 void AddSupport(std::span<const PatchSupport> patches,
                 std::map<ImageId, std::vector<PatchSupport>>& of_image);
 

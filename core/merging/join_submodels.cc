@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "core/estimators/estimate_similarity.h"
-#include "core/merging/bend_world.h"
 #include "core/merging/carry_point.h"
+#include "core/merging/deform_world.h"
 #include "core/merging/divide_world.h"
+#include "core/merging/georeference_reconstruction.h"
 #include "core/merging/global_problem.h"
 #include "core/merging/place_clusters.h"
 
@@ -20,35 +21,36 @@ namespace {
 
 /// Per world the cluster that answers for each image: the one whose interior it is in, where that
 /// has it, else the first that has it.
-std::vector<std::map<ImageId, uint32_t>> OwnersInWorlds(const std::vector<Submodel>& rims,
+std::vector<std::map<ImageId, uint32_t>> OwnersInWorlds(const std::vector<Submodel>& boundaries,
                                                         const Alignment& alignment,
                                                         const Partition& partition) {
   std::vector<std::map<ImageId, uint32_t>> owners;
-  for (size_t m = 0; m < rims.size(); ++m) {
+  for (size_t m = 0; m < boundaries.size(); ++m) {
     const uint32_t world = alignment.world[m];
     if (world >= owners.size()) owners.resize(world + 1);
-    const std::vector<ImageId>& interior = partition.clusters[rims[m].cluster].interior;
-    for (const auto& [id, image] : rims[m].reconstruction.images) {
-      const auto [owner, is_new] = owners[world].emplace(id, rims[m].cluster);
-      if (std::ranges::binary_search(interior, id)) owner->second = rims[m].cluster;
+    const std::vector<ImageId>& interior = partition.clusters[boundaries[m].cluster].interior;
+    for (const auto& [id, image] : boundaries[m].reconstruction.images) {
+      const auto [owner, is_new] = owners[world].emplace(id, boundaries[m].cluster);
+      if (std::ranges::binary_search(interior, id)) owner->second = boundaries[m].cluster;
     }
   }
   std::erase_if(owners, [](const auto& of_world) { return of_world.empty(); });
   return owners;
 }
 
-using ComponentsOfCluster = std::map<uint32_t, std::vector<PlacedComponent>>;
+using SubmodelsOfCluster = std::map<uint32_t, std::vector<PlacedSubmodel>>;
 
-/// Per world and cluster where its components lie in the frame that the alignment chose.
-std::vector<ComponentsOfCluster> PlaceComponents(const std::vector<Submodel>& rims,
-                                                 const Alignment& alignment) {
-  std::vector<ComponentsOfCluster> placed;
-  for (size_t m = 0; m < rims.size(); ++m) {
+/// Per world and cluster where its submodels lie in the frame that the alignment chose.
+std::vector<SubmodelsOfCluster> PlaceSubmodels(const std::vector<Submodel>& boundaries,
+                                               const Alignment& alignment) {
+  std::vector<SubmodelsOfCluster> placed;
+  for (size_t m = 0; m < boundaries.size(); ++m) {
     const uint32_t world = alignment.world[m];
     if (world >= placed.size()) placed.resize(world + 1);
-    if (rims[m].reconstruction.images.empty()) continue;
-    placed[world][rims[m].cluster].push_back(
-        {.component = rims[m].component, .world_from_component = alignment.world_from_submodel[m]});
+    if (boundaries[m].reconstruction.images.empty()) continue;
+    placed[world][boundaries[m].cluster].push_back(
+        {.submodel = boundaries[m].submodel,
+         .world_from_submodel = alignment.world_from_submodel[m]});
   }
   std::erase_if(placed, [](const auto& of_world) { return of_world.empty(); });
   return placed;
@@ -130,10 +132,10 @@ absl::StatusOr<PlacedWorld> PlaceWorld(Reconstruction scene,
                                           context));
   if (!placed.enu_from_world.empty()) {
     const Reconstruction straight{.images = scene.images};
-    scene = BendWorld(std::move(scene), owners, seams, placed.enu_from_world);
+    scene = DeformWorld(std::move(scene), owners, seams, placed.enu_from_world);
     ORBWEAVE_ASSIGN_OR_RETURN(placed.georeference,
                               GeoreferenceReconstruction(scene, manifest, use, context));
-    placed.georeference.bend_m = BendOf(straight, scene);
+    placed.georeference.deformation_m = BendOf(straight, scene);
   }
   if (placed.georeference.enu_from_world) {
     const Sim3& enu_from_scene = *placed.georeference.enu_from_world;
@@ -147,17 +149,17 @@ absl::StatusOr<PlacedWorld> PlaceWorld(Reconstruction scene,
 
 }  // namespace
 
-absl::StatusOr<JoinedSubmodels> JoinSubmodels(std::vector<Submodel> rims,
+absl::StatusOr<JoinedSubmodels> JoinSubmodels(std::vector<Submodel> boundaries,
                                               const Alignment& alignment,
                                               const Partition& partition,
                                               const ImageManifest& manifest,
                                               const AlignOptions& align,
                                               const GlobalAdjustOptions& options,
                                               const StageContext& context) {
-  const auto owners = OwnersInWorlds(rims, alignment, partition);
-  const auto components = PlaceComponents(rims, alignment);
+  const auto owners = OwnersInWorlds(boundaries, alignment, partition);
+  const auto submodels = PlaceSubmodels(boundaries, alignment);
   JoinedSubmodels joined;
-  for (MergedWorld& merged : MergeSubmodels(std::move(rims), alignment)) {
+  for (MergedWorld& merged : MergeSubmodels(std::move(boundaries), alignment)) {
     const auto number = static_cast<uint32_t>(joined.worlds.size());
     JoinedWorld world{.merge = merged.report,
                       .num_images = static_cast<uint32_t>(merged.reconstruction.images.size())};
@@ -171,18 +173,18 @@ absl::StatusOr<JoinedSubmodels> JoinSubmodels(std::vector<Submodel> rims,
                                          options.gnss,
                                          align,
                                          context));
-    for (WorldBlock& block : DivideWorld(std::move(placed.scene),
-                                         number,
-                                         owners[number],
-                                         placed.georeference,
-                                         manifest,
-                                         options.gnss_bias_sigma_m)) {
-      JoinedBlock& whole = joined.blocks.emplace_back();
-      whole.components = components[number].at(block.cluster);
-      for (PlacedComponent& component : whole.components)
-        component.world_from_component = placed.Of(block.cluster) * component.world_from_component;
-      whole.block = std::move(block);
-      ++world.num_blocks;
+    for (Subproblem& subproblem : DivideWorld(std::move(placed.scene),
+                                              number,
+                                              owners[number],
+                                              placed.georeference,
+                                              manifest,
+                                              options.gnss_bias_sigma_m)) {
+      JoinedSubproblem& whole = joined.subproblems.emplace_back();
+      whole.submodels = submodels[number].at(subproblem.cluster);
+      for (PlacedSubmodel& submodel : whole.submodels)
+        submodel.world_from_submodel = placed.Of(subproblem.cluster) * submodel.world_from_submodel;
+      whole.subproblem = std::move(subproblem);
+      ++world.num_subproblems;
     }
     world.georeference = std::move(placed.georeference);
     joined.worlds.push_back(std::move(world));
@@ -190,21 +192,21 @@ absl::StatusOr<JoinedSubmodels> JoinSubmodels(std::vector<Submodel> rims,
   return joined;
 }
 
-WorldBlock AssembleBlock(JoinedBlock joined, std::vector<Reconstruction> inner) {
-  ORBWEAVE_CHECK(inner.size() == joined.components.size());
-  WorldBlock block = std::move(joined.block);
+Subproblem AssembleSubproblem(JoinedSubproblem joined, std::vector<Reconstruction> inner) {
+  ORBWEAVE_CHECK(inner.size() == joined.submodels.size());
+  Subproblem subproblem = std::move(joined.subproblem);
   for (size_t i = 0; i < inner.size(); ++i) {
-    const Sim3& world_from_component = joined.components[i].world_from_component;
+    const Sim3& world_from_submodel = joined.submodels[i].world_from_submodel;
     for (Track& track : inner[i].tracks) {
       track.point_in_world =
-          CarryPoint(track, inner[i].images, block.scene.images, world_from_component.scale)
-              .value_or(world_from_component * track.point_in_world);
-      block.scene.tracks.push_back(std::move(track));
+          CarryPoint(track, inner[i].images, subproblem.scene.images, world_from_submodel.scale)
+              .value_or(world_from_submodel * track.point_in_world);
+      subproblem.scene.tracks.push_back(std::move(track));
     }
   }
-  DropLooseObservations(block.scene);
-  block.scene.SortTracks();
-  return block;
+  DropLooseObservations(subproblem.scene);
+  subproblem.scene.SortTracks();
+  return subproblem;
 }
 
 }  // namespace orbweave

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/merging/global_options.h"
 #include "core/merging/global_problem.h"
+#include "core/partitioned_ba/global_options.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {

@@ -21,12 +21,12 @@ std::map<ImageId, double> CountObservations(const Reconstruction& reconstruction
   return counts;
 }
 
-void CollectOpinions(const Reconstruction& in_world, PoseOpinions& opinions) {
+void CollectEstimates(const Reconstruction& in_world, PoseEstimates& estimates) {
   std::map<ImageId, double> counts = CountObservations(in_world);
   for (const auto& [id, image] : in_world.images) {
-    opinions[id].push_back({.cam_from_world = image.cam_from_world,
-                            .loose = image.loose,
-                            .weight = std::max(1.0, counts[id])});
+    estimates[id].push_back({.cam_from_world = image.cam_from_world,
+                             .loose = image.loose,
+                             .weight = std::max(1.0, counts[id])});
   }
 }
 
@@ -35,7 +35,7 @@ MergedWorld MergeWorld(std::vector<Submodel>& submodels,
                        const Alignment& alignment,
                        uint32_t world,
                        const MergeOptions& options) {
-  PoseOpinions opinions;
+  PoseEstimates estimates;
   std::vector<Track> tracks;
   size_t num_tracks = 0;
   for (size_t m = 0; m < submodels.size(); ++m) {
@@ -46,11 +46,11 @@ MergedWorld MergeWorld(std::vector<Submodel>& submodels,
     if (alignment.world[m] != world) continue;
     Reconstruction in_world =
         Transformed(alignment.world_from_submodel[m], std::move(submodels[m].reconstruction));
-    CollectOpinions(in_world, opinions);
+    CollectEstimates(in_world, estimates);
     std::move(in_world.tracks.begin(), in_world.tracks.end(), std::back_inserter(tracks));
   }
   MergedWorld merged;
-  merged.reconstruction.images = FusePoses(opinions);
+  merged.reconstruction.images = FusePoses(estimates);
   UnitedTracks united = UniteTracks(tracks, merged.reconstruction.images, options.max_error_px);
   merged.reconstruction.tracks = std::move(united.tracks);
   merged.report = {.united_tracks = united.num_united,

@@ -4,7 +4,9 @@
 
 #include <vector>
 
-#include "core/merging/align_submodels.h"
+#include "core/merging/alignment.h"
+#include "core/merging/submodel.h"
+#include "core/scene/reconstruction.h"
 
 namespace orbweave {
 

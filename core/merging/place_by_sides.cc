@@ -16,9 +16,9 @@ namespace {
 
 using Owners = std::map<ImageId, uint32_t>;
 
-Owners OwnersOf(const WorldBlock& block) {
+Owners OwnersOf(const Subproblem& subproblem) {
   Owners owners;
-  for (const BlockImage& image : block.images) owners.emplace(image.id, image.owner);
+  for (const SubproblemImage& image : subproblem.images) owners.emplace(image.id, image.owner);
   return owners;
 }
 
@@ -35,14 +35,14 @@ bool IsSeenFromTwoSides(const Track& track, const Owners& owners) {
          track.observations.end();
 }
 
-/// Images whose points are not all their own cluster's, as far as this block can tell: what the
-/// others see of a separator or of the held image may be in another block.
-std::set<ImageId> ImagesBetweenSides(const WorldBlock& block, const Owners& owners) {
+/// Images whose points are not all their own cluster's, as far as this subproblem can tell: what
+/// the others see of a separator or of the held image may be in another subproblem.
+std::set<ImageId> ImagesBetweenSides(const Subproblem& subproblem, const Owners& owners) {
   std::set<ImageId> between;
-  for (const BlockImage& image : block.images) {
+  for (const SubproblemImage& image : subproblem.images) {
     if (image.is_separator || image.is_held) between.insert(image.id);
   }
-  for (const Track& track : block.scene.tracks) {
+  for (const Track& track : subproblem.scene.tracks) {
     if (!IsSeenFromTwoSides(track, owners)) continue;
     for (const Observation& seen : track.observations) between.insert(seen.ref.image);
   }
@@ -64,11 +64,11 @@ void AddSighting(const Observation& seen,
 
 }  // namespace
 
-std::vector<SidePlacement> PlaceBySides(const WorldBlock& block) {
-  const Owners owners = OwnersOf(block);
-  const std::set<ImageId> between = ImagesBetweenSides(block, owners);
+std::vector<SidePlacement> PlaceBySides(const Subproblem& subproblem) {
+  const Owners owners = OwnersOf(subproblem);
+  const std::set<ImageId> between = ImagesBetweenSides(subproblem, owners);
   std::map<std::pair<ImageId, uint32_t>, SidePlacement> placements;
-  for (const Track& track : block.scene.tracks) {
+  for (const Track& track : subproblem.scene.tracks) {
     const bool places_nothing = std::ranges::none_of(
         track.observations,
         [&](const Observation& seen) { return between.contains(seen.ref.image); });
@@ -84,7 +84,7 @@ std::vector<SidePlacement> PlaceBySides(const WorldBlock& block) {
         placement.image = id;
         placement.cluster = cluster;
         AddSighting(
-            seen, track.point_in_world, block.scene.images.at(id).cam_from_world, placement);
+            seen, track.point_in_world, subproblem.scene.images.at(id).cam_from_world, placement);
       }
     }
   }

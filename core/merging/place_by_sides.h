@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/bundle/block_matrix.h"
-#include "core/merging/world_block.h"
+#include "core/partitioned_ba/subproblem.h"
 
 namespace orbweave {
 
@@ -20,9 +20,9 @@ struct SidePlacement {
   uint32_t num_points = 0;
 };
 
-/// This block's share of the placements of all images that panoramas of two clusters may place,
-/// sorted by (image, cluster). A point is a cluster's when two of its panoramas see it besides the
-/// image that is placed.
-[[nodiscard]] std::vector<SidePlacement> PlaceBySides(const WorldBlock& block);
+/// This subproblem's share of the placements of all images that panoramas of two clusters may
+/// place, sorted by (image, cluster). A point is a cluster's when two of its panoramas see it
+/// besides the image that is placed.
+[[nodiscard]] std::vector<SidePlacement> PlaceBySides(const Subproblem& subproblem);
 
 }  // namespace orbweave

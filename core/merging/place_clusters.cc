@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/averaging/solve_similarity_graph.h"
 #include "core/base/parallel_for.h"
+#include "core/base/quantile.h"
 #include "core/merging/cluster_spreads.h"
 #include "core/merging/estimate_gravity.h"
-#include "core/merging/quantile.h"
+#include "core/merging/georeference_reconstruction.h"
 
 namespace orbweave {
 namespace {
@@ -193,6 +195,29 @@ std::optional<std::vector<Sim3>> StartFrom(const std::vector<Node>& nodes,
   return start;
 }
 
+// Clusters without a place, as nothing but loose images is left of them, go where the nearest one
+// along seams does. False when seams lead from one of them to none that has a place.
+bool FollowNeighbours(const ClusteredWorld& world, std::map<uint32_t, Sim3>& places) {
+  std::set<uint32_t> left;
+  for (const auto& [id, image] : world.scene.images) {
+    const uint32_t cluster = world.cluster_of_image.at(id);
+    if (!places.contains(cluster)) left.insert(cluster);
+  }
+  while (!left.empty()) {
+    std::map<uint32_t, Sim3> ring;
+    for (const WorldSeam& seam : world.seams) {
+      const uint32_t a = seam.cluster_a;
+      const uint32_t b = seam.cluster_b;
+      if (left.contains(a) && places.contains(b)) ring.emplace(a, places.at(b));
+      if (left.contains(b) && places.contains(a)) ring.emplace(b, places.at(a));
+    }
+    if (ring.empty()) return false;
+    for (const auto& [cluster, place] : ring) left.erase(cluster);
+    places.merge(ring);
+  }
+  return true;
+}
+
 bool AgreesWithGnss(const std::vector<double>& errors, size_t num_seams) {
   const auto agreeing = std::count_if(errors.begin() + static_cast<std::ptrdiff_t>(num_seams),
                                       errors.end(),
@@ -232,9 +257,7 @@ absl::StatusOr<std::map<uint32_t, Sim3>> PlaceClusters(const ClusteredWorld& wor
     places[nodes[n].cluster] =
         solution.world_from_node[n + 1] * Sim3{.translation = -nodes[n].centre_in_world};
   }
-  // Clusters of which nothing but loose images is left follow a neighbour.
-  for (const auto& [id, image] : world.scene.images)
-    places.emplace(world.cluster_of_image.at(id), places.begin()->second);
+  if (!FollowNeighbours(world, places)) places.clear();
   return places;
 }
 

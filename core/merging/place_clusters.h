@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "core/base/stage_context.h"
-#include "core/merging/align_submodels.h"
-#include "core/merging/georeference_reconstruction.h"
+#include "core/merging/align_options.h"
+#include "core/merging/georeference.h"
+#include "core/partitioned_ba/global_options.h"
 
 namespace orbweave {
 
@@ -35,7 +36,8 @@ struct ClusteredWorld {
 /// graph of similarities: a seam holds two neighbours together as tightly as clusters are stiff
 /// (drift.drift_deg, drift.drift_share), least squares; a cluster's fit holds it to the earth as
 /// tightly as GNSS scatters, with a robust loss, errors within one cluster taken as one. So
-/// positions that jump pull nothing along.
+/// positions that jump pull nothing along. A cluster of loose images alone goes where the nearest
+/// one along seams does.
 ///
 /// enu_from_world per cluster; empty where one similarity for all (`rigid`) agrees with every
 /// cluster's own within three times its scatter, where fewer than 3 clusters have one of their own,

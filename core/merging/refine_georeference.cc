@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

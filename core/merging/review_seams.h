@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/graph/partition_view_graph.h"
-#include "core/merging/align_submodels.h"
+#include "core/merging/alignment.h"
 #include "core/scene/view_graph.h"
 
 namespace orbweave {

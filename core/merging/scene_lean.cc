@@ -9,12 +9,12 @@
 #include <map>
 #include <numbers>
 
-#include "core/merging/quantile.h"
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {
 
-constexpr size_t kMaxPoints = 1000;  // per block: some for every panorama of a cluster
+constexpr size_t kMaxPoints = 1000;  // per subproblem: some for every panorama of a cluster
 constexpr size_t kMinPoints = 200;
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr int kSteps = 40;  // on either side
@@ -58,10 +58,11 @@ void AddPeaks(const Bins& bins, Peaks& peaks) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> PointsAboutPanoramas(const WorldBlock& block) {
+std::vector<Eigen::Vector3d> PointsAboutPanoramas(const Subproblem& subproblem) {
   std::map<ImageId, Eigen::Vector3d> centres;
-  for (const auto& [id, image] : block.scene.images) centres[id] = image.cam_from_world.Centre();
-  const std::vector<Track>& tracks = block.scene.tracks;
+  for (const auto& [id, image] : subproblem.scene.images)
+    centres[id] = image.cam_from_world.Centre();
+  const std::vector<Track>& tracks = subproblem.scene.tracks;
   const size_t stride = std::max<size_t>(1, (tracks.size() + kMaxPoints - 1) / kMaxPoints);
   std::vector<Eigen::Vector3d> points;
   for (size_t t = 0; t < tracks.size(); t += stride) {

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "core/merging/world_block.h"
+#include "core/partitioned_ba/subproblem.h"
 
 namespace orbweave {
 
-/// Points of a block as seen from the nearest of the panoramas that see them: point minus centre,
-/// world axes. At most a thousand, evenly over its tracks. What stands and lies about panoramas
-/// knows what is upright where neither GNSS nor the panoramas do.
-[[nodiscard]] std::vector<Eigen::Vector3d> PointsAboutPanoramas(const WorldBlock& block);
+/// Points of a subproblem as seen from the nearest of the panoramas that see them: point minus
+/// centre, world axes. At most a thousand, evenly over its tracks. What stands and lies about
+/// panoramas knows what is upright where neither GNSS nor the panoramas do.
+[[nodiscard]] std::vector<Eigen::Vector3d> PointsAboutPanoramas(const Subproblem& subproblem);
 
 /// By how much a scene leans.
 struct SceneLean {

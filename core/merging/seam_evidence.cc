@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

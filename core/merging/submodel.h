@@ -9,20 +9,20 @@
 
 namespace orbweave {
 
-/// Component `component` of what became of cluster `cluster`.
+/// Submodel `submodel` of what became of cluster `cluster`.
 struct SubmodelName {
   uint32_t cluster = 0;
-  uint32_t component = 0;
+  uint32_t submodel = 0;
   friend auto operator<=>(const SubmodelName&, const SubmodelName&) = default;
 };
 
-/// A submodel, or as much of it as is needed (RimOf), in a frame and scale of its own.
+/// A submodel, or as much of it as is needed (BoundaryTracksOf), in a frame and scale of its own.
 struct Submodel {
   uint32_t cluster = 0;
-  uint32_t component = 0;
+  uint32_t submodel = 0;
   Reconstruction reconstruction{};
 
-  [[nodiscard]] SubmodelName name() const { return {cluster, component}; }
+  [[nodiscard]] SubmodelName name() const { return {cluster, submodel}; }
 };
 
 }  // namespace orbweave

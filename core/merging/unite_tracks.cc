@@ -8,9 +8,9 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
 #include "core/graph/disjoint_sets.h"
-#include "core/merging/quantile.h"
 
 namespace orbweave {
 namespace {

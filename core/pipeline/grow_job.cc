@@ -25,7 +25,7 @@ StageLoad GrowRun(const StageLoad& run, double factor, const StageGrowth& growth
   const size_t parts = run.parts.size() < 2
                            ? run.parts.size()
                            : static_cast<size_t>(std::max(1.0, std::round(count * factor)));
-  StageLoad grown{.stage = run.stage};
+  StageLoad grown{.stage = run.stage, .needs = run.needs};
   for (size_t part = 0; part < parts; ++part)
     grown.parts.push_back(run.parts[part % run.parts.size()]);
   const PartLoad before = SumOf(run.parts);

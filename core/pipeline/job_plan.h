@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "core/base/digest.h"
 #include "core/base/status.h"
+#include "core/pipeline/stage_needs.h"
 #include "core/pipeline/task.h"
 
 namespace orbweave {
@@ -34,6 +36,9 @@ struct InputRule {
 /// `parts_listed_in` lists. No part at all is a stage that is done.
 struct StageRule {
   std::string stage{};
+  /// Of the stage's algorithm. It is part of a task's id: when what a stage computes changes it is
+  /// raised, and results of the older code are not taken for those of the newer.
+  std::string version{};
   std::string parts_from{};  ///< empty: one part
   std::optional<uint32_t>
       parts_listed_in{};  ///< each digest listed there is the recipe of one part
@@ -43,6 +48,9 @@ struct StageRule {
   /// The last stage of a loop: the job goes back to this stage after it as long as it has parts or,
   /// where it always has one, as long as that leaves a recipe.
   std::string back_to{};
+  StageNeeds needs{};       ///< of one task
+  double weight = 1.0;      ///< what a run usually costs beside those of the plan's other stages
+  double usual_runs = 1.0;  ///< how often it usually runs: more than once in a long loop
 
   /// One part whatever the stages before left.
   [[nodiscard]] bool HasOnePart() const { return parts_from.empty() && !parts_listed_in; }
@@ -60,8 +68,11 @@ struct JobPlan {
                                   uint32_t stage,
                                   const std::vector<TaskResult>& results);
 
-/// "sparse" (from images) and "sparse_from_matches" (from a database). NotFound otherwise.
-[[nodiscard]] absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind);
+/// Where whoever runs jobs finds their plans. NotFound: there is no such kind of job.
+using PlanLookup = std::function<absl::StatusOr<JobPlan>(std::string_view kind)>;
+
+/// Knows no kind of job.
+[[nodiscard]] absl::StatusOr<JobPlan> FindNoPlan(std::string_view kind);
 
 /// The lines of `options_text` ("section.key=value") that belong to one of `sections`, in order.
 [[nodiscard]] std::string SelectSections(std::string_view options_text,

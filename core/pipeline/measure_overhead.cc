@@ -9,14 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "core/base/quantile.h"
+
 namespace orbweave {
 namespace {
 
 double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0.0 : UpperMedian(std::move(values));
 }
 
 double MedianHold(const std::vector<TaskTiming>& timings, const std::vector<MeasuredTask>& tasks) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 
 namespace orbweave {
 

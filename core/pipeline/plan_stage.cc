@@ -99,8 +99,13 @@ absl::StatusOr<StagePlan> PlanStage(const JobPlan& plan,
                                     const std::vector<std::vector<TaskResult>>& results,
                                     const std::vector<Digest>& listed_recipes) {
   const Planner planner{plan, stage, job, results};
+  if (planner.Rule().version.empty()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("job kind ", plan.kind, " states no version of stage ", planner.Rule().stage));
+  }
   StagePlan stage_plan;
   TaskSpec common{.stage = planner.Rule().stage,
+                  .version = planner.Rule().version,
                   .options_text = SelectSections(job.options_text, planner.Rule().option_sections)};
   std::vector<size_t> recipe_slots;
   for (const InputRule& rule : planner.Rule().inputs) {
@@ -140,6 +145,18 @@ absl::StatusOr<StagePlan> PlanStage(const JobPlan& plan,
     stage_plan.tasks.push_back(std::move(task));
   }
   return stage_plan;
+}
+
+absl::StatusOr<std::vector<Digest>> ReadListedRecipes(const JobPlan& plan,
+                                                      uint32_t stage,
+                                                      const JobSpec& job,
+                                                      BlobAccess& blobs) {
+  const std::optional<uint32_t> input = plan.stages[stage].parts_listed_in;
+  if (!input) return std::vector<Digest>{};
+  if (*input >= job.inputs.size())
+    return absl::InvalidArgumentError(absl::StrCat("the job has no input ", *input));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(job.inputs[*input]));
+  return DecodeCollection(bytes);
 }
 
 }  // namespace orbweave

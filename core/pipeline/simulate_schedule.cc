@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <queue>
 
 #include "core/base/status.h"
@@ -14,9 +15,9 @@ namespace {
 
 double TransferSeconds(double bytes, double gbit_per_s) { return 8e-9 * bytes / gbit_per_s; }
 
-double TaskSeconds(const PartLoad& part, const FleetModel& model) {
+double TaskSeconds(const PartLoad& part, uint32_t at_once, const FleetModel& model) {
   return model.task_overhead_s + part.compute_s +
-         TransferSeconds(part.bytes, model.worker_gbit_per_s);
+         TransferSeconds(part.bytes, model.worker_gbit_per_s / at_once);
 }
 
 /// What the coordinator needs for a run, however many workers there are.
@@ -28,11 +29,14 @@ double CoordinatorSeconds(const StageLoad& run, const FleetModel& model) {
 }
 
 double ListSchedule(const StageLoad& run, uint32_t workers, const FleetModel& model) {
+  const uint32_t at_once = TasksAtOnce(model.offers, model.slots, run.needs);
+  if (at_once == 0 && !run.parts.empty()) return std::numeric_limits<double>::infinity();
   std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
-  for (size_t w = 0; w < std::min<size_t>(workers, run.parts.size()); ++w) free_at.push(0.0);
+  const size_t lanes = std::min(size_t{workers} * at_once, run.parts.size());
+  for (size_t lane = 0; lane < lanes; ++lane) free_at.push(0.0);
   double end_s = 0.0;
   for (const PartLoad& part : run.parts) {
-    const double done_s = free_at.top() + TaskSeconds(part, model);
+    const double done_s = free_at.top() + TaskSeconds(part, at_once, model);
     free_at.pop();
     free_at.push(done_s);
     end_s = std::max(end_s, done_s);
@@ -75,9 +79,11 @@ Schedule SimulateSchedule(const std::vector<StageLoad>& runs,
 
 Schedule CriticalPath(const std::vector<StageLoad>& runs, const FleetModel& model) {
   return InOrder(runs, model, [&](const StageLoad& run) {
+    if (TasksAtOnce(model.offers, model.slots, run.needs) == 0 && !run.parts.empty())
+      return std::numeric_limits<double>::infinity();
     double longest_s = 0.0;
     for (const PartLoad& part : run.parts)
-      longest_s = std::max(longest_s, TaskSeconds(part, model));
+      longest_s = std::max(longest_s, TaskSeconds(part, 1, model));
     return longest_s;
   });
 }

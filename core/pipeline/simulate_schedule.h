@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/pipeline/stage_needs.h"
 #include "core/pipeline/task.h"
+#include "core/pipeline/worker_offers.h"
 
 namespace orbweave {
 
@@ -20,11 +22,12 @@ struct PartLoad {
 struct StageLoad {
   std::string stage{};
   std::vector<PartLoad> parts{};
+  StageNeeds needs{};  ///< of each part
 };
 
 /// The runs of a job from its measured tasks, in (run, part) order. A task computes for as long as
 /// its CPU time: a worker has one thread, and waiting for processors that others keep busy is no
-/// property of the task.
+/// property of the task. What was measured does not tell what tasks need.
 [[nodiscard]] std::vector<StageLoad> StageLoadsOf(const std::vector<MeasuredTask>& tasks);
 
 /// What is assumed of the machines.
@@ -34,6 +37,8 @@ struct FleetModel {
   double task_overhead_s = 0.0;          ///< a worker's time per task beside it: lease, hand-in
   double stage_overhead_s = 0.0;         ///< from the end of a run to the start of the next
   double coordinator_s_per_task = 0.0;   ///< of the coordinator's own time, one task after another
+  uint32_t slots = 1;                    ///< of each worker
+  WorkerOffers offers{};                 ///< of each worker
 };
 
 struct Schedule {
@@ -41,10 +46,13 @@ struct Schedule {
   std::vector<double> run_s{};  ///< by run; they sum up to the makespan
 };
 
-/// List scheduling of the runs, one after the other, on `workers` equal workers of one slot: the
-/// next part in order goes to the worker that is free first, for
+/// List scheduling of the runs, one after the other, on `workers` equal workers: the next part in
+/// order goes to the worker that has room for it first, for
 ///
-///   task_overhead_s + compute_s + 8 bytes / worker_gbit_per_s.
+///   task_overhead_s + compute_s + 8 bytes n / worker_gbit_per_s,
+///
+/// where n tasks of that run have room on a worker at a time (TasksAtOnce) and share its link. A
+/// run that has room nowhere never ends.
 ///
 /// A run takes no less than its bytes need on the coordinator's link and its tasks in the
 /// coordinator's time. More workers are never slower; the makespan is never below the sum of all

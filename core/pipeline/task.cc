@@ -3,8 +3,6 @@
 
 #include "core/pipeline/task.h"
 
-#include "core/pipeline/stage_version.h"
-
 namespace orbweave {
 namespace {
 
@@ -16,10 +14,7 @@ std::string_view BytesOf(const Digest& digest) {
 
 Digest TaskSpec::Id() const {
   DigestBuilder builder;
-  builder.AddField("orbweave task")
-      .AddField(stage)
-      .AddField(StageVersion(stage))
-      .AddField(options_text);
+  builder.AddField("orbweave task").AddField(stage).AddField(version).AddField(options_text);
   for (const Digest& input : inputs) builder.AddField(BytesOf(input));
   return builder.Finish();
 }

@@ -14,11 +14,12 @@ namespace orbweave {
 /// so a result can be cached, repeated or computed twice without harm.
 struct TaskSpec {
   std::string stage{};
+  std::string version{};  ///< of the stage's algorithm
   std::vector<Digest> inputs{};
   std::string options_text{};  ///< canonical text of the sections the stage reads
   uint32_t part = 0;  ///< which part of the stage: for people and for order, not part of the id
 
-  /// SHA-256 of stage, code version, options and inputs.
+  /// SHA-256 of stage, version, options and inputs.
   [[nodiscard]] Digest Id() const;
 };
 

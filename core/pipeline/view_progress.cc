@@ -4,40 +4,12 @@
 #include "core/pipeline/view_progress.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
-#include <utility>
 
 namespace orbweave {
 namespace {
 
-/// What the stages of a job on images usually cost, in percent of the whole.
-constexpr std::array<std::pair<std::string_view, double>, 14> kWeights = {{
-    {"ingest_images", 1.0},
-    {"extract_features", 30.0},
-    {"select_image_pairs", 3.0},
-    {"match_images", 25.0},
-    {"verify_matches", 10.0},
-    {"partition_view_graph", 1.0},
-    {"reconstruct_cluster", 28.0},
-    {"list_seams", 0.1},
-    {"fit_seams", 1.0},
-    {"align_submodels", 0.1},
-    {"join_submodels", 0.5},
-    {"assemble_block", 0.5},
-    {"steer_adjustment", 1.0},
-    {"adjust_block", 9.0},
-}};
-
-/// Rounds that the global adjustment in blocks usually takes.
-constexpr double kUsualRounds = 26.0;
-
-double WeightOf(const std::string& stage) {
-  for (const auto& [name, weight] : kWeights) {
-    if (name == stage) return weight;
-  }
-  return 1.0;
-}
+/// Before so much of a job is computed its rate is not known.
+constexpr double kTooEarly = 0.02;
 
 /// How many stages lie behind: all before the one at work, or, between two stages, before the one
 /// that comes next. In a loop later stages may have tasks of the round before.
@@ -56,50 +28,125 @@ double FractionOf(double tasks, uint32_t total) {
   return total == 0 ? 0.0 : std::min(1.0, tasks / static_cast<double>(total));
 }
 
-/// The share of the adjustment's rounds that have begun, as far as one can tell before its end.
-double ShareOfRounds(const JobStatus& job) {
-  for (const StageStatus& stage : job.stages) {
-    if (stage.stage == "steer_adjustment") return FractionOf(stage.tasks_total / kUsualRounds, 1);
-  }
-  return 1.0;
+double Computed(const StageStatus& stage) {
+  return static_cast<double>(stage.tasks_done) - stage.tasks_reused;
 }
 
-bool IsInRounds(const std::string& stage) {
-  return stage == "steer_adjustment" || stage == "adjust_block";
+/// The stages of one long loop.
+struct Loop {
+  size_t first = 0;
+  size_t end = 0;
+  bool is_at_work = false;  ///< all its stages have tasks, the one that follows has none
+  uint32_t runs = 0;
+  double usual_runs = 1.0;
+
+  [[nodiscard]] bool Holds(size_t stage) const { return stage >= first && stage < end; }
+  /// Of the loop's rounds that have begun, as far as one can tell before its end.
+  [[nodiscard]] double Share() const { return is_at_work ? std::min(1.0, runs / usual_runs) : 1.0; }
+};
+
+/// The plan's long loop; empty where there is none.
+Loop LoopOf(const JobStatus& job) {
+  const auto is_long = [](const StageStatus& stage) { return stage.usual_runs > 1.0; };
+  const auto first = std::ranges::find_if(job.stages, is_long);
+  const auto end = std::find_if_not(first, job.stages.end(), is_long);
+  Loop loop{.first = static_cast<size_t>(first - job.stages.begin()),
+            .end = static_cast<size_t>(end - job.stages.begin())};
+  if (first == end) return loop;
+  const bool goes_on = end == job.stages.end() || end->tasks_total == 0;
+  loop.is_at_work = job.state == JobState::kRunning && goes_on && (end - 1)->tasks_total > 0;
+  loop.runs = first->runs;
+  loop.usual_runs = first->usual_runs;
+  return loop;
 }
 
-/// Whether the adjustment's loop is at work: both its stages have tasks, the one that follows none.
-bool IsAdjusting(const JobStatus& job) {
-  bool adjusts = false;
-  for (const StageStatus& stage : job.stages) {
-    if (stage.stage == "adjust_block") adjusts = stage.tasks_total > 0;
-    if (stage.stage == "conclude_adjustment" && stage.tasks_total > 0) return false;
+/// What is done of a job, in weights.
+struct Progressed {
+  double total = 0.0;
+  double done = 0.0;
+  double reused = 0.0;
+};
+
+Progressed Weigh(const JobStatus& job, size_t past, const Loop& loop) {
+  Progressed sum;
+  for (size_t s = 0; s < job.stages.size(); ++s) {
+    const StageStatus& stage = job.stages[s];
+    const double share = loop.Holds(s) ? loop.Share() : 1.0;
+    const double fraction =
+        s < past ? 1.0 : FractionOf(stage.tasks_done + stage.fraction_running, stage.tasks_total);
+    sum.total += stage.weight;
+    sum.done += stage.weight * share * fraction;
+    sum.reused += stage.weight * share * FractionOf(stage.tasks_reused, stage.tasks_total);
   }
-  return adjusts && job.state == JobState::kRunning;
+  return sum;
+}
+
+/// Seconds that tasks took per weight of what was computed; 0: nothing was.
+double RateOf(const JobStatus& job, const Loop& loop) {
+  double busy_s = 0.0;
+  double weight = 0.0;
+  for (size_t s = 0; s < job.stages.size(); ++s) {
+    const StageStatus& stage = job.stages[s];
+    if (stage.tasks_total == 0 || stage.busy_s <= 0.0) continue;
+    const double share = loop.Holds(s) ? loop.Share() : 1.0;
+    busy_s += stage.busy_s;
+    weight += stage.weight * share * Computed(stage) / stage.tasks_total;
+  }
+  return weight > 0.0 ? busy_s / weight : 0.0;
+}
+
+/// Seconds that one slot would have to work for what is not done of a stage.
+double WorkLeft(const StageStatus& stage, double rate, double rounds_left) {
+  if (stage.tasks_total == 0) return stage.weight * rate;
+  const double computed = Computed(stage);
+  const double tasks_left =
+      std::max(0.0, stage.tasks_total - stage.tasks_done - stage.fraction_running);
+  const double mean_s =
+      computed > 0.0 ? stage.busy_s / computed : stage.weight * rate / stage.tasks_total;
+  return tasks_left * mean_s + rounds_left * stage.busy_s / std::max(1U, stage.runs);
+}
+
+double SlotsOf(const JobStatus& job) {
+  uint32_t slots = 0;
+  for (const WorkerStatus& worker : job.workers) {
+    if (worker.alive && !worker.set_aside && !worker.draining) slots += worker.slots;
+  }
+  return std::max(1U, slots);
+}
+
+/// How many tasks of a stage can be at work at a time.
+double WidthOf(const StageStatus& stage, double slots) {
+  if (!stage.has_parts) return 1.0;
+  if (stage.tasks_total == 0) return slots;
+  const double tasks = static_cast<double>(stage.tasks_total) / std::max(1U, stage.runs);
+  return std::clamp(tasks, 1.0, slots);
+}
+
+double TimeLeft(const JobStatus& job, size_t past, const Loop& loop) {
+  const double rate = RateOf(job, loop);
+  if (rate <= 0.0) return -1.0;
+  const double slots = SlotsOf(job);
+  const double rounds_left = loop.is_at_work ? std::max(0.0, loop.usual_runs - loop.runs) : 0.0;
+  double left_s = 0.0;
+  for (size_t s = 0; s < job.stages.size(); ++s) {
+    const bool repeats = loop.is_at_work && loop.Holds(s);
+    if (s < past && !repeats) continue;
+    const StageStatus& stage = job.stages[s];
+    left_s += WorkLeft(stage, rate, repeats ? rounds_left : 0.0) / WidthOf(stage, slots);
+  }
+  return left_s;
 }
 
 }  // namespace
 
 ProgressView ViewProgress(const JobStatus& status) {
   const size_t past = CountPastStages(status);
-  const double rounds = IsAdjusting(status) ? ShareOfRounds(status) : 1.0;
-  double total = 0.0;
-  double done = 0.0;
-  double reused = 0.0;
-  for (size_t s = 0; s < status.stages.size(); ++s) {
-    const StageStatus& stage = status.stages[s];
-    const double weight = WeightOf(stage.stage);
-    total += weight;
-    const double share = IsInRounds(stage.stage) ? rounds : 1.0;
-    reused += weight * share * FractionOf(stage.tasks_reused, stage.tasks_total);
-    done +=
-        weight * share *
-        (s < past ? 1.0 : FractionOf(stage.tasks_done + stage.fraction_running, stage.tasks_total));
-  }
+  const Loop loop = LoopOf(status);
+  const Progressed sum = Weigh(status, past, loop);
   ProgressView view;
-  view.fraction = total > 0.0 ? done / total : 0.0;
-  const double computed = total > 0.0 ? (done - reused) / total : 0.0;
-  if (computed > 0.02) view.eta_s = status.elapsed_s * (1.0 - view.fraction) / computed;
+  view.fraction = sum.total > 0.0 ? sum.done / sum.total : 0.0;
+  const bool is_too_early = sum.done - sum.reused <= kTooEarly * sum.total;
+  if (!is_too_early) view.eta_s = TimeLeft(status, past, loop);
   if (past == status.stages.size()) return view;
   const StageStatus& active = status.stages[past];
   view.stage = active.stage;

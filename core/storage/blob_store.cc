@@ -189,6 +189,12 @@ bool BlobStore::Verify(const Digest& digest) {
   return false;
 }
 
+absl::StatusOr<std::vector<bool>> BlobStore::StatBlobs(const std::vector<Digest>& digests) {
+  std::vector<bool> stored;
+  for (const Digest& digest : digests) stored.push_back(Use(digest));
+  return stored;
+}
+
 absl::Status BlobStore::LinkFile(const Digest& digest, const std::string& path) {
   if (!fs::path(path).is_absolute()) {
     return absl::InvalidArgumentError(absl::StrCat("'", path, "' is no absolute path"));

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/pipeline/blob_access.h"
+#include "core/pipeline/blob_depot.h"
 
 namespace orbweave {
 
@@ -28,7 +28,7 @@ struct StoredBlob {
 /// blob that is not what its name says is removed, so that it can be made again, or replaced when
 /// it is put again. The time of its file says when it was last put or used. Thread-safe; one
 /// process has the folder, others, also on other machines, may share it.
-class BlobStore final : public BlobAccess {
+class BlobStore final : public BlobDepot {
  public:
   /// Has the folder, which is made when there is none. What others are writing there is removed;
   /// they find out (Unavailable) and write it again.
@@ -50,8 +50,11 @@ class BlobStore final : public BlobAccess {
   [[nodiscard]] bool Use(const Digest& digest) const;
   /// Whether it is there and its bytes are right (otherwise it is removed).
   [[nodiscard]] bool Verify(const Digest& digest);
-  /// See CoordinatorApi::LinkFile. InvalidArgument: the path is not absolute.
-  [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path);
+  /// Those that are there count as used now.
+  [[nodiscard]] absl::StatusOr<std::vector<bool>> StatBlobs(
+      const std::vector<Digest>& digests) override;
+  /// InvalidArgument: the path is not absolute.
+  [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
 
   /// All blobs, by digest. Unavailable, PermissionDenied: the folder cannot be read.
   [[nodiscard]] absl::StatusOr<std::vector<StoredBlob>> List() const;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/base/random.h"
 
 namespace orbweave {
@@ -87,9 +89,7 @@ void Centre(CorridorPath& path) {
     std::vector<double> values;
     for (const CorridorStation& station : path.stations)
       values.push_back(station.place.position[axis]);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    const double median = *middle;
+    const double median = UpperMedian(std::move(values));
     for (CorridorCell& cell : path.cells) cell.place.position[axis] -= median;
     for (CorridorStation& station : path.stations) station.place.position[axis] -= median;
   }

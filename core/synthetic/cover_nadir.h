@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/synthetic/render_panorama.h"
+#include "core/synthetic/rendered_panorama.h"
+#include "core/synthetic/street_hardships.h"
 
 namespace orbweave {
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/synthetic/random_for_street.h"
 #include "core/synthetic/simulate_gnss.h"
 
 namespace orbweave {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/synthetic/street.h"
+#include "core/synthetic/street_options.h"
 
 namespace orbweave {
 

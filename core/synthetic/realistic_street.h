@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/synthetic/street.h"
+#include "core/synthetic/street_options.h"
 
 namespace orbweave {
 

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/geometry/equirectangular_camera.h"
 #include "core/geometry/rigid3.h"
-#include "core/scene/features.h"
 #include "core/synthetic/camera_rays.h"
+#include "core/synthetic/rendered_panorama.h"
 #include "core/synthetic/street_hardships.h"
 #include "core/synthetic/street_world.h"
 
@@ -28,14 +27,6 @@ struct PanoramaView {
   NadirKind nadir = NadirKind::kRoof;
   LensRig lenses{};
   RollingShutter shutter{};
-};
-
-/// Row-major pixels, and 255 where they are to be ignored: the carrier's roof or what covers the
-/// nadir, moving cars.
-struct RenderedPanorama {
-  EquirectangularCamera camera{};
-  std::vector<Rgb> pixels{};
-  std::vector<uint8_t> ignored{};
 };
 
 /// Casts a ray through the middle (i + 0.5, j + 0.5) of every pixel; textures filter themselves to

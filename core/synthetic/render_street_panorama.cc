@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/synthetic/camera_rays.h"
+#include "core/synthetic/random_for_street.h"
+#include "core/synthetic/render_panorama.h"
 #include "core/synthetic/street_solids.h"
 #include "core/synthetic/street_traffic.h"
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/synthetic/render_panorama.h"
+#include "core/synthetic/rendered_panorama.h"
 #include "core/synthetic/street.h"
+#include "core/synthetic/street_options.h"
 
 namespace orbweave {
 

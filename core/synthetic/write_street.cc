@@ -17,6 +17,7 @@
 #include "core/base/parallel_for.h"
 #include "core/base/random.h"
 #include "core/scene/local_frame.h"
+#include "core/synthetic/make_street.h"
 #include "core/synthetic/render_street_panorama.h"
 #include "core/synthetic/sample_surface.h"
 

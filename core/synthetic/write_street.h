@@ -6,7 +6,7 @@
 
 #include "absl/status/status.h"
 #include "core/base/stage_context.h"
-#include "core/synthetic/street.h"
+#include "core/synthetic/street_options.h"
 
 namespace orbweave {
 

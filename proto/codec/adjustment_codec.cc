@@ -25,7 +25,7 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
     codec::ToProto(adjustment, proto->add_adjustments());
   for (const std::vector<double>& costs : report.accepted_costs)
     proto->add_accepted_costs(codec::Pack(costs));
-  proto->set_bytes_of_block(codec::Pack(report.bytes_of_block));
+  proto->set_bytes_of_subproblem(codec::Pack(report.bytes_of_subproblem));
   proto->set_num_observations(report.num_observations);
   proto->set_removed_observations(report.removed_observations);
   proto->set_removed_tracks(report.removed_tracks);
@@ -67,8 +67,9 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
     ORBWEAVE_ASSIGN_OR_RETURN(auto costs, codec::Unpack<double>(bytes, "accepted costs"));
     report.accepted_costs.push_back(std::move(costs));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(report.bytes_of_block,
-                            codec::Unpack<uint64_t>(proto.bytes_of_block(), "bytes of blocks"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      report.bytes_of_subproblem,
+      codec::Unpack<uint64_t>(proto.bytes_of_subproblem(), "bytes of blocks"));
   return absl::OkStatus();
 }
 
@@ -92,7 +93,7 @@ SeamCertificate FromProto(const v1::SeamCertificate& proto) {
           .rotation_noise_deg = proto.rotation_noise_deg()};
 }
 
-void ToProto(const WorldPath& path, v1::WorldPath* proto) {
+void ToProto(const WorldProgress& path, v1::WorldProgress* proto) {
   proto->set_phase(path.phase);
   proto->set_asked(static_cast<uint32_t>(path.asked));
   proto->set_is_done(path.is_done);
@@ -104,32 +105,32 @@ void ToProto(const WorldPath& path, v1::WorldPath* proto) {
   proto->set_accepted(path.path.steps.accepted);
   proto->set_separators_decrease(path.path.separators_decrease);
   codec::ToProto(path.path.shortened, proto->mutable_shortened());
-  for (const std::vector<SeparatorId>& ids : path.path.separators_of_block)
-    codec::ToProto(ids, proto->add_separators_of_block());
+  for (const std::vector<SeparatorId>& ids : path.path.separators_of_subproblem)
+    codec::ToProto(ids, proto->add_separators_of_subproblem());
   ToProto(path.report, proto->mutable_report());
 }
 
-absl::StatusOr<BlockOrder::Work> WorkOf(uint32_t number) {
-  if (number > static_cast<uint32_t>(BlockOrder::Work::kFilter))
+absl::StatusOr<LmRequest::Work> WorkOf(uint32_t number) {
+  if (number > static_cast<uint32_t>(LmRequest::Work::kFilter))
     return absl::InvalidArgumentError("block order: unknown work");
-  return static_cast<BlockOrder::Work>(number);
+  return static_cast<LmRequest::Work>(number);
 }
 
-absl::StatusOr<WorldPath> FromProto(const v1::WorldPath& proto) {
-  WorldPath path{.phase = proto.phase(),
-                 .is_done = proto.is_done(),
-                 .path = {.steps = {.control = FromProto(proto.control()),
-                                    .growth = proto.growth(),
-                                    .cost = proto.cost(),
-                                    .iterations = proto.iterations(),
-                                    .converged = proto.converged(),
-                                    .accepted = proto.accepted()},
-                          .separators_decrease = proto.separators_decrease()}};
+absl::StatusOr<WorldProgress> FromProto(const v1::WorldProgress& proto) {
+  WorldProgress path{.phase = proto.phase(),
+                     .is_done = proto.is_done(),
+                     .path = {.steps = {.control = FromProto(proto.control()),
+                                        .growth = proto.growth(),
+                                        .cost = proto.cost(),
+                                        .iterations = proto.iterations(),
+                                        .converged = proto.converged(),
+                                        .accepted = proto.accepted()},
+                              .separators_decrease = proto.separators_decrease()}};
   ORBWEAVE_ASSIGN_OR_RETURN(path.asked, WorkOf(proto.asked()));
   ORBWEAVE_ASSIGN_OR_RETURN(path.path.shortened, codec::FromProto(proto.shortened()));
-  for (const v1::SeparatorIds& ids : proto.separators_of_block()) {
+  for (const v1::SeparatorIds& ids : proto.separators_of_subproblem()) {
     ORBWEAVE_ASSIGN_OR_RETURN(auto separators, codec::FromProto(ids));
-    path.path.separators_of_block.push_back(std::move(separators));
+    path.path.separators_of_subproblem.push_back(std::move(separators));
   }
   ORBWEAVE_RETURN_IF_ERROR(FromProto(proto.report(), path.report));
   return path;
@@ -137,150 +138,153 @@ absl::StatusOr<WorldPath> FromProto(const v1::WorldPath& proto) {
 
 }  // namespace
 
-std::string EncodeBlockTask(const BlockTask& task) {
-  v1::BlockTask proto;
-  proto.set_block(codec::PackDigest(task.block));
+absl::StatusOr<std::string> EncodeSubproblemTask(const SubproblemTask& task) {
+  v1::SubproblemTask proto;
+  proto.set_subproblem(codec::PackDigest(task.subproblem));
   proto.set_state(codec::PackDigest(task.state));
-  const BlockOrder& order = task.order;
-  proto.set_work(static_cast<uint32_t>(order.work));
-  proto.set_takes_trial(order.takes_trial);
-  codec::ToProto(order.shortened, proto.mutable_shortened());
-  ToProto(order.control, proto.mutable_control());
-  codec::ToProto(order.step.variables, proto.mutable_step_variables());
+  const LmRequest& request = task.request;
+  proto.set_work(static_cast<uint32_t>(request.work));
+  proto.set_takes_trial(request.takes_trial);
+  codec::ToProto(request.shortened, proto.mutable_shortened());
+  ToProto(request.control, proto.mutable_control());
+  codec::ToProto(request.step.variables, proto.mutable_step_variables());
   std::vector<std::array<double, 6>> steps;
-  for (const Vector6& step : order.step.steps)
+  for (const Vector6& step : request.step.steps)
     steps.push_back({step[0], step[1], step[2], step[3], step[4], step[5]});
   proto.set_steps(codec::Pack(steps));
-  proto.set_begins_again(order.begins_again);
-  proto.set_loss(static_cast<uint32_t>(order.loss));
-  return proto.SerializeAsString();
+  proto.set_evaluates_again(request.evaluates_again);
+  proto.set_loss(static_cast<uint32_t>(request.loss));
+  return codec::Serialize(proto, "block task");
 }
 
-absl::StatusOr<BlockTask> DecodeBlockTask(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::BlockTask proto,
-                            codec::Parse<v1::BlockTask>(bytes, "block task"));
-  BlockTask task{.order = {.takes_trial = proto.takes_trial(),
-                           .control = FromProto(proto.control()),
-                           .begins_again = proto.begins_again()}};
-  ORBWEAVE_ASSIGN_OR_RETURN(task.block, codec::UnpackDigest(proto.block()));
+absl::StatusOr<SubproblemTask> DecodeSubproblemTask(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::SubproblemTask proto,
+                            codec::Parse<v1::SubproblemTask>(bytes, "block task"));
+  SubproblemTask task{.request = {.takes_trial = proto.takes_trial(),
+                                  .control = FromProto(proto.control()),
+                                  .evaluates_again = proto.evaluates_again()}};
+  ORBWEAVE_ASSIGN_OR_RETURN(task.subproblem, codec::UnpackDigest(proto.subproblem()));
   ORBWEAVE_ASSIGN_OR_RETURN(task.state, codec::UnpackDigest(proto.state()));
-  ORBWEAVE_ASSIGN_OR_RETURN(task.order.work, WorkOf(proto.work()));
+  ORBWEAVE_ASSIGN_OR_RETURN(task.request.work, WorkOf(proto.work()));
   if (proto.loss() > static_cast<uint32_t>(BundleLoss::kHuber))
     return absl::InvalidArgumentError("block order: unknown loss");
-  task.order.loss = static_cast<BundleLoss>(proto.loss());
-  ORBWEAVE_ASSIGN_OR_RETURN(task.order.shortened, codec::FromProto(proto.shortened()));
-  ORBWEAVE_ASSIGN_OR_RETURN(task.order.step.variables, codec::FromProto(proto.step_variables()));
+  task.request.loss = static_cast<BundleLoss>(proto.loss());
+  ORBWEAVE_ASSIGN_OR_RETURN(task.request.shortened, codec::FromProto(proto.shortened()));
+  ORBWEAVE_ASSIGN_OR_RETURN(task.request.step.variables, codec::FromProto(proto.step_variables()));
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto steps,
       (codec::UnpackExactly<std::array<double, 6>>(
-          proto.steps(), task.order.step.variables.size(), "separator steps")));
-  for (const auto& step : steps) task.order.step.steps.emplace_back(Vector6(step.data()));
+          proto.steps(), task.request.step.variables.size(), "separator steps")));
+  for (const auto& step : steps) task.request.step.steps.emplace_back(Vector6(step.data()));
   return task;
 }
 
-std::string EncodeBlockResult(const BlockResult& result) {
-  v1::BlockResult proto;
-  const BlockAnswer& answer = result.answer;
-  codec::ToProto(answer.separators, proto.mutable_separators());
-  proto.set_cost(answer.cost);
-  proto.set_num_observations(answer.num_observations);
-  codec::ToProto(answer.system, proto.mutable_system());
-  codec::ToProto(answer.trial, proto.mutable_trial());
-  proto.set_removed_observations(answer.removed_observations);
-  proto.set_removed_tracks(answer.removed_tracks);
-  codec::ToProto(answer.summary, proto.mutable_summary());
-  proto.set_block(codec::PackDigest(result.block));
+absl::StatusOr<std::string> EncodeSubproblemResult(const SubproblemResult& result) {
+  v1::SubproblemResult proto;
+  const LmReply& reply = result.reply;
+  codec::ToProto(reply.separators, proto.mutable_separators());
+  proto.set_cost(reply.cost);
+  proto.set_num_observations(reply.num_observations);
+  codec::ToProto(reply.system, proto.mutable_system());
+  codec::ToProto(reply.trial, proto.mutable_trial());
+  proto.set_removed_observations(reply.removed_observations);
+  proto.set_removed_tracks(reply.removed_tracks);
+  codec::ToProto(reply.summary, proto.mutable_summary());
+  proto.set_subproblem(codec::PackDigest(result.subproblem));
   proto.set_state(codec::PackDigest(result.state));
   proto.set_inspection(codec::PackDigest(result.inspection));
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "block result");
 }
 
-absl::StatusOr<BlockResult> DecodeBlockResult(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::BlockResult proto,
-                            codec::Parse<v1::BlockResult>(bytes, "block result"));
-  BlockResult result{.answer = {.cost = proto.cost(),
-                                .num_observations = proto.num_observations(),
-                                .removed_observations = proto.removed_observations(),
-                                .removed_tracks = proto.removed_tracks()}};
-  ORBWEAVE_ASSIGN_OR_RETURN(result.answer.separators, codec::FromProto(proto.separators()));
-  ORBWEAVE_ASSIGN_OR_RETURN(result.answer.system, codec::FromProto(proto.system()));
-  ORBWEAVE_ASSIGN_OR_RETURN(result.answer.trial, codec::FromProto(proto.trial()));
-  ORBWEAVE_ASSIGN_OR_RETURN(result.answer.summary, codec::FromProto(proto.summary()));
-  ORBWEAVE_ASSIGN_OR_RETURN(result.block, codec::UnpackDigest(proto.block()));
+absl::StatusOr<SubproblemResult> DecodeSubproblemResult(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::SubproblemResult proto,
+                            codec::Parse<v1::SubproblemResult>(bytes, "block result"));
+  SubproblemResult result{.reply = {.cost = proto.cost(),
+                                    .num_observations = proto.num_observations(),
+                                    .removed_observations = proto.removed_observations(),
+                                    .removed_tracks = proto.removed_tracks()}};
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reply.separators, codec::FromProto(proto.separators()));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reply.system, codec::FromProto(proto.system()));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reply.trial, codec::FromProto(proto.trial()));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reply.summary, codec::FromProto(proto.summary()));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.subproblem, codec::UnpackDigest(proto.subproblem()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.state, codec::UnpackDigest(proto.state()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.inspection, codec::UnpackDigest(proto.inspection()));
   return result;
 }
 
-std::string EncodeAdjustmentProgress(const AdjustmentProgress& progress) {
+absl::StatusOr<std::string> EncodeAdjustmentProgress(const AdjustmentProgress& progress) {
   v1::AdjustmentProgress proto;
   for (size_t world = 0; world < progress.worlds.size(); ++world) {
-    v1::WorldPath* out = proto.add_worlds();
+    v1::WorldProgress* out = proto.add_worlds();
     ToProto(progress.worlds[world], out);
     out->set_is_asked(progress.is_asked[world] != 0);
   }
-  for (const BlockPlace& place : progress.blocks) {
-    v1::BlockPlace* out = proto.add_blocks();
+  for (const SubproblemPlace& place : progress.subproblems) {
+    v1::SubproblemPlace* out = proto.add_subproblems();
     out->set_world(place.world);
-    out->set_block(codec::PackDigest(place.block));
+    out->set_subproblem(codec::PackDigest(place.subproblem));
     out->set_state(codec::PackDigest(place.state));
     out->set_trial(codec::PackDigest(place.trial));
     codec::ToProto(place.summary, out->mutable_summary());
     out->set_inspection(codec::PackDigest(place.inspection));
   }
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "adjustment progress", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<AdjustmentProgress> DecodeAdjustmentProgress(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::AdjustmentProgress proto,
-                            codec::Parse<v1::AdjustmentProgress>(bytes, "adjustment progress"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::AdjustmentProgress proto,
+      codec::Parse<v1::AdjustmentProgress>(bytes, "adjustment progress", codec::Empty::kIsLegal));
   AdjustmentProgress progress;
-  for (const v1::WorldPath& world : proto.worlds()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(WorldPath path, FromProto(world));
+  for (const v1::WorldProgress& world : proto.worlds()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(WorldProgress path, FromProto(world));
     progress.worlds.push_back(std::move(path));
     progress.is_asked.push_back(world.is_asked() ? 1 : 0);
   }
-  for (const v1::BlockPlace& block : proto.blocks()) {
-    BlockPlace& place = progress.blocks.emplace_back();
-    place.world = block.world();
+  for (const v1::SubproblemPlace& subproblem : proto.subproblems()) {
+    SubproblemPlace& place = progress.subproblems.emplace_back();
+    place.world = subproblem.world();
     if (place.world >= progress.worlds.size())
       return absl::InvalidArgumentError("adjustment progress: a block of no world");
-    ORBWEAVE_ASSIGN_OR_RETURN(place.block, codec::UnpackDigest(block.block()));
-    ORBWEAVE_ASSIGN_OR_RETURN(place.state, codec::UnpackDigest(block.state()));
-    ORBWEAVE_ASSIGN_OR_RETURN(place.trial, codec::UnpackDigest(block.trial()));
-    ORBWEAVE_ASSIGN_OR_RETURN(place.summary, codec::FromProto(block.summary()));
-    ORBWEAVE_ASSIGN_OR_RETURN(place.inspection, codec::UnpackDigest(block.inspection()));
+    ORBWEAVE_ASSIGN_OR_RETURN(place.subproblem, codec::UnpackDigest(subproblem.subproblem()));
+    ORBWEAVE_ASSIGN_OR_RETURN(place.state, codec::UnpackDigest(subproblem.state()));
+    ORBWEAVE_ASSIGN_OR_RETURN(place.trial, codec::UnpackDigest(subproblem.trial()));
+    ORBWEAVE_ASSIGN_OR_RETURN(place.summary, codec::FromProto(subproblem.summary()));
+    ORBWEAVE_ASSIGN_OR_RETURN(place.inspection, codec::UnpackDigest(subproblem.inspection()));
   }
   return progress;
 }
 
-std::string EncodeConcludedModel(const ConcludedModel& model) {
-  v1::ConcludedModel proto;
+absl::StatusOr<std::string> EncodeFinalisedModel(const FinalisedModel& model) {
+  v1::FinalisedModel proto;
   for (size_t world = 0; world < model.worlds.size(); ++world) {
-    v1::ConcludedWorld* out = proto.add_worlds();
+    v1::FinalisedWorld* out = proto.add_worlds();
     codec::ToProto(model.worlds[world].model_from_world, out->mutable_model_from_world());
     codec::ToProto(Reconstruction{.images = model.worlds[world].images}, out->mutable_poses());
     ToProto(model.worlds[world].report, out->mutable_report());
-    for (const Digest& block : model.blocks[world]) out->add_blocks(codec::PackDigest(block));
+    for (const Digest& subproblem : model.subproblems[world])
+      out->add_subproblems(codec::PackDigest(subproblem));
     for (const SeamCertificate& seam : model.worlds[world].seams) ToProto(seam, out->add_seams());
   }
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "concluded model", codec::Empty::kIsLegal);
 }
 
-absl::StatusOr<ConcludedModel> DecodeConcludedModel(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ConcludedModel proto,
-                            codec::Parse<v1::ConcludedModel>(bytes, "concluded model"));
-  ConcludedModel model;
-  for (const v1::ConcludedWorld& world : proto.worlds()) {
-    ConcludedWorld& out = model.worlds.emplace_back();
+absl::StatusOr<FinalisedModel> DecodeFinalisedModel(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::FinalisedModel proto,
+      codec::Parse<v1::FinalisedModel>(bytes, "concluded model", codec::Empty::kIsLegal));
+  FinalisedModel model;
+  for (const v1::FinalisedWorld& world : proto.worlds()) {
+    FinalisedWorld& out = model.worlds.emplace_back();
     ORBWEAVE_ASSIGN_OR_RETURN(out.model_from_world, codec::FromProto(world.model_from_world()));
     ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction poses, codec::FromProto(world.poses()));
     out.images = std::move(poses.images);
     ORBWEAVE_RETURN_IF_ERROR(FromProto(world.report(), out.report));
-    std::vector<Digest>& blocks = model.blocks.emplace_back();
-    for (const std::string& bytes_of_digest : world.blocks()) {
+    std::vector<Digest>& subproblems = model.subproblems.emplace_back();
+    for (const std::string& bytes_of_digest : world.subproblems()) {
       ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(bytes_of_digest));
-      blocks.push_back(digest);
+      subproblems.push_back(digest);
     }
     for (const v1::SeamCertificate& seam : world.seams()) out.seams.push_back(FromProto(seam));
   }

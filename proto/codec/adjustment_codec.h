@@ -5,24 +5,25 @@
 #include <string>
 #include <string_view>
 
+#include "core/artifacts/adjustment_records.h"
 #include "core/base/status.h"
-#include "core/stages/adjustment_records.h"
 
 /// What passes between the rounds of the global adjustment. Decoders: DataLoss or InvalidArgument
 /// for arrays that do not match.
 
 namespace orbweave {
 
-[[nodiscard]] std::string EncodeBlockTask(const BlockTask& task);
-[[nodiscard]] absl::StatusOr<BlockTask> DecodeBlockTask(std::string_view bytes);
+[[nodiscard]] absl::StatusOr<std::string> EncodeSubproblemTask(const SubproblemTask& task);
+[[nodiscard]] absl::StatusOr<SubproblemTask> DecodeSubproblemTask(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeBlockResult(const BlockResult& result);
-[[nodiscard]] absl::StatusOr<BlockResult> DecodeBlockResult(std::string_view bytes);
+[[nodiscard]] absl::StatusOr<std::string> EncodeSubproblemResult(const SubproblemResult& result);
+[[nodiscard]] absl::StatusOr<SubproblemResult> DecodeSubproblemResult(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeAdjustmentProgress(const AdjustmentProgress& progress);
+[[nodiscard]] absl::StatusOr<std::string> EncodeAdjustmentProgress(
+    const AdjustmentProgress& progress);
 [[nodiscard]] absl::StatusOr<AdjustmentProgress> DecodeAdjustmentProgress(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeConcludedModel(const ConcludedModel& model);
-[[nodiscard]] absl::StatusOr<ConcludedModel> DecodeConcludedModel(std::string_view bytes);
+[[nodiscard]] absl::StatusOr<std::string> EncodeFinalisedModel(const FinalisedModel& model);
+[[nodiscard]] absl::StatusOr<FinalisedModel> DecodeFinalisedModel(std::string_view bytes);
 
 }  // namespace orbweave

@@ -32,12 +32,12 @@ bool IsUpperTriangle(const SymmetricBlockMatrix& S) {
 
 }  // namespace
 
-void ToProto(const std::vector<BlockBias>& biases, v1::Biases* proto) {
+void ToProto(const std::vector<SubproblemBias>& biases, v1::Biases* proto) {
   std::vector<uint32_t> groups;
   std::vector<uint8_t> is_separator;
   std::vector<double> sigmas_m;
   std::vector<Eigen::Vector3d> values_m;
-  for (const BlockBias& bias : biases) {
+  for (const SubproblemBias& bias : biases) {
     groups.push_back(bias.group);
     is_separator.push_back(bias.is_separator ? 1 : 0);
     sigmas_m.push_back(bias.sigma_m);
@@ -49,7 +49,7 @@ void ToProto(const std::vector<BlockBias>& biases, v1::Biases* proto) {
   proto->set_values_m(PackVectors(values_m));
 }
 
-absl::StatusOr<std::vector<BlockBias>> FromProto(const v1::Biases& proto) {
+absl::StatusOr<std::vector<SubproblemBias>> FromProto(const v1::Biases& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto groups, Unpack<uint32_t>(proto.groups(), "biases"));
   const size_t count = groups.size();
   ORBWEAVE_ASSIGN_OR_RETURN(const auto is_separator,
@@ -58,7 +58,7 @@ absl::StatusOr<std::vector<BlockBias>> FromProto(const v1::Biases& proto) {
                             UnpackExactly<double>(proto.sigmas_m(), count, "bias sigmas"));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto values_m,
                             UnpackExactly<Vector3Bytes>(proto.values_m(), count, "bias values"));
-  std::vector<BlockBias> biases;
+  std::vector<SubproblemBias> biases;
   for (size_t i = 0; i < count; ++i) {
     biases.push_back({.group = groups[i],
                       .is_separator = is_separator[i] != 0,
@@ -147,7 +147,7 @@ absl::StatusOr<std::vector<ShortenedPoint>> FromProto(const v1::ShortenedPoints&
   return points;
 }
 
-void ToProto(const BlockSummary& summary, v1::BlockSummary* proto) {
+void ToProto(const SubproblemSummary& summary, v1::SubproblemSummary* proto) {
   ToProto(Reconstruction{.images = summary.owned_images}, proto->mutable_owned());
   std::vector<ImageId> images;
   std::vector<uint32_t> counts;
@@ -168,10 +168,10 @@ void ToProto(const BlockSummary& summary, v1::BlockSummary* proto) {
   proto->set_pattern_band_counts(Pack(std::span<const uint32_t>(summary.pattern.band_count)));
 }
 
-absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto) {
-  BlockSummary summary{.cluster = proto.cluster(),
-                       .residual_px_sum = proto.residual_px_sum(),
-                       .residual_px2_sum = proto.residual_px2_sum()};
+absl::StatusOr<SubproblemSummary> FromProto(const v1::SubproblemSummary& proto) {
+  SubproblemSummary summary{.cluster = proto.cluster(),
+                            .residual_px_sum = proto.residual_px_sum(),
+                            .residual_px2_sum = proto.residual_px2_sum()};
   ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction owned, FromProto(proto.owned()));
   summary.owned_images = std::move(owned.images);
   ORBWEAVE_ASSIGN_OR_RETURN(const auto images, Unpack<ImageId>(proto.observed_images(), "images"));
@@ -231,30 +231,32 @@ void ToProto(const TrialCost& trial, v1::TrialCost* proto) {
   std::vector<double> before;
   std::vector<double> after;
   std::vector<uint8_t> behind;
-  for (const KeptPointTrial& point : trial.kept_points) {
+  for (const RetainedPointTrial& point : trial.retained_points) {
     before.push_back(point.cost_before);
     for (const PointCost& cost : point.after) {
       after.push_back(cost.cost);
       behind.push_back(cost.any_behind ? 1 : 0);
     }
   }
-  proto->set_kept_before(Pack(before));
-  proto->set_kept_after(Pack(after));
-  proto->set_kept_behind(Pack(behind));
+  proto->set_retained_before(Pack(before));
+  proto->set_retained_after(Pack(after));
+  proto->set_retained_behind(Pack(behind));
 }
 
 absl::StatusOr<TrialCost> FromProto(const v1::TrialCost& proto) {
   TrialCost trial{.cost = proto.cost(), .predicted_decrease = proto.predicted_decrease()};
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto before, Unpack<double>(proto.kept_before(), "kept points"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto before,
+                            Unpack<double>(proto.retained_before(), "kept points"));
   const size_t shares = kStepShares.size();
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto after,
-      UnpackExactly<double>(proto.kept_after(), shares * before.size(), "kept points' costs"));
+      UnpackExactly<double>(proto.retained_after(), shares * before.size(), "kept points' costs"));
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto behind,
-      UnpackExactly<uint8_t>(proto.kept_behind(), shares * before.size(), "kept points' flags"));
+      UnpackExactly<uint8_t>(
+          proto.retained_behind(), shares * before.size(), "kept points' flags"));
   for (size_t i = 0; i < before.size(); ++i) {
-    KeptPointTrial& point = trial.kept_points.emplace_back();
+    RetainedPointTrial& point = trial.retained_points.emplace_back();
     point.cost_before = before[i];
     for (size_t k = 0; k < shares; ++k)
       point.after[k] = {after[shares * i + k], behind[shares * i + k] != 0};

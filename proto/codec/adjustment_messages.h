@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/status.h"
-#include "core/merging/adjust_block.h"
+#include "core/partitioned_ba/subproblem_solver.h"
 #include "core/scene/cross_check.h"
 #include "orbweave/v1/adjustment.pb.h"
 
@@ -13,8 +13,8 @@
 
 namespace orbweave::codec {
 
-void ToProto(const std::vector<BlockBias>& biases, v1::Biases* proto);
-[[nodiscard]] absl::StatusOr<std::vector<BlockBias>> FromProto(const v1::Biases& proto);
+void ToProto(const std::vector<SubproblemBias>& biases, v1::Biases* proto);
+[[nodiscard]] absl::StatusOr<std::vector<SubproblemBias>> FromProto(const v1::Biases& proto);
 
 void ToProto(const std::vector<SeparatorId>& ids, v1::SeparatorIds* proto);
 [[nodiscard]] absl::StatusOr<std::vector<SeparatorId>> FromProto(const v1::SeparatorIds& proto);
@@ -27,8 +27,8 @@ void ToProto(const std::vector<ShortenedPoint>& points, v1::ShortenedPoints* pro
 [[nodiscard]] absl::StatusOr<std::vector<ShortenedPoint>> FromProto(
     const v1::ShortenedPoints& proto);
 
-void ToProto(const BlockSummary& summary, v1::BlockSummary* proto);
-[[nodiscard]] absl::StatusOr<BlockSummary> FromProto(const v1::BlockSummary& proto);
+void ToProto(const SubproblemSummary& summary, v1::SubproblemSummary* proto);
+[[nodiscard]] absl::StatusOr<SubproblemSummary> FromProto(const v1::SubproblemSummary& proto);
 
 void ToProto(const CrossCheck& check, v1::CrossCheck* proto);
 [[nodiscard]] absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto);

@@ -28,6 +28,11 @@ v1::StageStatus ToProto(const StageStatus& stage) {
   proto.set_wall_s(stage.wall_s);
   proto.set_cpu_s(stage.cpu_s);
   proto.set_fraction_running(stage.fraction_running);
+  proto.set_weight(stage.weight);
+  proto.set_usual_runs(stage.usual_runs);
+  proto.set_runs(stage.runs);
+  proto.set_busy_s(stage.busy_s);
+  proto.set_has_parts(stage.has_parts);
   return proto;
 }
 
@@ -40,7 +45,12 @@ StageStatus FromProto(const v1::StageStatus& proto) {
           .retries = proto.retries(),
           .wall_s = proto.wall_s(),
           .cpu_s = proto.cpu_s(),
-          .fraction_running = proto.fraction_running()};
+          .fraction_running = proto.fraction_running(),
+          .weight = proto.weight(),
+          .usual_runs = proto.usual_runs(),
+          .runs = proto.runs(),
+          .busy_s = proto.busy_s(),
+          .has_parts = proto.has_parts()};
 }
 
 v1::TaskCost ToProto(const TaskCost& cost) {
@@ -108,6 +118,7 @@ absl::StatusOr<std::vector<Digest>> DigestsFromProto(const DigestField& digests)
 v1::TaskSpec ToProto(const TaskSpec& spec) {
   v1::TaskSpec proto;
   proto.set_stage(spec.stage);
+  proto.set_version(spec.version);
   AddDigests(spec.inputs, proto.mutable_inputs());
   proto.set_options_text(spec.options_text);
   proto.set_part(spec.part);
@@ -115,7 +126,10 @@ v1::TaskSpec ToProto(const TaskSpec& spec) {
 }
 
 absl::StatusOr<TaskSpec> FromProto(const v1::TaskSpec& proto) {
-  TaskSpec spec{.stage = proto.stage(), .options_text = proto.options_text(), .part = proto.part()};
+  TaskSpec spec{.stage = proto.stage(),
+                .version = proto.version(),
+                .options_text = proto.options_text(),
+                .part = proto.part()};
   ORBWEAVE_ASSIGN_OR_RETURN(spec.inputs, DigestsFromProto(proto.inputs()));
   return spec;
 }
@@ -214,13 +228,14 @@ v1::JobStatus ToProto(const JobStatus& status) {
   proto.set_error(status.error);
   *proto.mutable_spec() = ToProto(status.spec);
   proto.set_elapsed_s(status.elapsed_s);
+  proto.set_unmet(status.unmet);
   for (const StageStatus& stage : status.stages) *proto.add_stages() = ToProto(stage);
   for (const WorkerStatus& worker : status.workers) *proto.add_workers() = ToProto(worker);
   return proto;
 }
 
 absl::StatusOr<JobStatus> FromProto(const v1::JobStatus& proto) {
-  JobStatus status{.error = proto.error(), .elapsed_s = proto.elapsed_s()};
+  JobStatus status{.error = proto.error(), .unmet = proto.unmet(), .elapsed_s = proto.elapsed_s()};
   ORBWEAVE_ASSIGN_OR_RETURN(status.spec, FromProto(proto.spec()));
   ORBWEAVE_ASSIGN_OR_RETURN(status.id, DigestFromProto(proto.id()));
   ORBWEAVE_ASSIGN_OR_RETURN(status.state, JobStateFromProto(proto.state()));
@@ -243,6 +258,9 @@ v1::JoinRequest ToProto(const WorkerInfo& worker) {
   proto.set_slots(worker.slots);
   for (const LeaseProgress& lease : worker.held) *proto.add_held() = ToProto(lease);
   proto.set_process(worker.process);
+  proto.mutable_offers()->set_memory_bytes(worker.offers.memory_bytes);
+  proto.mutable_offers()->set_threads(worker.offers.threads);
+  proto.mutable_offers()->set_gpus(worker.offers.gpus);
   return proto;
 }
 
@@ -250,7 +268,10 @@ absl::StatusOr<WorkerInfo> FromProto(const v1::JoinRequest& proto) {
   WorkerInfo worker{.name = proto.name(),
                     .version = proto.version(),
                     .slots = proto.slots(),
-                    .process = proto.process()};
+                    .process = proto.process(),
+                    .offers = {.memory_bytes = proto.offers().memory_bytes(),
+                               .threads = proto.offers().threads(),
+                               .gpus = proto.offers().gpus()}};
   for (const v1::LeaseProgress& lease : proto.held()) {
     ORBWEAVE_ASSIGN_OR_RETURN(worker.held.emplace_back(), FromProto(lease));
   }

@@ -8,7 +8,7 @@ namespace orbweave {
 
 static_assert(sizeof(Keypoint) == 16 && sizeof(Rgb) == 3, "packed as written");
 
-std::string EncodeFeatures(const Features& features) {
+absl::StatusOr<std::string> EncodeFeatures(const Features& features) {
   v1::Features proto;
   proto.mutable_camera()->set_width_px(features.camera.width_px);
   proto.mutable_camera()->set_height_px(features.camera.height_px);
@@ -17,7 +17,7 @@ std::string EncodeFeatures(const Features& features) {
   proto.set_descriptors(codec::Pack(features.descriptors));
   proto.set_colors(codec::Pack(features.colors));
   proto.set_problem(features.problem);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "features");
 }
 
 absl::StatusOr<Features> DecodeFeatures(std::string_view bytes) {
@@ -43,17 +43,18 @@ absl::StatusOr<Features> DecodeFeatures(std::string_view bytes) {
   return features;
 }
 
-std::string EncodePlaceSample(const PlaceSample& sample) {
+absl::StatusOr<std::string> EncodePlaceSample(const PlaceSample& sample) {
   v1::PlaceSample proto;
   proto.set_num_features(sample.num_features);
   proto.set_descriptors(codec::Pack(sample.descriptors));
   proto.set_problem(sample.problem);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "place sample", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<PlaceSample> DecodePlaceSample(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::PlaceSample proto,
-                            codec::Parse<v1::PlaceSample>(bytes, "place sample"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::PlaceSample proto,
+      codec::Parse<v1::PlaceSample>(bytes, "place sample", codec::Empty::kIsLegal));
   PlaceSample sample{.num_features = proto.num_features(), .problem = proto.problem()};
   ORBWEAVE_ASSIGN_OR_RETURN(sample.descriptors,
                             codec::Unpack<uint8_t>(proto.descriptors(), "descriptors"));

@@ -5,18 +5,18 @@
 #include <string>
 #include <string_view>
 
+#include "core/artifacts/recipes.h"
 #include "core/base/status.h"
 #include "core/scene/features.h"
-#include "core/stages/recipes.h"
 
 namespace orbweave {
 
-[[nodiscard]] std::string EncodeFeatures(const Features& features);
+[[nodiscard]] absl::StatusOr<std::string> EncodeFeatures(const Features& features);
 /// InvalidArgument or DataLoss when the bytes are not whole features: arrays of one length, a 2:1
 /// camera.
 [[nodiscard]] absl::StatusOr<Features> DecodeFeatures(std::string_view bytes);
 
-[[nodiscard]] std::string EncodePlaceSample(const PlaceSample& sample);
+[[nodiscard]] absl::StatusOr<std::string> EncodePlaceSample(const PlaceSample& sample);
 [[nodiscard]] absl::StatusOr<PlaceSample> DecodePlaceSample(std::string_view bytes);
 
 }  // namespace orbweave

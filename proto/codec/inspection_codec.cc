@@ -16,7 +16,7 @@ namespace {
 
 using CorrelationBytes = std::array<double, TrackCorrelation::kLengths>;
 
-void ToProto(const std::vector<SidePlacement>& placements, v1::BlockInspection* proto) {
+void ToProto(const std::vector<SidePlacement>& placements, v1::SubproblemInspection* proto) {
   std::vector<ImageId> images;
   std::vector<uint32_t> clusters;
   std::vector<Block6> hessians;
@@ -36,7 +36,7 @@ void ToProto(const std::vector<SidePlacement>& placements, v1::BlockInspection* 
   proto->set_placement_points(codec::Pack(points));
 }
 
-absl::StatusOr<std::vector<SidePlacement>> PlacementsOf(const v1::BlockInspection& proto) {
+absl::StatusOr<std::vector<SidePlacement>> PlacementsOf(const v1::SubproblemInspection& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
                             codec::Unpack<ImageId>(proto.placed_images(), "placed images"));
   const size_t count = images.size();
@@ -58,7 +58,7 @@ absl::StatusOr<std::vector<SidePlacement>> PlacementsOf(const v1::BlockInspectio
   return placements;
 }
 
-void ToProto(const std::vector<PatchSupport>& supports, v1::BlockInspection* proto) {
+void ToProto(const std::vector<PatchSupport>& supports, v1::SubproblemInspection* proto) {
   std::vector<ImageId> images;
   std::vector<uint32_t> patches;
   std::vector<std::array<uint32_t, 2>> counts;
@@ -81,7 +81,7 @@ void ToProto(const std::vector<PatchSupport>& supports, v1::BlockInspection* pro
   proto->set_support_squares(codec::Pack(squares));
 }
 
-absl::StatusOr<std::vector<PatchSupport>> SupportsOf(const v1::BlockInspection& proto) {
+absl::StatusOr<std::vector<PatchSupport>> SupportsOf(const v1::SubproblemInspection& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto images,
                             codec::Unpack<ImageId>(proto.support_images(), "supported images"));
   const size_t count = images.size();
@@ -118,8 +118,8 @@ absl::StatusOr<std::vector<PatchSupport>> SupportsOf(const v1::BlockInspection& 
 
 }  // namespace
 
-std::string EncodeBlockInspection(const BlockInspection& inspection) {
-  v1::BlockInspection proto;
+absl::StatusOr<std::string> EncodeSubproblemInspection(const SubproblemInspection& inspection) {
+  v1::SubproblemInspection proto;
   codec::ToProto(inspection.bearings, proto.mutable_bearings());
   proto.set_sum_of_squares(inspection.sum_of_squares);
   proto.set_redundancy(inspection.redundancy);
@@ -135,15 +135,15 @@ std::string EncodeBlockInspection(const BlockInspection& inspection) {
   for (const Eigen::Vector3d& point : inspection.points_about)
     points_about.push_back(codec::ToArray(point));
   proto.set_points_about(codec::Pack(points_about));
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "block inspection");
 }
 
-absl::StatusOr<BlockInspection> DecodeBlockInspection(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::BlockInspection proto,
-                            codec::Parse<v1::BlockInspection>(bytes, "block inspection"));
-  BlockInspection inspection{.sum_of_squares = proto.sum_of_squares(),
-                             .weighted_sum_of_squares = proto.weighted_sum_of_squares(),
-                             .redundancy = proto.redundancy()};
+absl::StatusOr<SubproblemInspection> DecodeSubproblemInspection(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::SubproblemInspection proto,
+                            codec::Parse<v1::SubproblemInspection>(bytes, "block inspection"));
+  SubproblemInspection inspection{.sum_of_squares = proto.sum_of_squares(),
+                                  .weighted_sum_of_squares = proto.weighted_sum_of_squares(),
+                                  .redundancy = proto.redundancy()};
   ORBWEAVE_ASSIGN_OR_RETURN(inspection.bearings, codec::FromProto(proto.bearings()));
   if (proto.has_held()) inspection.held = ImageId(proto.held());
   if (proto.has_farthest()) inspection.farthest = ImageId(proto.farthest());

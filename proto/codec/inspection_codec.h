@@ -6,12 +6,14 @@
 #include <string_view>
 
 #include "core/base/status.h"
-#include "core/merging/inspect_block.h"
+#include "core/merging/inspect_subproblem.h"
 
 namespace orbweave {
 
 /// Decoder: DataLoss or InvalidArgument for arrays that do not match.
-[[nodiscard]] std::string EncodeBlockInspection(const BlockInspection& inspection);
-[[nodiscard]] absl::StatusOr<BlockInspection> DecodeBlockInspection(std::string_view bytes);
+[[nodiscard]] absl::StatusOr<std::string> EncodeSubproblemInspection(
+    const SubproblemInspection& inspection);
+[[nodiscard]] absl::StatusOr<SubproblemInspection> DecodeSubproblemInspection(
+    std::string_view bytes);
 
 }  // namespace orbweave

@@ -151,14 +151,14 @@ absl::StatusOr<ImageRecord> FromProto(const v1::ImageRecord& proto) {
 
 }  // namespace
 
-std::string EncodeImageSources(const ImageSources& sources) {
+absl::StatusOr<std::string> EncodeImageSources(const ImageSources& sources) {
   v1::ImageSources proto;
   for (const SourceImage& image : sources.images) ToProto(image, proto.add_images());
   proto.set_mask_ignores_white(sources.mask_ignores_white);
   proto.set_gnss_text(sources.gnss_text);
   proto.set_gnss_name(sources.gnss_name);
   for (const std::string& warning : sources.warnings) proto.add_warnings(warning);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "image sources");
 }
 
 absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
@@ -169,6 +169,7 @@ absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
     ORBWEAVE_ASSIGN_OR_RETURN(SourceImage decoded, FromProto(image));
     sources.images.push_back(std::move(decoded));
   }
+  if (sources.images.empty()) return absl::InvalidArgumentError("image sources: no image");
   sources.mask_ignores_white = proto.mask_ignores_white();
   sources.gnss_text = proto.gnss_text();
   sources.gnss_name = proto.gnss_name();
@@ -176,18 +177,19 @@ absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
   return sources;
 }
 
-std::string EncodeClusterNames(const ClusterNames& clusters) {
+absl::StatusOr<std::string> EncodeClusterNames(const ClusterNames& clusters) {
   v1::ClusterNames proto;
   for (const auto& [image, cluster] : clusters) {
     proto.add_images(image);
     proto.add_clusters(cluster);
   }
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "cluster names", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterNames proto,
-                            codec::Parse<v1::ClusterNames>(bytes, "cluster names"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::ClusterNames proto,
+      codec::Parse<v1::ClusterNames>(bytes, "cluster names", codec::Empty::kIsLegal));
   if (proto.images_size() != proto.clusters_size())
     return absl::InvalidArgumentError("cluster names: one cluster per image");
   ClusterNames clusters;
@@ -195,7 +197,7 @@ absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes) {
   return clusters;
 }
 
-std::string EncodeImageManifest(const ImageManifest& manifest) {
+absl::StatusOr<std::string> EncodeImageManifest(const ImageManifest& manifest) {
   v1::ImageManifest proto;
   for (const ImageRecord& image : manifest.images) ToProto(image, proto.add_images());
   for (const Exclusion& exclusion : manifest.excluded) {
@@ -206,7 +208,7 @@ std::string EncodeImageManifest(const ImageManifest& manifest) {
   for (const std::string& warning : manifest.warnings) proto.add_warnings(warning);
   if (manifest.origin) ToProto(*manifest.origin, proto.mutable_origin());
   proto.set_mask_ignores_white(manifest.mask_ignores_white);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "image manifest");
 }
 
 absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes) {
@@ -221,6 +223,8 @@ absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes) {
   for (const v1::Exclusion& exclusion : proto.excluded()) {
     manifest.excluded.push_back({exclusion.name(), exclusion.reason()});
   }
+  if (manifest.images.empty() && manifest.excluded.empty())
+    return absl::InvalidArgumentError("image manifest: no image");
   manifest.warnings.assign(proto.warnings().begin(), proto.warnings().end());
   if (proto.has_origin()) manifest.origin = FromProto(proto.origin());
   manifest.mask_ignores_white = proto.mask_ignores_white();

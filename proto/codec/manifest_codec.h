@@ -13,14 +13,14 @@
 namespace orbweave {
 
 /// Paths are not written: a decoded source knows its mask by file name alone.
-[[nodiscard]] std::string EncodeImageSources(const ImageSources& sources);
+[[nodiscard]] absl::StatusOr<std::string> EncodeImageSources(const ImageSources& sources);
 [[nodiscard]] absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeClusterNames(const ClusterNames& clusters);
+[[nodiscard]] absl::StatusOr<std::string> EncodeClusterNames(const ClusterNames& clusters);
 /// InvalidArgument unless there is one cluster per image.
 [[nodiscard]] absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeImageManifest(const ImageManifest& manifest);
+[[nodiscard]] absl::StatusOr<std::string> EncodeImageManifest(const ImageManifest& manifest);
 [[nodiscard]] absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes);
 
 }  // namespace orbweave

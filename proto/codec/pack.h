@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/base/digest.h"
 #include "core/base/status.h"
 #include "core/geometry/rigid3.h"
@@ -70,15 +72,51 @@ absl::StatusOr<Rigid3> FromProto(const v1::Rigid3& proto);
 void ToProto(const Sim3& value, v1::Sim3* proto);
 absl::StatusOr<Sim3> FromProto(const v1::Sim3& proto);
 
-/// Parses `bytes` as a message, which has less than 2 GiB; DataLoss names `what`.
+/// Protobuf refuses to write or read more, and says so with no bytes at all.
+inline constexpr size_t kMaxMessageBytes = std::numeric_limits<int>::max();
+
+/// A message without any field has no bytes. For some artifacts that is a value: what a stage left
+/// in a loop before the first round (a review, a partition, the progress of an adjustment), and
+/// lists that may be empty. For all others no bytes are no artifact.
+enum class Empty { kIsRefused, kIsLegal };
+
+/// Parses `bytes` as a message. DataLoss names `what` when they are none, or nothing where nothing
+/// is refused.
 template <typename Message>
-absl::StatusOr<Message> Parse(std::string_view bytes, const char* what) {
+absl::StatusOr<Message> Parse(std::string_view bytes,
+                              const char* what,
+                              Empty empty = Empty::kIsRefused) {
   Message message;
-  if (!std::in_range<int>(bytes.size()) ||
+  if (bytes.size() > kMaxMessageBytes ||
       !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
     return absl::DataLossError(std::string(what) + ": not a valid artifact");
   }
+  if (empty == Empty::kIsRefused && message.ByteSizeLong() == 0)
+    return absl::DataLossError(std::string(what) + ": empty bytes are no artifact");
   return message;
+}
+
+/// The bytes of a message. OutOfRange when there are more than `max_bytes`; InvalidArgument when
+/// there are none where nothing is refused.
+template <typename Message>
+absl::StatusOr<std::string> Serialize(const Message& message,
+                                      const char* what,
+                                      Empty empty = Empty::kIsRefused,
+                                      size_t max_bytes = kMaxMessageBytes) {
+  const size_t size_bytes = message.ByteSizeLong();
+  if (size_bytes > max_bytes) {
+    return absl::OutOfRangeError(absl::StrCat(what,
+                                              ": ",
+                                              size_bytes,
+                                              " bytes, but an artifact has at most ",
+                                              max_bytes,
+                                              "; make clusters smaller (partition.cluster_size)"));
+  }
+  if (size_bytes == 0 && empty == Empty::kIsRefused)
+    return absl::InvalidArgumentError(std::string(what) + ": empty, which is no artifact");
+  std::string bytes(size_bytes, '\0');
+  message.SerializeWithCachedSizesToArray(reinterpret_cast<uint8_t*>(bytes.data()));
+  return bytes;
 }
 
 }  // namespace orbweave::codec

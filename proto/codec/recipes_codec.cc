@@ -67,12 +67,12 @@ absl::StatusOr<std::vector<PositionFix>> FixesFromProto(const v1::ClusterRecipe&
 
 }  // namespace
 
-std::string EncodeExtractRecipe(const ExtractRecipe& recipe) {
+absl::StatusOr<std::string> EncodeExtractRecipe(const ExtractRecipe& recipe) {
   v1::ExtractRecipe proto;
   proto.set_image(codec::PackDigest(recipe.image));
   proto.set_mask(codec::PackDigest(recipe.mask));
   proto.set_mask_ignores_white(recipe.mask_ignores_white);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "extract recipe");
 }
 
 absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes) {
@@ -80,11 +80,12 @@ absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes) {
                             codec::Parse<v1::ExtractRecipe>(bytes, "extract recipe"));
   ExtractRecipe recipe{.mask_ignores_white = proto.mask_ignores_white()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.image, codec::UnpackDigest(proto.image()));
+  if (recipe.image.IsZero()) return absl::InvalidArgumentError("extract recipe: no image");
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.mask, codec::UnpackDigest(proto.mask()));
   return recipe;
 }
 
-std::string EncodeMatchRecipe(const MatchRecipe& recipe) {
+absl::StatusOr<std::string> EncodeMatchRecipe(const MatchRecipe& recipe) {
   v1::MatchRecipe proto;
   FilesToProto(recipe.images, proto.mutable_images());
   for (const MatchRecipe::Pair& pair : recipe.pairs) {
@@ -93,7 +94,7 @@ std::string EncodeMatchRecipe(const MatchRecipe& recipe) {
     out->set_b(pair.pair.b.value);
     out->set_matches(codec::Pack(pair.matches));
   }
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "match recipe");
 }
 
 absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
@@ -113,7 +114,7 @@ absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
   return recipe;
 }
 
-std::string EncodeClusterRecipe(const ClusterRecipe& recipe) {
+absl::StatusOr<std::string> EncodeClusterRecipe(const ClusterRecipe& recipe) {
   v1::ClusterRecipe proto;
   FilesToProto(recipe.images, proto.mutable_images());
   proto.set_pairs(codec::Pack(recipe.pairs));
@@ -121,7 +122,7 @@ std::string EncodeClusterRecipe(const ClusterRecipe& recipe) {
   proto.set_cluster(recipe.cluster);
   proto.set_shared(codec::Pack(recipe.shared));
   FixesToProto(recipe.fixes, proto);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "cluster recipe");
 }
 
 absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {

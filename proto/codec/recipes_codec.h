@@ -5,19 +5,19 @@
 #include <string>
 #include <string_view>
 
+#include "core/artifacts/recipes.h"
 #include "core/base/status.h"
-#include "core/stages/recipes.h"
 
 namespace orbweave {
 
-[[nodiscard]] std::string EncodeExtractRecipe(const ExtractRecipe& recipe);
+[[nodiscard]] absl::StatusOr<std::string> EncodeExtractRecipe(const ExtractRecipe& recipe);
 [[nodiscard]] absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeMatchRecipe(const MatchRecipe& recipe);
+[[nodiscard]] absl::StatusOr<std::string> EncodeMatchRecipe(const MatchRecipe& recipe);
 /// InvalidArgument: a pair out of order or of an image the recipe does not list.
 [[nodiscard]] absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeClusterRecipe(const ClusterRecipe& recipe);
+[[nodiscard]] absl::StatusOr<std::string> EncodeClusterRecipe(const ClusterRecipe& recipe);
 [[nodiscard]] absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes);
 
 }  // namespace orbweave

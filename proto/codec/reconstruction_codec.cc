@@ -9,23 +9,24 @@ namespace orbweave {
 
 static_assert(sizeof(SubmodelExtent) == 8, "packed as written");
 
-std::string EncodeReconstruction(const Reconstruction& reconstruction) {
+absl::StatusOr<std::string> EncodeReconstruction(const Reconstruction& reconstruction) {
   v1::Reconstruction proto;
   codec::ToProto(reconstruction, &proto);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "reconstruction", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<Reconstruction> DecodeReconstruction(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Reconstruction proto,
-                            codec::Parse<v1::Reconstruction>(bytes, "reconstruction"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::Reconstruction proto,
+      codec::Parse<v1::Reconstruction>(bytes, "reconstruction", codec::Empty::kIsLegal));
   return codec::FromProto(proto);
 }
 
-std::string EncodeClusterResult(const ClusterResult& result) {
+absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
   v1::ClusterReconstruction proto;
   proto.set_cluster(result.cluster);
-  for (const Reconstruction& component : result.reconstruction.components)
-    codec::ToProto(component, proto.add_components());
+  for (const Reconstruction& submodel : result.reconstruction.submodels)
+    codec::ToProto(submodel, proto.add_submodels());
   for (const NotRegistered& image : result.reconstruction.not_registered) {
     v1::NotRegistered* out = proto.add_not_registered();
     out->set_image(image.image.value);
@@ -42,17 +43,17 @@ std::string EncodeClusterResult(const ClusterResult& result) {
   proto.set_residual_rms_px(result.reconstruction.residual_rms_px);
   proto.set_started_globally(result.reconstruction.started_globally);
   proto.set_start_remark(result.reconstruction.start_remark);
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "cluster reconstruction", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      const v1::ClusterReconstruction proto,
-      codec::Parse<v1::ClusterReconstruction>(bytes, "cluster reconstruction"));
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ClusterReconstruction proto,
+                            codec::Parse<v1::ClusterReconstruction>(
+                                bytes, "cluster reconstruction", codec::Empty::kIsLegal));
   ClusterResult result{.cluster = proto.cluster()};
-  for (const v1::Reconstruction& component : proto.components()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction decoded, codec::FromProto(component));
-    result.reconstruction.components.push_back(std::move(decoded));
+  for (const v1::Reconstruction& submodel : proto.submodels()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction decoded, codec::FromProto(submodel));
+    result.reconstruction.submodels.push_back(std::move(decoded));
   }
   for (const v1::NotRegistered& image : proto.not_registered()) {
     result.reconstruction.not_registered.push_back({ImageId(image.image()), image.reason()});
@@ -77,7 +78,7 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
   return result;
 }
 
-std::string EncodeAlignment(const Alignment& alignment) {
+absl::StatusOr<std::string> EncodeAlignment(const Alignment& alignment) {
   v1::Alignment proto;
   for (const Sim3& sim : alignment.world_from_submodel)
     codec::ToProto(sim, proto.add_world_from_submodel());
@@ -97,12 +98,13 @@ std::string EncodeAlignment(const Alignment& alignment) {
     out->set_contradicted(seam.contradicted);
   }
   proto.set_submodels(codec::Pack(alignment.submodels));
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "alignment", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Alignment proto,
-                            codec::Parse<v1::Alignment>(bytes, "alignment"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::Alignment proto,
+      codec::Parse<v1::Alignment>(bytes, "alignment", codec::Empty::kIsLegal));
   Alignment alignment;
   for (const v1::Sim3& sim : proto.world_from_submodel()) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 decoded, codec::FromProto(sim));
@@ -131,7 +133,7 @@ absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
   return alignment;
 }
 
-std::string EncodePartitionReview(const PartitionReview& review) {
+absl::StatusOr<std::string> EncodePartitionReview(const PartitionReview& review) {
   v1::PartitionReview proto;
   proto.set_rounds(review.rounds);
   for (const OverlapRequest& request : review.requests) {
@@ -141,12 +143,13 @@ std::string EncodePartitionReview(const PartitionReview& review) {
     out->set_images(request.images);
     out->set_reason(request.reason);
   }
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "partition review", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<PartitionReview> DecodePartitionReview(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::PartitionReview proto,
-                            codec::Parse<v1::PartitionReview>(bytes, "partition review"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::PartitionReview proto,
+      codec::Parse<v1::PartitionReview>(bytes, "partition review", codec::Empty::kIsLegal));
   PartitionReview review{.rounds = proto.rounds()};
   for (const v1::OverlapRequest& request : proto.requests()) {
     review.requests.push_back(

@@ -5,26 +5,27 @@
 #include <string>
 #include <string_view>
 
+#include "core/artifacts/stage_results.h"
 #include "core/base/status.h"
-#include "core/merging/align_submodels.h"
+#include "core/merging/alignment.h"
 #include "core/merging/review_seams.h"
 #include "core/scene/reconstruction.h"
-#include "core/stages/stage_results.h"
 
 namespace orbweave {
 
-[[nodiscard]] std::string EncodeReconstruction(const Reconstruction& reconstruction);
+[[nodiscard]] absl::StatusOr<std::string> EncodeReconstruction(
+    const Reconstruction& reconstruction);
 /// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a bearing
 /// that is no unit vector, an observation of an image that is not registered.
 [[nodiscard]] absl::StatusOr<Reconstruction> DecodeReconstruction(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeClusterResult(const ClusterResult& result);
+[[nodiscard]] absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result);
 [[nodiscard]] absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes);
 
-[[nodiscard]] std::string EncodeAlignment(const Alignment& alignment);
+[[nodiscard]] absl::StatusOr<std::string> EncodeAlignment(const Alignment& alignment);
 [[nodiscard]] absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes);
 
-[[nodiscard]] std::string EncodePartitionReview(const PartitionReview& review);
+[[nodiscard]] absl::StatusOr<std::string> EncodePartitionReview(const PartitionReview& review);
 [[nodiscard]] absl::StatusOr<PartitionReview> DecodePartitionReview(std::string_view bytes);
 
 }  // namespace orbweave

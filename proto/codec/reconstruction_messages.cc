@@ -196,7 +196,7 @@ void ToProto(const GnssReport& gnss, v1::GnssReport* proto) {
   proto->set_num_inliers(gnss.num_inliers);
   proto->set_residual_median_m(gnss.residual_median_m);
   proto->set_residual_rms_inliers_m(gnss.residual_rms_inliers_m);
-  proto->set_bend_m(gnss.bend_m);
+  proto->set_deformation_m(gnss.deformation_m);
   for (const std::string& name : gnss.outliers) proto->add_outliers(name);
 }
 
@@ -207,7 +207,7 @@ GnssReport FromProto(const v1::GnssReport& proto) {
           .num_inliers = proto.num_inliers(),
           .residual_median_m = proto.residual_median_m(),
           .residual_rms_inliers_m = proto.residual_rms_inliers_m(),
-          .bend_m = proto.bend_m(),
+          .deformation_m = proto.deformation_m(),
           .outliers = {proto.outliers().begin(), proto.outliers().end()}};
 }
 

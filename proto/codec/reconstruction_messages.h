@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/merging/global_options.h"
+#include "core/partitioned_ba/global_options.h"
 #include "core/scene/reconstruction.h"
 #include "orbweave/v1/artifacts.pb.h"
 #include "proto/codec/pack.h"

@@ -18,13 +18,13 @@ static_assert(sizeof(SubmodelName) == 8 && sizeof(ImageId) == 4, "packed as writ
 
 void ToProto(const SubmodelOutline& outline, v1::SubmodelOutline* proto) {
   proto->set_cluster(outline.name.cluster);
-  proto->set_component(outline.name.component);
+  proto->set_submodel(outline.name.submodel);
   proto->set_images(codec::Pack(outline.images));
   proto->set_length(outline.length);
 }
 
 absl::StatusOr<SubmodelOutline> FromProto(const v1::SubmodelOutline& proto) {
-  SubmodelOutline outline{.name = {proto.cluster(), proto.component()}, .length = proto.length()};
+  SubmodelOutline outline{.name = {proto.cluster(), proto.submodel()}, .length = proto.length()};
   ORBWEAVE_ASSIGN_OR_RETURN(outline.images, codec::Unpack<ImageId>(proto.images(), "images"));
   return outline;
 }
@@ -95,16 +95,17 @@ absl::StatusOr<FittedSeam> FromProto(const v1::FittedSeam& proto) {
 
 }  // namespace
 
-std::string EncodeSeamsOfCluster(const SeamsOfCluster& seams) {
+absl::StatusOr<std::string> EncodeSeamsOfCluster(const SeamsOfCluster& seams) {
   v1::SeamsOfCluster proto;
   for (const SubmodelOutline& outline : seams.submodels) ToProto(outline, proto.add_submodels());
   for (const FittedSeam& seam : seams.seams) ToProto(seam, proto.add_seams());
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "seams", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<SeamsOfCluster> DecodeSeamsOfCluster(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::SeamsOfCluster proto,
-                            codec::Parse<v1::SeamsOfCluster>(bytes, "seams"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::SeamsOfCluster proto,
+      codec::Parse<v1::SeamsOfCluster>(bytes, "seams", codec::Empty::kIsLegal));
   SeamsOfCluster seams;
   for (const v1::SubmodelOutline& outline : proto.submodels()) {
     ORBWEAVE_ASSIGN_OR_RETURN(seams.submodels.emplace_back(), FromProto(outline));

@@ -10,7 +10,7 @@
 
 namespace orbweave {
 
-[[nodiscard]] std::string EncodeSeamsOfCluster(const SeamsOfCluster& seams);
+[[nodiscard]] absl::StatusOr<std::string> EncodeSeamsOfCluster(const SeamsOfCluster& seams);
 /// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a
 /// similarity that is none.
 [[nodiscard]] absl::StatusOr<SeamsOfCluster> DecodeSeamsOfCluster(std::string_view bytes);

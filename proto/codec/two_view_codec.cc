@@ -39,7 +39,7 @@ absl::StatusOr<TwoViewGeometry> FromProto(const v1::TwoViewGeometry& proto) {
 
 }  // namespace
 
-std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs) {
+absl::StatusOr<std::string> EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs) {
   v1::TwoViewGeometries proto;
   for (const TwoViewGeometry& geometry : pairs) {
     v1::TwoViewGeometry* pair = proto.add_pairs();
@@ -54,12 +54,13 @@ std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs) {
     pair->set_log10_false_alarms(geometry.log10_false_alarms);
     pair->set_rung(static_cast<uint32_t>(geometry.rung));
   }
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "two-view geometries", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::TwoViewGeometries proto,
-                            codec::Parse<v1::TwoViewGeometries>(bytes, "two-view geometries"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::TwoViewGeometries proto,
+      codec::Parse<v1::TwoViewGeometries>(bytes, "two-view geometries", codec::Empty::kIsLegal));
   std::vector<TwoViewGeometry> pairs;
   pairs.reserve(static_cast<size_t>(proto.pairs_size()));
   for (const v1::TwoViewGeometry& pair : proto.pairs()) {
@@ -69,7 +70,7 @@ absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(std::string
   return pairs;
 }
 
-std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
+absl::StatusOr<std::string> EncodeDividedViewGraph(const DividedViewGraph& divided) {
   v1::Partition proto;
   for (const Cluster& cluster : divided.partition.clusters) {
     v1::Cluster* out = proto.add_clusters();
@@ -93,12 +94,13 @@ std::string EncodeDividedViewGraph(const DividedViewGraph& divided) {
   proto.set_edges(codec::Pack(divided.edges));
   proto.set_edge_kinds(codec::Pack(divided.edge_kinds));
   proto.set_edge_rungs(codec::Pack(divided.edge_rungs));
-  return proto.SerializeAsString();
+  return codec::Serialize(proto, "partition", codec::Empty::kIsLegal);
 }
 
 absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::Partition proto,
-                            codec::Parse<v1::Partition>(bytes, "partition"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const v1::Partition proto,
+      codec::Parse<v1::Partition>(bytes, "partition", codec::Empty::kIsLegal));
   DividedViewGraph divided;
   for (const v1::Cluster& in : proto.clusters()) {
     Cluster cluster;

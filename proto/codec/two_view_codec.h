@@ -6,18 +6,19 @@
 #include <string_view>
 #include <vector>
 
+#include "core/artifacts/stage_results.h"
 #include "core/base/status.h"
 #include "core/scene/two_view_geometry.h"
-#include "core/stages/stage_results.h"
 
 namespace orbweave {
 
-[[nodiscard]] std::string EncodeTwoViewGeometries(const std::vector<TwoViewGeometry>& pairs);
+[[nodiscard]] absl::StatusOr<std::string> EncodeTwoViewGeometries(
+    const std::vector<TwoViewGeometry>& pairs);
 /// InvalidArgument or DataLoss: not a list of ordered pairs with proper poses.
 [[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(
     std::string_view bytes);
 
-[[nodiscard]] std::string EncodeDividedViewGraph(const DividedViewGraph& divided);
+[[nodiscard]] absl::StatusOr<std::string> EncodeDividedViewGraph(const DividedViewGraph& divided);
 [[nodiscard]] absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes);
 
 }  // namespace orbweave

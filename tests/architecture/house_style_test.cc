@@ -15,15 +15,16 @@ namespace orbweave::architecture {
 namespace {
 
 const std::vector<std::string> kProductRoots = {
-    "core", "proto", "security", "coordinator", "worker", "cli"};
+    "core", "proto", "security", "stages", "coordinator", "worker", "cli"};
 
 const std::vector<std::string> kSourceRoots = {
-    "core", "proto", "security", "coordinator", "worker", "cli", "tests", "bench"};
+    "core", "proto", "security", "stages", "coordinator", "worker", "cli", "tests", "bench"};
 
 // All that is under version control, apart from hidden folders.
 const std::vector<std::string> kAllRoots = {"core",
                                             "proto",
                                             "security",
+                                            "stages",
                                             "coordinator",
                                             "worker",
                                             "cli",

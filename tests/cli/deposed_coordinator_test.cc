@@ -75,7 +75,7 @@ TEST(DeposedCoordinator, EndsAndSaysWhy) {
 }
 
 void AddCommands(CLI::App& app, SelectedCommand& selected) {
-  AddServeCommand(app, selected);
+  AddServeCommand(app, selected, FindNoPlan);
 }
 
 }  // namespace

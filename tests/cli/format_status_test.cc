@@ -34,9 +34,18 @@ TEST(FormatJobStatus, ShowsWhatWentWrongAndWhoIsThere) {
 TEST(FormatJobStatus, SaysHowLongARunningJobMayTake) {
   JobStatus job = Example();
   job.state = JobState::kRunning;
-  job.stages = {{.stage = "align", .tasks_total = 2, .tasks_done = 1}};
+  job.stages = {{.stage = "align", .tasks_total = 2, .tasks_done = 1, .busy_s = 61.0}};
   EXPECT_THAT(FormatJobLine(job), ::testing::HasSubstr(" 50 %  1 min 01 s  about 1 min 01 s left"));
   EXPECT_EQ(nlohmann::json::parse(JobStatusToJson(job))["eta_s"], 61.0);
+}
+
+TEST(FormatJobStatus, SaysWhatNoWorkerHas) {
+  JobStatus job = Example();
+  EXPECT_THAT(FormatJobStatus(job), ::testing::Not(::testing::HasSubstr("waits")));
+  job.state = JobState::kRunning;
+  job.unmet = "a task of stage align asks for 1 GPU (no worker has any)";
+  EXPECT_THAT(FormatJobStatus(job), ::testing::HasSubstr("  waits: " + job.unmet + "\n"));
+  EXPECT_EQ(nlohmann::json::parse(JobStatusToJson(job))["unmet"], job.unmet);
 }
 
 TEST(FormatWorkers, SaysWhoIsThereAndWhoGetsNoMore) {

@@ -140,7 +140,7 @@ class Leaver : public ::testing::Test {
     ASSERT_TRUE(testing::WaitUntil(holds_a_square, 60.0)) << worker_->ErrSoFar();
   }
 
-  CoordinatorApi& Api() { return fleet_->coordinator(); }
+  ClientApi& Api() { return fleet_->coordinator(); }
   StageStatus Squares() { return Api().GetJob(job_)->stages[1]; }
 
   void ExpectThatItFinishedAndLeft() {

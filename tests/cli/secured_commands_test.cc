@@ -225,7 +225,7 @@ void AddCommands(CLI::App& app, SelectedCommand& selected) {
   static const testing::StageMap stages = testing::ToyStages();
   static const StageLookup lookup = testing::LookupIn(stages);
   AddKeysCommand(app, selected);
-  AddServeCommand(app, selected);
+  AddServeCommand(app, selected, FindNoPlan);
   AddWorkCommand(app, selected);
   AddExecTasksCommand(app, selected, lookup);
   AddStatusCommand(app, selected);

@@ -230,11 +230,17 @@ TEST(StatusCommand, SaysSoWhenNobodyAnswersForLongEnough) {
   EXPECT_THAT(outcome.err, HasSubstr("waiting up to 2.5 s\norbweave: no coordinator answers at"));
 }
 
+/// One task, for which there is no worker.
+absl::StatusOr<JobPlan> FindWaitingPlan(std::string_view kind) {
+  const InputRule input{InputRule::Kind::kJobInput, "", 0};
+  return JobPlan{std::string(kind), {{.stage = "wait", .version = "1", .inputs = {input}}}};
+}
+
 /// What `orbweave` would do with these arguments.
 void AddCommands(CLI::App& app, SelectedCommand& selected) {
   static const testing::StageMap stages = testing::ToyStages();
   static const StageLookup lookup = testing::LookupIn(stages);
-  AddServeCommand(app, selected);
+  AddServeCommand(app, selected, FindWaitingPlan);
   AddWorkCommand(app, selected);
   AddExecTasksCommand(app, selected, lookup);
   AddStatusCommand(app, selected);

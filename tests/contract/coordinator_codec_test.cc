@@ -12,6 +12,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   const JobStatus status{.id = DigestOf("job"),
                          .state = JobState::kFailed,
                          .error = "why",
+                         .unmet = "1 GPU",
                          .spec = {.kind = "sparse",
                                   .inputs = {DigestOf("a")},
                                   .options_text = "x.y=1\n",
@@ -24,6 +25,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   EXPECT_EQ(back->id, status.id);
   EXPECT_EQ(back->state, status.state);
   EXPECT_EQ(back->error, status.error);
+  EXPECT_EQ(back->unmet, status.unmet);
   EXPECT_EQ(back->spec.Id(), status.spec.Id());
   EXPECT_EQ(back->spec.label, "street");
   EXPECT_EQ(back->elapsed_s, 1.5);
@@ -69,9 +71,17 @@ TEST(CoordinatorCodec, CostsAndTimingsSurviveTheRoundTrip) {
   EXPECT_FALSE(timing.ok);
 }
 
+TEST(CoordinatorCodec, WhatAWorkerOffersSurvivesTheRoundTrip) {
+  const WorkerOffers offers{.memory_bytes = 1ULL << 36, .threads = 12, .gpus = 2};
+  EXPECT_EQ(FromProto(ToProto(WorkerInfo{.name = "w", .offers = offers}))->offers, offers);
+  v1::JoinRequest older;  // knows nothing of offers
+  older.set_name("w");
+  EXPECT_EQ(FromProto(older)->offers, WorkerOffers{});
+}
+
 TEST(CoordinatorCodec, LeaseSurvivesTheRoundTrip) {
   const Lease lease{
-      DigestOf("t"), 1ULL << 33, {"stage", {DigestOf("a"), DigestOf("b")}, "o.p=1\n", 4}, 3};
+      DigestOf("t"), 1ULL << 33, {"stage", "5", {DigestOf("a"), DigestOf("b")}, "o.p=1\n", 4}, 3};
   const auto back = FromProto(ToProto(lease));
   ASSERT_TRUE(back.ok());
   EXPECT_EQ(back->task, lease.task);
@@ -82,7 +92,7 @@ TEST(CoordinatorCodec, LeaseSurvivesTheRoundTrip) {
 }
 
 TEST(CoordinatorCodec, RefusesADigestOfAnotherLength) {
-  v1::Lease lease = ToProto(Lease{DigestOf("t"), 1, {"stage", {DigestOf("a")}, "", 0}, 0});
+  v1::Lease lease = ToProto(Lease{DigestOf("t"), 1, {"stage", "5", {DigestOf("a")}, "", 0}, 0});
   lease.mutable_spec()->set_inputs(0, "short");
   EXPECT_TRUE(absl::IsInvalidArgument(FromProto(lease).status()));
   EXPECT_TRUE(absl::IsInvalidArgument(DigestFromProto("").status()));

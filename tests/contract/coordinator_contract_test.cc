@@ -7,8 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <future>
+#include <limits>
 #include <memory>
+#include <stop_token>
+#include <thread>
 
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
@@ -18,6 +23,7 @@
 #include "tests/support/wait_for_end.h"
 #include "worker/grpc_coordinator_client.h"
 #include "worker/peak_memory.h"
+#include "worker/task_runner.h"
 
 namespace orbweave {
 namespace {
@@ -48,8 +54,8 @@ class CoordinatorContract : public ::testing::TestWithParam<Way> {
     auto server = GrpcServer::Start(*coordinator_, address, {.roots = roots});
     ASSERT_TRUE(server.ok()) << server.status();
     server_ = *std::move(server);
-    client_ = std::make_unique<GrpcCoordinatorClient>(
-        server_->address(), std::stop_token(), ClientOptions{.roots = roots});
+    client_ =
+        std::make_unique<GrpcCoordinatorClient>(server_->address(), ClientOptions{.roots = roots});
   }
 
   void TearDown() override {
@@ -294,6 +300,27 @@ TEST_P(CoordinatorContract, WaitsForWorkNoLongerThanAsked) {
   ASSERT_TRUE(lease.ok());
   EXPECT_FALSE(lease->has_value());
   EXPECT_GE(clock_.NowSeconds() - start_s, 0.19);
+}
+
+TEST_P(CoordinatorContract, AWaitIsANumberOfSeconds) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  using Limits = std::numeric_limits<double>;
+  for (const double wait_s : {Limits::quiet_NaN(), Limits::infinity(), -1.0})
+    EXPECT_TRUE(absl::IsInvalidArgument(Api().LeaseTask(session, 0, wait_s).status())) << wait_s;
+}
+
+TEST_P(CoordinatorContract, WhoHasLeftIsGivenNothing) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  std::stop_source left;
+  auto waiting = std::async(std::launch::async, [&] {
+    return Api().LeaseTask(session, 0, 30.0, left.get_token()).status();
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  left.request_stop();
+  EXPECT_TRUE(absl::IsCancelled(waiting.get()));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // until the other end knows
+  Submit("1");
+  EXPECT_EQ(MustLease(session).epoch & 0xffffffffU, 1U) << "the first lease of all";
 }
 
 TEST_P(CoordinatorContract, CompletingTwiceIsHarmless) {

@@ -31,9 +31,11 @@ using testing::WaitForEnd;
 /// Toy jobs, and "listed" ones: a part for each recipe in a list that the job brings.
 absl::StatusOr<JobPlan> FindPlan(std::string_view kind) {
   if (kind != "listed") return FindToyPlan(kind);
-  return JobPlan{
-      "listed",
-      {{.stage = "square", .parts_listed_in = 0, .inputs = {{InputRule::Kind::kRecipe, "", 0}}}}};
+  return JobPlan{"listed",
+                 {{.stage = "square",
+                   .version = "1",
+                   .parts_listed_in = 0,
+                   .inputs = {{InputRule::Kind::kRecipe, "", 0}}}}};
 }
 
 std::string BytesOf(const Digest& digest) { return {digest.bytes.begin(), digest.bytes.end()}; }

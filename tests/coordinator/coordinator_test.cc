@@ -7,10 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <limits>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/pipeline/build_version.h"
@@ -86,9 +91,12 @@ class CoordinatorTest : public ::testing::Test {
   int DoAll(uint64_t session) {
     int count = 0;
     while (IsAnyJobRunning()) {
-      const auto lease = coordinator_->LeaseTask(session, 0, 0.01);
+      const auto lease = coordinator_->LeaseTask(session, 0, 0.0);
       ORBWEAVE_CHECK(lease.ok());
-      if (!lease->has_value()) continue;
+      if (!lease->has_value()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        continue;
+      }
       ORBWEAVE_CHECK(Do(session, **lease).ok());
       ++count;
     }
@@ -120,7 +128,7 @@ TEST_F(CoordinatorTest, ReassignsTaskWhenLeaseExpiresAndRefusesTheLateResult) {
   Submit("1");
   const Lease first = MustLease(slow);
   clock_.Advance(19.0);
-  EXPECT_FALSE(coordinator_->LeaseTask(quick, 0, 0.2)->has_value());
+  EXPECT_FALSE(coordinator_->LeaseTask(quick, 0, 0.0)->has_value());
   clock_.Advance(2.0);
   (void)coordinator_->ListJobs();  // the lease is found to have ended
   clock_.Advance(2.0);             // the wait before the second attempt
@@ -179,7 +187,7 @@ TEST_F(CoordinatorTest, TheFirstResultOfAStragglerWinsAndTheOtherAttemptIsCalled
   const Lease late = MustLease(slow);
   ASSERT_TRUE(Do(quick, MustLease(quick)).ok());
   ASSERT_TRUE(Do(quick, MustLease(quick)).ok());
-  EXPECT_FALSE(coordinator_->LeaseTask(quick, 0, 0.2)->has_value());
+  EXPECT_FALSE(coordinator_->LeaseTask(quick, 0, 0.0)->has_value());
   for (int beat = 0; beat < 5; ++beat) {
     clock_.Advance(15.0);
     EXPECT_TRUE(coordinator_->Heartbeat(slow, {{late.task, late.epoch, {}}})->cancelled.empty());
@@ -203,7 +211,7 @@ TEST_F(CoordinatorTest, AWorkerThatFailsWhatOthersDoIsSetAside) {
     clock_.Advance(5.0);
     ASSERT_TRUE(Do(good, MustLease(good)).ok());
   }
-  EXPECT_FALSE(coordinator_->LeaseTask(bad, 0, 0.2)->has_value());
+  EXPECT_FALSE(coordinator_->LeaseTask(bad, 0, 0.0)->has_value());
   const auto status = coordinator_->GetJob(job);
   ASSERT_EQ(status->workers.size(), 2U);
   EXPECT_TRUE(status->workers[0].set_aside);
@@ -331,13 +339,13 @@ TEST_F(CoordinatorTest, ASlotHoldsAQuickTaskAheadAndNoMore) {
   const uint64_t session = Join("w");
   Submit("1 2 3 4 5");
   const Lease split = MustLease(session);
-  EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.2)->has_value());
+  EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.0)->has_value());
   ASSERT_TRUE(Do(session, split).ok());
   ASSERT_TRUE(Do(session, MustLease(session)).ok());
   const Lease first = MustLease(session);
   const Lease ahead = MustLease(session);
   EXPECT_NE(first.task, ahead.task);
-  EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.2)->has_value());
+  EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.0)->has_value());
   EXPECT_TRUE(coordinator_->LeaseTask(session, 1, kWait_s)->has_value()) << "another slot may";
   ASSERT_TRUE(Do(session, ahead).ok()) << "in whatever order they end";
   EXPECT_TRUE(Do(session, MustLease(session)).ok());
@@ -365,6 +373,87 @@ TEST_F(CoordinatorTest, ShutdownWakesWaitingCallsAndTellsWorkersToLeave) {
   std::jthread end([this] { coordinator_->BeginShutdown(); });
   EXPECT_TRUE(absl::IsUnavailable(coordinator_->LeaseTask(session, 0, 60.0).status()));
   EXPECT_TRUE(coordinator_->Heartbeat(session, {})->shutdown);
+}
+
+TEST_F(CoordinatorTest, ACallThatWaitsDoesNotKeepASilentWorkerAlive) {
+  const uint64_t silent = Join("silent");
+  auto waiting = std::async(std::launch::async,
+                            [&] { return coordinator_->LeaseTask(silent, 0, 60.0).status(); });
+  // Twice, as the call may have come after the first; it still waits then.
+  for (int i = 0; i < 2; ++i) {
+    clock_.Advance(20.5);
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  }
+  EXPECT_FALSE(coordinator_->ListWorkers()[0].alive);
+  EXPECT_NE(waiting.wait_for(std::chrono::seconds(0)), std::future_status::ready);
+  coordinator_->BeginShutdown();
+  waiting.wait();
+}
+
+TEST_F(CoordinatorTest, AWaitEndsByTheCoordinatorsClockAndAfterAMinuteAtLast) {
+  const uint64_t session = Join("w");
+  for (const double wait_s : {30.0, 1e9}) {
+    auto waiting =
+        std::async(std::launch::async, [&] { return coordinator_->LeaseTask(session, 0, wait_s); });
+    EXPECT_TRUE(WaitUntil(
+        [&] {
+          clock_.Advance(wait_s == 30.0 ? 31.0 : 61.0);
+          return waiting.wait_for(std::chrono::milliseconds(300)) == std::future_status::ready;
+        },
+        10.0))
+        << wait_s;
+    if (waiting.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+      coordinator_->BeginShutdown();
+    const auto lease = waiting.get();
+    EXPECT_TRUE(lease.ok() && !lease->has_value()) << lease.status();
+  }
+}
+
+TEST_F(CoordinatorTest, AWaitIsANumberOfSeconds) {
+  const uint64_t session = Join("w");
+  using Limits = std::numeric_limits<double>;
+  for (const double wait_s : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), -1.0}) {
+    const auto lease = coordinator_->LeaseTask(session, 0, wait_s);
+    EXPECT_TRUE(absl::IsInvalidArgument(lease.status())) << wait_s;
+  }
+}
+
+TEST_F(CoordinatorTest, WhoHasLeftIsGivenNothing) {
+  const uint64_t session = Join("w");
+  std::stop_source left;
+  auto waiting = std::async(std::launch::async, [&] {
+    return coordinator_->LeaseTask(session, 0, 60.0, left.get_token()).status();
+  });
+  left.request_stop();
+  EXPECT_TRUE(absl::IsCancelled(waiting.get()));
+  Submit("1");
+  EXPECT_EQ(MustLease(session).epoch & 0xffffffffU, 1U) << "the first lease of all";
+}
+
+TEST_F(CoordinatorTest, ManySlotsThatWaitShareWhatBecomesReady) {
+  constexpr int kWorkers = 20;
+  std::vector<std::future<std::optional<Lease>>> waiting;
+  std::vector<uint64_t> sessions;
+  for (int i = 0; i < kWorkers; ++i) sessions.push_back(Join("w" + std::to_string(i)));
+  const uint64_t first = Join("first");
+  const Digest job = Submit("1 2 3 4 5 6 7 8 9 10");
+  const Lease split = MustLease(first);
+  for (const uint64_t session : sessions) {
+    waiting.push_back(std::async(
+        std::launch::async, [&, session] { return *coordinator_->LeaseTask(session, 0, 15.0); }));
+  }
+  ASSERT_TRUE(Do(first, split).ok());
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator_->GetJob(job)->stages[1].tasks_running == 10; }, 20.0));
+  clock_.Advance(16.0);
+  std::vector<Digest> tasks;
+  for (auto& each : waiting) {
+    if (const std::optional<Lease> lease = each.get()) tasks.push_back(lease->task);
+  }
+  std::ranges::sort(tasks);
+  EXPECT_EQ(tasks.size(), 10U) << "the others got none";
+  tasks.erase(std::ranges::unique(tasks).begin(), tasks.end());
+  EXPECT_EQ(tasks.size(), 10U) << "each was given to one";
 }
 
 }  // namespace

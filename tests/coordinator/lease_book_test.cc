@@ -5,8 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "core/base/random.h"
 
 namespace orbweave {
 namespace {
@@ -50,6 +55,38 @@ TEST(LeaseBook, ExpiresWhatWasNotRenewed) {
   ASSERT_EQ(expired.size(), 1U);
   EXPECT_EQ(expired[0].epoch, 1U);
   EXPECT_EQ(book.TakeExpired(100.0).size(), 1U);
+}
+
+TEST(LeaseBook, KnowsEndsAndSlotsAsALookAtAllLeasesWould) {
+  Random random(5);
+  LeaseBook book;
+  std::map<uint64_t, LeaseEntry> all;
+  double now_s = 0.0;
+  for (uint64_t epoch = 1; epoch < 2000; ++epoch) {
+    LeaseEntry entry = Entry(epoch, 1, now_s + random.Uniform(0.0, 20.0));
+    entry.slot = random.Index(7);
+    all.emplace(epoch, entry);
+    book.Grant(entry);
+    const auto other = std::next(
+        all.begin(), static_cast<ptrdiff_t>(random.Index(static_cast<uint32_t>(all.size()))));
+    if (epoch % 3 == 0) {
+      other->second.until_s = now_s + random.Uniform(0.0, 20.0);
+      EXPECT_NE(book.Renew(other->first, kTask, 1, other->second.until_s), nullptr);
+    } else if (epoch % 3 == 1) {
+      EXPECT_TRUE(book.Take(other->first, kTask, 1).ok());
+      all.erase(other);
+    }
+    now_s += random.Uniform(0.0, 0.5);
+    const size_t expired =
+        std::erase_if(all, [now_s](const auto& item) { return item.second.until_s < now_s; });
+    ASSERT_EQ(book.TakeExpired(now_s).size(), expired) << epoch;
+    for (uint32_t slot = 0; slot < 7; ++slot) {
+      const auto is_there = [slot](const auto& item) { return item.second.slot == slot; };
+      ASSERT_EQ(static_cast<ptrdiff_t>(book.CountAt({"w", slot})),
+                std::ranges::count_if(all, is_there))
+          << epoch;
+    }
+  }
 }
 
 TEST(LeaseBook, StrikesOutAllLeasesOfATask) {

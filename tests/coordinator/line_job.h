@@ -13,7 +13,7 @@ namespace orbweave::testing {
 /// One stage after the other, without inputs.
 inline JobPlan LinePlan(const std::vector<std::string>& stages) {
   JobPlan plan{.kind = "line"};
-  for (const std::string& stage : stages) plan.stages.push_back({.stage = stage});
+  for (const std::string& stage : stages) plan.stages.push_back({.stage = stage, .version = "1"});
   return plan;
 }
 

@@ -36,11 +36,14 @@ double ValueOf(const std::vector<prometheus::MetricFamily>& families,
 }
 
 TEST(SnapshotMetrics, DividesTheTasksOfRunningJobsByState) {
-  const JobStatus running{
-      .id = DigestOf("a"),
-      .elapsed_s = 10.0,
-      .stages = {
-          {.stage = "s", .tasks_total = 8, .tasks_done = 4, .tasks_running = 1, .retries = 2}}};
+  const JobStatus running{.id = DigestOf("a"),
+                          .elapsed_s = 10.0,
+                          .stages = {{.stage = "s",
+                                      .tasks_total = 8,
+                                      .tasks_done = 4,
+                                      .tasks_running = 1,
+                                      .retries = 2,
+                                      .busy_s = 10.0}}};
   JobStatus failed = running;
   failed.id = DigestOf("b");
   failed.state = JobState::kFailed;

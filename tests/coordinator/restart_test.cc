@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
 
 #include "coordinator/coordinator.h"
 #include "core/pipeline/build_version.h"
@@ -39,6 +42,8 @@ class FailingJournal final : public Journal {
     Digest held_lookup{};  ///< who asks for this task is answered late, with what was known before
     std::atomic<bool> is_holding{false};
     std::atomic<bool> may_answer{false};
+    std::atomic<bool> starts_are_slow{false};  ///< until that ends
+    std::atomic<bool> is_starting{false};
   };
 
   FailingJournal(std::unique_ptr<Journal> journal, Switch& fails)
@@ -57,6 +62,8 @@ class FailingJournal final : public Journal {
   }
   absl::Status SaveStart(const Attempt& attempt) override {
     if (fails_.starts_fail) return absl::ResourceExhaustedError("disk full");
+    fails_.is_starting = true;
+    WaitUntil([this] { return !fails_.starts_are_slow; }, 20.0);
     return journal_->SaveStart(attempt);
   }
   absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
@@ -140,7 +147,8 @@ class RestartTest : public ::testing::Test {
   }
 
   bool GetsNothing(uint64_t session) {
-    const auto lease = coordinator_->LeaseTask(session, 0, 0.3);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto lease = coordinator_->LeaseTask(session, 0, 0.0);
     return lease.ok() && !lease->has_value();
   }
 
@@ -305,6 +313,39 @@ TEST_F(RestartTest, ALeaseThatCannotBeWrittenDownIsNotHandedOut) {
   EXPECT_TRUE(absl::IsResourceExhausted(coordinator_->LeaseTask(session, 0, 5.0).status()));
   fails_.starts_fail = false;
   EXPECT_EQ(MustLease(session).spec.stage, "split");
+}
+
+TEST_F(RestartTest, ASlowDiskIsNotTheWorkersFault) {
+  const Digest job = Submit("3");
+  const uint64_t session = Join("w");
+  fails_.starts_are_slow = true;
+  auto asked = std::async(std::launch::async, [&] { return MustLease(session); });
+  ASSERT_TRUE(WaitUntil([&] { return fails_.is_starting.load(); }, 20.0));
+  clock_.Advance(25.0);
+  (void)coordinator_->ListJobs();  // leases that ended are found
+  fails_.starts_are_slow = false;
+  const Lease lease = asked.get();
+  EXPECT_THAT(coordinator_->Heartbeat(session, {Held(lease)})->cancelled, ElementsAre());
+  EXPECT_TRUE(Do(session, lease).ok());
+  EXPECT_EQ(coordinator_->GetJob(job)->stages[0].retries, 0U);
+}
+
+TEST_F(RestartTest, AnAttemptThatEndsBeforeItsStartIsWrittenDownDoesNotStayOpen) {
+  const Digest job = Submit("3");
+  const uint64_t session = Join("w");
+  fails_.starts_are_slow = true;
+  auto asked =
+      std::async(std::launch::async, [&] { return coordinator_->LeaseTask(session, 0, 5.0); });
+  ASSERT_TRUE(WaitUntil([&] { return fails_.is_starting.load(); }, 20.0));
+  ASSERT_TRUE(coordinator_->CancelJob(job).ok());
+  ASSERT_TRUE(IsStagePlanned(Submit("4"), 0));  // by the thread that saves what ended before
+  fails_.starts_are_slow = false;
+  const auto lease = asked.get();
+  ASSERT_TRUE(lease.ok()) << lease.status();
+  EXPECT_FALSE(lease->has_value()) << "nobody is to do it";
+  coordinator_.reset();
+  const auto journal = *OpenJournal(folder_.Path());
+  EXPECT_THAT(*journal->LoadOpenAttempts(), ::testing::IsEmpty());
 }
 
 TEST_F(RestartTest, AResultThatCannotBeSavedIsHandedInAgain) {

@@ -20,9 +20,12 @@ void AddFeatures(Seeds& seeds) {
                           .sigma_rad = {1e-3F, 2e-3F},
                           .descriptors = std::vector<uint8_t>(2 * kDescriptorSize, 7),
                           .colors = {{1, 2, 3}, {4, 5, 6}}};
-  seeds["features"] = {EncodeFeatures(features), EncodeFeatures({.problem = "truncated"})};
-  seeds["place_sample"] = {EncodePlaceSample(
-      {.num_features = 9, .descriptors = std::vector<uint8_t>(kDescriptorSize, 4)})};
+  seeds["features"] = {EncodeFeatures(features).value(),
+                       EncodeFeatures({.problem = "truncated"}).value()};
+  seeds["place_sample"] = {
+      EncodePlaceSample(
+          {.num_features = 9, .descriptors = std::vector<uint8_t>(kDescriptorSize, 4)})
+          .value()};
 }
 
 void AddManifest(Seeds& seeds) {
@@ -33,64 +36,72 @@ void AddManifest(Seeds& seeds) {
   image.mask = DigestOf("m");
   image.position_in_local = Eigen::Vector3d(1, 2, 3);
   image.position_sigma_m = Eigen::Vector2d(0.5, 1.0);
-  seeds["image_sources"] = {EncodeImageSources(
-      {.images = {image}, .gnss_text = "name,x,y,z", .gnss_name = "g.csv", .warnings = {"w"}})};
-  seeds["cluster_names"] = {EncodeClusterNames({{"a.jpg", "north"}, {"b.jpg", "south"}})};
+  seeds["image_sources"] = {
+      EncodeImageSources(
+          {.images = {image}, .gnss_text = "name,x,y,z", .gnss_name = "g.csv", .warnings = {"w"}})
+          .value()};
+  seeds["cluster_names"] = {EncodeClusterNames({{"a.jpg", "north"}, {"b.jpg", "south"}}).value()};
   ImageManifest manifest{.excluded = {{"c.jpg", "not 2:1"}}, .warnings = {"row 3"}};
   manifest.origin = GeodeticPosition{47.5, 8.5, 400.0};
   ImageRecord& record = manifest.images.emplace_back();
   record = {.name = "a/b.jpg", .content = DigestOf("a"), .camera = {100, 50}, .drive = 2};
   record.prior.position_in_enu = Eigen::Vector3d(1, 2, 3);
   record.prior.heading_deg = 0.0;
-  seeds["image_manifest"] = {EncodeImageManifest(manifest)};
+  seeds["image_manifest"] = {EncodeImageManifest(manifest).value()};
 }
 
 void AddViewGraph(Seeds& seeds) {
   TwoViewGeometry pair{.pair = {ImageId(2), ImageId(9)}, .kind = TwoViewKind::kPlanar};
   pair.b_from_a.translation = Eigen::Vector3d(0.6, 0.0, 0.8);
   pair.inliers = {{1, 5}, {2, 4}};
-  seeds["two_view_geometries"] = {EncodeTwoViewGeometries({pair, pair})};
+  seeds["two_view_geometries"] = {EncodeTwoViewGeometries({pair, pair}).value()};
   DividedViewGraph divided{.dropped = {{{ImageId(0), ImageId(7)}, "loop"}},
                            .edges = {{ImageId(0), ImageId(1)}},
                            .edge_kinds = {1},
                            .edge_rungs = {1}};
   divided.partition.clusters = {{.images = {ImageId(0), ImageId(1)}, .interior = {ImageId(0)}}};
   divided.partition.seams = {{.cluster_a = 0, .cluster_b = 1, .shared = {ImageId(1)}}};
-  seeds["divided_view_graph"] = {EncodeDividedViewGraph(divided)};
+  seeds["divided_view_graph"] = {EncodeDividedViewGraph(divided).value()};
 }
 
 void AddRecipes(Seeds& seeds) {
   const Digest digest = DigestOf("blob");
   const std::vector<FeatureFile> images = {{ImageId(1), digest}, {ImageId(4), digest}};
-  seeds["extract_recipe"] = {EncodeExtractRecipe({.image = digest, .mask = digest})};
+  seeds["extract_recipe"] = {EncodeExtractRecipe({.image = digest, .mask = digest}).value()};
   seeds["match_recipe"] = {
-      EncodeMatchRecipe({.images = images, .pairs = {{{ImageId(1), ImageId(4)}, {{3, 4}}}}})};
+      EncodeMatchRecipe({.images = images, .pairs = {{{ImageId(1), ImageId(4)}, {{3, 4}}}}})
+          .value()};
   seeds["cluster_recipe"] = {EncodeClusterRecipe({.cluster = 3,
                                                   .images = images,
                                                   .pairs = {{ImageId(1), ImageId(4)}},
                                                   .shared = {ImageId(4)},
-                                                  .matches = {digest}})};
+                                                  .matches = {digest}})
+                                 .value()};
   seeds["collection"] = {EncodeCollection({digest, DigestOf("other")})};
 }
 
 void AddModels(Seeds& seeds) {
-  seeds["reconstruction"] = {EncodeReconstruction(TwoViewsOfAPoint())};
-  seeds["cluster_result"] = {EncodeClusterResult(
-      {.cluster = 4,
-       .reconstruction = {.components = {TwoViewsOfAPoint()},
-                          .not_registered = {{ImageId(77), "no verified matches"}},
-                          .contradicted_pairs = {{ImageId(3), ImageId(8)}},
-                          .start_remark = "remark"}})};
+  seeds["reconstruction"] = {EncodeReconstruction(TwoViewsOfAPoint()).value()};
+  seeds["cluster_result"] = {
+      EncodeClusterResult(
+          {.cluster = 4,
+           .reconstruction = {.submodels = {TwoViewsOfAPoint()},
+                              .not_registered = {{ImageId(77), "no verified matches"}},
+                              .contradicted_pairs = {{ImageId(3), ImageId(8)}},
+                              .start_remark = "remark"}})
+          .value()};
   Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
                       .world = {0},
                       .submodels = {{.cluster = 4, .num_images = 7}}};
   alignment.seams.push_back({.submodel_a = 0, .submodel_b = 1, .reason = "loop"});
-  seeds["alignment"] = {EncodeAlignment(alignment)};
-  seeds["seams_of_cluster"] = {EncodeSeamsOfCluster(
-      {.submodels = {{.name = {4, 0}, .images = {ImageId(0), ImageId(2)}, .length = 2.0}},
-       .seams = {{.a = {4, 0}, .b = {5, 1}, .common_tracks = 3, .shared = {{}, {}}}}})};
+  seeds["alignment"] = {EncodeAlignment(alignment).value()};
+  seeds["seams_of_cluster"] = {
+      EncodeSeamsOfCluster(
+          {.submodels = {{.name = {4, 0}, .images = {ImageId(0), ImageId(2)}, .length = 2.0}},
+           .seams = {{.a = {4, 0}, .b = {5, 1}, .common_tracks = 3, .shared = {{}, {}}}}})
+          .value()};
   seeds["partition_review"] = {
-      EncodePartitionReview({.rounds = 2, .requests = {{1, 3, 24, "too few"}}})};
+      EncodePartitionReview({.rounds = 2, .requests = {{1, 3, 24, "too few"}}}).value()};
 }
 
 }  // namespace

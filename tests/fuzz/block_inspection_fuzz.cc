@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
-                           orbweave::DecodeBlockInspection,
-                           orbweave::EncodeBlockInspection);
+                           orbweave::DecodeSubproblemInspection,
+                           orbweave::EncodeSubproblemInspection);
   return 0;
 }

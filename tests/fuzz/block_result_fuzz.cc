@@ -5,7 +5,8 @@
 #include "tests/fuzz/round_trip.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  orbweave::CheckRoundTrip(
-      orbweave::BytesOf(data, size), orbweave::DecodeBlockResult, orbweave::EncodeBlockResult);
+  orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
+                           orbweave::DecodeSubproblemResult,
+                           orbweave::EncodeSubproblemResult);
   return 0;
 }

@@ -5,7 +5,8 @@
 #include "tests/fuzz/round_trip.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  orbweave::CheckRoundTrip(
-      orbweave::BytesOf(data, size), orbweave::DecodeBlockTask, orbweave::EncodeBlockTask);
+  orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
+                           orbweave::DecodeSubproblemTask,
+                           orbweave::EncodeSubproblemTask);
   return 0;
 }

@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
-                           orbweave::DecodeConcludedModel,
-                           orbweave::EncodeConcludedModel);
+                           orbweave::DecodeFinalisedModel,
+                           orbweave::EncodeFinalisedModel);
   return 0;
 }

@@ -13,7 +13,7 @@ using Seeds = std::map<std::string, std::vector<std::string>>;
 
 /// What stages leave behind.
 void AddArtifactSeeds(Seeds& seeds);
-/// What the blocks of the global adjustment leave behind.
+/// What the subproblems of the global adjustment leave behind.
 void AddAdjustmentSeeds(Seeds& seeds);
 /// Messages of the wire and between processes.
 void AddMessageSeeds(Seeds& seeds);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "core/base/digest.h"
-#include "core/stages/pipeline_options.h"
+#include "stages/pipeline_options.h"
 #include "tests/fuzz/seeds.h"
 
 namespace orbweave {

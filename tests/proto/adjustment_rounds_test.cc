@@ -6,18 +6,20 @@
 #include <map>
 #include <string>
 
-#include "core/merging/adjust_blocks.h"
 #include "core/merging/divide_world.h"
-#include "core/stages/advance_adjustment.h"
+#include "core/partitioned_ba/adjust_subproblems.h"
+#include "core/synthetic/corridor_options.h"
+#include "core/synthetic/make_corridor.h"
 #include "proto/codec/adjustment_codec.h"
-#include "proto/codec/block_codec.h"
+#include "proto/codec/subproblem_codec.h"
+#include "stages/steer_adjustment/advance_adjustment.h"
 #include "tests/core/merging/corridor_model.h"
 
 namespace orbweave {
 namespace {
 
-/// A corridor as clusters and their alignment hand it over, in blocks of 15 panoramas.
-std::vector<WorldBlock> MakeBlocks(CorridorOptions options, bool uses_gnss) {
+/// A corridor as clusters and their alignment hand it over, in subproblems of 15 panoramas.
+std::vector<Subproblem> MakeSubproblems(CorridorOptions options, bool uses_gnss) {
   options.panoramas = 70;
   options.features_per_panorama = 120;
   const Corridor corridor = MakeCorridor(options);
@@ -44,52 +46,54 @@ class BytesOnly {
   const std::string& Get(const Digest& digest) const { return blobs_.at(digest); }
 
   std::string Run(const std::string& recipe) {
-    const BlockTask task = *DecodeBlockTask(recipe);
+    const SubproblemTask task = *DecodeSubproblemTask(recipe);
     std::optional<EvaluatedState> state;
-    if (!task.state.IsZero()) state = *DecodeBlockState(Get(task.state));
-    BlockWorker worker(*DecodeWorldBlock(Get(task.block)), std::move(state), BlockOptions{}, 1);
-    BlockResult result{.answer = worker.Execute(task.order)};
-    result.state = Put(EncodeBlockState(worker.state()));
-    result.block = Put(EncodeWorldBlock(worker.block()));
-    if (task.order.work == BlockOrder::Work::kLinearise) result.state = {};
-    return EncodeBlockResult(result);
+    if (!task.state.IsZero()) state = *DecodeSubproblemState(Get(task.state));
+    SubproblemSolver worker(
+        *DecodeSubproblem(Get(task.subproblem)), std::move(state), SubproblemOptions{}, 1);
+    SubproblemResult result{.reply = worker.Execute(task.request)};
+    result.state = Put(EncodeSubproblemState(worker.state()).value());
+    result.subproblem = Put(EncodeSubproblem(worker.subproblem()).value());
+    if (task.request.work == LmRequest::Work::kLinearise) result.state = {};
+    return EncodeSubproblemResult(result).value();
   }
 
  private:
   std::map<Digest, std::string> blobs_;
 };
 
-std::vector<std::string> AdjustThroughBytes(const std::vector<WorldBlock>& blocks) {
+std::vector<std::string> AdjustThroughBytes(const std::vector<Subproblem>& subproblems) {
   BytesOnly others;
-  std::vector<BlockPlace> places;
-  for (const WorldBlock& block : blocks)
-    places.push_back({.block = others.Put(EncodeWorldBlock(block))});
+  std::vector<SubproblemPlace> places;
+  for (const Subproblem& subproblem : subproblems)
+    places.push_back({.subproblem = others.Put(EncodeSubproblem(subproblem).value())});
   AdvancedAdjustment round = StartAdjustment(std::move(places), {1}, {}, {});
   while (!round.tasks.empty()) {
-    std::vector<BlockResult> results;
-    for (const BlockTask& task : round.tasks)
-      results.push_back(*DecodeBlockResult(others.Run(EncodeBlockTask(task))));
+    std::vector<SubproblemResult> results;
+    for (const SubproblemTask& task : round.tasks)
+      results.push_back(*DecodeSubproblemResult(others.Run(EncodeSubproblemTask(task).value())));
     AdjustmentProgress progress =
-        *DecodeAdjustmentProgress(EncodeAdjustmentProgress(round.progress));
+        *DecodeAdjustmentProgress(EncodeAdjustmentProgress(round.progress).value());
     round = *AdvanceAdjustment(std::move(progress), std::move(results), {}, {});
   }
   std::vector<std::string> adjusted;
-  for (const BlockPlace& place : round.progress.blocks) adjusted.push_back(others.Get(place.block));
+  for (const SubproblemPlace& place : round.progress.subproblems)
+    adjusted.push_back(others.Get(place.subproblem));
   return adjusted;
 }
 
 class AdjustmentRounds : public ::testing::TestWithParam<std::pair<CorridorShape, bool>> {};
 
-TEST_P(AdjustmentRounds, GiveTheBytesOfOneProcessWhoeverComputesABlock) {
+TEST_P(AdjustmentRounds, GiveTheBytesOfOneProcessWhoeverComputesASubproblem) {
   const auto [shape, uses_gnss] = GetParam();
-  const std::vector<WorldBlock> blocks = MakeBlocks({.shape = shape}, uses_gnss);
-  ASSERT_GE(blocks.size(), 4U);
-  const auto together = AdjustBlocks(blocks, {}, {}, {});
+  const std::vector<Subproblem> subproblems = MakeSubproblems({.shape = shape}, uses_gnss);
+  ASSERT_GE(subproblems.size(), 4U);
+  const auto together = AdjustSubproblems(subproblems, {}, {}, {});
   ASSERT_TRUE(together.ok());
-  const std::vector<std::string> apart = AdjustThroughBytes(blocks);
-  ASSERT_EQ(apart.size(), together->blocks.size());
+  const std::vector<std::string> apart = AdjustThroughBytes(subproblems);
+  ASSERT_EQ(apart.size(), together->subproblems.size());
   for (size_t b = 0; b < apart.size(); ++b)
-    EXPECT_EQ(apart[b], EncodeWorldBlock(together->blocks[b])) << "block " << b;
+    EXPECT_EQ(apart[b], EncodeSubproblem(together->subproblems[b]).value()) << "block " << b;
 }
 
 INSTANTIATE_TEST_SUITE_P(Streets,

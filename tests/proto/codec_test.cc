@@ -13,9 +13,12 @@
 #include "core/geometry/rotation.h"
 #include "proto/codec/adjustment_codec.h"
 #include "proto/codec/features_codec.h"
+#include "proto/codec/inspection_codec.h"
 #include "proto/codec/manifest_codec.h"
+#include "proto/codec/pack.h"
 #include "proto/codec/recipes_codec.h"
 #include "proto/codec/reconstruction_codec.h"
+#include "proto/codec/subproblem_codec.h"
 #include "proto/codec/two_view_codec.h"
 
 namespace orbweave {
@@ -102,7 +105,7 @@ void DecodePrefixes(const std::string& bytes, Decode decode) {
 
 TEST(FeaturesCodec, RoundTripsExactly) {
   const Features in = SomeFeatures(50);
-  const auto out = DecodeFeatures(EncodeFeatures(in));
+  const auto out = DecodeFeatures(EncodeFeatures(in).value());
   ASSERT_TRUE(out.ok()) << out.status();
   EXPECT_EQ(out->camera, in.camera);
   EXPECT_EQ(out->descriptors, in.descriptors);
@@ -110,15 +113,15 @@ TEST(FeaturesCodec, RoundTripsExactly) {
   EXPECT_EQ(out->colors, in.colors);
   ASSERT_EQ(out->size(), in.size());
   for (size_t i = 0; i < in.size(); ++i) EXPECT_EQ(out->keypoints[i].x_px, in.keypoints[i].x_px);
-  EXPECT_EQ(EncodeFeatures(*out), EncodeFeatures(in));
-  DecodePrefixes(EncodeFeatures(in), DecodeFeatures);
+  EXPECT_EQ(EncodeFeatures(*out).value(), EncodeFeatures(in).value());
+  DecodePrefixes(EncodeFeatures(in).value(), DecodeFeatures);
 }
 
 TEST(FeaturesCodec, KeepsFeaturesWithoutDescriptorsAndProblems) {
   Features in = SomeFeatures(3);
   in.descriptors.clear();
   in.problem = "cannot decode";
-  const auto out = DecodeFeatures(EncodeFeatures(in));
+  const auto out = DecodeFeatures(EncodeFeatures(in).value());
   ASSERT_TRUE(out.ok()) << out.status();
   EXPECT_TRUE(out->descriptors.empty());
   EXPECT_EQ(out->problem, in.problem);
@@ -127,13 +130,14 @@ TEST(FeaturesCodec, KeepsFeaturesWithoutDescriptorsAndProblems) {
 TEST(FeaturesCodec, RefusesArraysOfDifferentLengths) {
   Features in = SomeFeatures(3);
   in.sigma_rad.pop_back();
-  EXPECT_EQ(DecodeFeatures(EncodeFeatures(in)).status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(DecodeFeatures(EncodeFeatures(in).value()).status().code(),
+            absl::StatusCode::kInvalidArgument);
 }
 
 TEST(PlaceSampleCodec, RoundTrips) {
   const PlaceSample in{
       .num_features = 9, .descriptors = std::vector<uint8_t>(256, 4), .problem = "x"};
-  const auto out = DecodePlaceSample(EncodePlaceSample(in));
+  const auto out = DecodePlaceSample(EncodePlaceSample(in).value());
   ASSERT_TRUE(out.ok());
   EXPECT_EQ(out->num_features, 9U);
   EXPECT_EQ(out->descriptors, in.descriptors);
@@ -147,7 +151,7 @@ TEST(TwoViewCodec, RoundTripsExactly) {
   in.num_putative = 7;
   in.median_angle_rad = 0.25;
   in.spread = 0.5;
-  const std::string bytes = EncodeTwoViewGeometries({in, in});
+  const std::string bytes = EncodeTwoViewGeometries({in, in}).value();
   const auto out = DecodeTwoViewGeometries(bytes);
   ASSERT_TRUE(out.ok()) << out.status();
   ASSERT_EQ(out->size(), 2U);
@@ -156,20 +160,20 @@ TEST(TwoViewCodec, RoundTripsExactly) {
   EXPECT_EQ((*out)[1].inliers, in.inliers);
   EXPECT_EQ((*out)[1].b_from_a.translation, in.b_from_a.translation);
   EXPECT_EQ((*out)[1].spread, in.spread);
-  EXPECT_EQ(EncodeTwoViewGeometries(*out), bytes);
+  EXPECT_EQ(EncodeTwoViewGeometries(*out).value(), bytes);
   DecodePrefixes(bytes, DecodeTwoViewGeometries);
 }
 
 TEST(TwoViewCodec, RefusesPairsOutOfOrder) {
   const TwoViewGeometry in{.pair = {ImageId(9), ImageId(2)}};
-  EXPECT_FALSE(DecodeTwoViewGeometries(EncodeTwoViewGeometries({in})).ok());
+  EXPECT_FALSE(DecodeTwoViewGeometries(EncodeTwoViewGeometries({in}).value()).ok());
 }
 
 TEST(RecipesCodec, RoundTrip) {
   const Digest digest = DigestOf("features");
   const MatchRecipe match{.images = {{ImageId(1), digest}, {ImageId(4), DigestOf("b")}},
                           .pairs = {{{ImageId(1), ImageId(4)}, {{3, 4}}}}};
-  const auto match_out = DecodeMatchRecipe(EncodeMatchRecipe(match));
+  const auto match_out = DecodeMatchRecipe(EncodeMatchRecipe(match).value());
   ASSERT_TRUE(match_out.ok()) << match_out.status();
   EXPECT_EQ(match_out->images[0].features, digest);
   EXPECT_EQ(match_out->pairs[0].matches, match.pairs[0].matches);
@@ -179,7 +183,7 @@ TEST(RecipesCodec, RoundTrip) {
                               .pairs = {{ImageId(1), ImageId(4)}},
                               .matches = {digest},
                               .fixes = {{ImageId(4), {1.5, -2.0, 0.25}, 3.0, 6.0}}};
-  const auto cluster_out = DecodeClusterRecipe(EncodeClusterRecipe(cluster));
+  const auto cluster_out = DecodeClusterRecipe(EncodeClusterRecipe(cluster).value());
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 3U);
   EXPECT_EQ(cluster_out->pairs, cluster.pairs);
@@ -187,7 +191,7 @@ TEST(RecipesCodec, RoundTrip) {
   EXPECT_EQ(cluster_out->fixes, cluster.fixes);
 
   const ExtractRecipe extract{.image = digest, .mask = {}, .mask_ignores_white = false};
-  const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract));
+  const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract).value());
   ASSERT_TRUE(extract_out.ok()) << extract_out.status();
   EXPECT_EQ(extract_out->image, digest);
   EXPECT_TRUE(extract_out->mask.IsZero());
@@ -197,17 +201,17 @@ TEST(RecipesCodec, RoundTrip) {
 TEST(RecipesCodec, RefusesAPositionThatIsNoneOrOfNoImage) {
   ClusterRecipe cluster{.images = {{ImageId(1), DigestOf("a")}},
                         .fixes = {{ImageId(1), {1.0, 2.0, 3.0}, 3.0, 6.0}}};
-  ASSERT_TRUE(DecodeClusterRecipe(EncodeClusterRecipe(cluster)).ok());
+  ASSERT_TRUE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
   cluster.fixes[0].horizontal_sigma_m = 0.0;
-  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster)).ok());
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
   cluster.fixes[0] = {ImageId(2), {1.0, 2.0, 3.0}, 3.0, 6.0};
-  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster)).ok());
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
 }
 
 TEST(RecipesCodec, RefusesAPairWithoutItsImages) {
   const MatchRecipe match{.images = {{ImageId(1), DigestOf("a")}},
                           .pairs = {{{ImageId(1), ImageId(4)}, {}}}};
-  EXPECT_FALSE(DecodeMatchRecipe(EncodeMatchRecipe(match)).ok());
+  EXPECT_FALSE(DecodeMatchRecipe(EncodeMatchRecipe(match).value()).ok());
 }
 
 TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
@@ -226,7 +230,7 @@ TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
   image.position_in_local = Eigen::Vector3d(1, 2, 3);
   image.position_sigma_m = Eigen::Vector2d(0.5, 1.0);
   in.images.push_back(image);
-  const std::string bytes = EncodeImageSources(in);
+  const std::string bytes = EncodeImageSources(in).value();
   EXPECT_EQ(bytes.find("somewhere"), std::string::npos);
   const auto out = DecodeImageSources(bytes);
   ASSERT_TRUE(out.ok()) << out.status();
@@ -240,12 +244,63 @@ TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
   EXPECT_EQ(out->images[0].position_sigma_m, image.position_sigma_m);
   EXPECT_EQ(out->gnss_text, in.gnss_text);
   EXPECT_FALSE(out->mask_ignores_white);
-  EXPECT_EQ(EncodeImageSources(*out), bytes);
+  EXPECT_EQ(EncodeImageSources(*out).value(), bytes);
+}
+
+// What protobuf does silently beyond 2 GiB, with a smaller limit.
+TEST(Serialize, RefusesMoreThanTheLimit) {
+  v1::Features message;
+  message.set_problem(std::string(100, 'x'));
+  const size_t size = message.ByteSizeLong();
+  const auto fits = codec::Serialize(message, "features", codec::Empty::kIsRefused, size);
+  ASSERT_TRUE(fits.ok());
+  EXPECT_EQ(*fits, message.SerializeAsString());
+  const auto status =
+      codec::Serialize(message, "features", codec::Empty::kIsRefused, size - 1).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
+  EXPECT_NE(status.message().find("features"), std::string::npos);
+}
+
+TEST(Serialize, RefusesAnEmptyMessageUnlessThatIsAValue) {
+  EXPECT_EQ(codec::Serialize(v1::Features(), "features").status().code(),
+            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(codec::Serialize(v1::Features(), "features", codec::Empty::kIsLegal).value(), "");
+}
+
+TEST(Parse, TakesNoBytesForAnArtifactOnlyWhereTheyAreAValue) {
+  for (const absl::Status& status : {DecodeImageSources("").status(),
+                                     DecodeImageManifest("").status(),
+                                     DecodeFeatures("").status(),
+                                     DecodeExtractRecipe("").status(),
+                                     DecodeMatchRecipe("").status(),
+                                     DecodeClusterRecipe("").status(),
+                                     DecodeSubproblem("").status(),
+                                     DecodeAssembleRecipe("").status(),
+                                     DecodeSubproblemTask("").status(),
+                                     DecodeSubproblemResult("").status(),
+                                     DecodeSubproblemInspection("").status()}) {
+    EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << status;
+  }
+  // Inputs of loops before the first round.
+  EXPECT_TRUE(DecodePartitionReview("").ok());
+  EXPECT_TRUE(DecodeDividedViewGraph("").ok());
+  EXPECT_TRUE(DecodeAdjustmentProgress("").ok());
+  // Lists that may be empty.
+  EXPECT_EQ(EncodeTwoViewGeometries({}).value(), "");
+  EXPECT_TRUE(DecodeTwoViewGeometries("")->empty());
+}
+
+TEST(Parse, LeavesAMessageOfUnknownFieldsToItsDecoder) {
+  const std::string unknown("\x98\x06\x07", 3);  // field 99: 7
+  EXPECT_FALSE(DecodeImageSources(unknown).ok());
+  EXPECT_FALSE(DecodeImageManifest(unknown).ok());
+  EXPECT_FALSE(DecodeExtractRecipe(unknown).ok());
+  EXPECT_TRUE(DecodePartitionReview(unknown).ok());
 }
 
 TEST(ClusterNamesCodec, RoundTrips) {
   const ClusterNames clusters = {{"a/1.jpg", "north"}, {"b.jpg", "south"}};
-  EXPECT_EQ(DecodeClusterNames(EncodeClusterNames(clusters)).value(), clusters);
+  EXPECT_EQ(DecodeClusterNames(EncodeClusterNames(clusters).value()).value(), clusters);
   EXPECT_TRUE(DecodeClusterNames("")->empty());
 }
 
@@ -265,7 +320,7 @@ TEST(ManifestCodec, RoundTrips) {
   image.prior.heading_sigma_deg = 0.25;
   image.prior.tilt_sigma_deg = 0.125;
   in.images.push_back(image);
-  const std::string bytes = EncodeImageManifest(in);
+  const std::string bytes = EncodeImageManifest(in).value();
   const auto out = DecodeImageManifest(bytes);
   ASSERT_TRUE(out.ok()) << out.status();
   ASSERT_EQ(out->images.size(), 1U);
@@ -279,7 +334,7 @@ TEST(ManifestCodec, RoundTrips) {
   EXPECT_EQ(out->images[0].capture_time_s, 12.5);
   EXPECT_EQ(out->excluded[0].reason, "not 2:1");
   EXPECT_FALSE(out->mask_ignores_white);
-  EXPECT_EQ(EncodeImageManifest(*out), bytes);
+  EXPECT_EQ(EncodeImageManifest(*out).value(), bytes);
 }
 
 TEST(ManifestCodec, RefusesASigmaThatIsNone) {
@@ -287,52 +342,52 @@ TEST(ManifestCodec, RefusesASigmaThatIsNone) {
     ImageManifest manifest;
     manifest.images.push_back({.name = "a.jpg", .camera = {100, 50}});
     manifest.images[0].prior.heading_sigma_deg = sigma_deg;
-    EXPECT_FALSE(DecodeImageManifest(EncodeImageManifest(manifest)).ok()) << sigma_deg;
+    EXPECT_FALSE(DecodeImageManifest(EncodeImageManifest(manifest).value()).ok()) << sigma_deg;
     manifest.images[0].prior.heading_sigma_deg = 10.0;
     manifest.images[0].prior.tilt_sigma_deg = sigma_deg;
-    EXPECT_FALSE(DecodeImageManifest(EncodeImageManifest(manifest)).ok()) << sigma_deg;
+    EXPECT_FALSE(DecodeImageManifest(EncodeImageManifest(manifest).value()).ok()) << sigma_deg;
   }
 }
 
 TEST(ReconstructionCodec, RoundTripsExactly) {
   const Reconstruction in = SomeReconstruction();
-  const auto out = DecodeReconstruction(EncodeReconstruction(in));
+  const auto out = DecodeReconstruction(EncodeReconstruction(in).value());
   ASSERT_TRUE(out.ok()) << out.status();
   ExpectSame(in, *out);
-  DecodePrefixes(EncodeReconstruction(in), DecodeReconstruction);
+  DecodePrefixes(EncodeReconstruction(in).value(), DecodeReconstruction);
 }
 
 TEST(ReconstructionCodec, RefusesObservationsOfUnregisteredImages) {
   Reconstruction in = SomeReconstruction();
   in.images.erase(ImageId(0));
-  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
 }
 
 TEST(ReconstructionCodec, RefusesUncertaintiesThatAreNoNumbers) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -1.0}) {
     Reconstruction in = SomeReconstruction();
     in.images[ImageId(6)].uncertainty->rotation_sigma_rad = bad;
-    EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
+    EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
   }
 }
 
 TEST(ReconstructionCodec, RefusesBearingsOfAnotherLength) {
   Reconstruction in = SomeReconstruction();
   in.tracks[3].observations[0].bearing *= 2.0;
-  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in)).ok());
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
 }
 
 TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   const ClusterResult cluster{
       .cluster = 4,
-      .reconstruction = {.components = {SomeReconstruction()},
+      .reconstruction = {.submodels = {SomeReconstruction()},
                          .not_registered = {{ImageId(77), "no verified matches"}},
                          .contradicted_pairs = {{ImageId(3), ImageId(8)}},
                          .explained_pairs = {{ImageId(3), ImageId(4)}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
                          .start_remark = "29 of 30 images stay registered"}};
-  const auto cluster_out = DecodeClusterResult(EncodeClusterResult(cluster));
+  const auto cluster_out = DecodeClusterResult(EncodeClusterResult(cluster).value());
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 4U);
   EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
@@ -342,7 +397,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);
   EXPECT_EQ(cluster_out->reconstruction.start_remark, "29 of 30 images stay registered");
-  ExpectSame(cluster_out->reconstruction.components[0], cluster.reconstruction.components[0]);
+  ExpectSame(cluster_out->reconstruction.submodels[0], cluster.reconstruction.submodels[0]);
 
   Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
                       .world = {0},
@@ -353,7 +408,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                              .contradicted = true,
                              .reason = "loop",
                              .position_jump_m = 0.1});
-  const auto alignment_out = DecodeAlignment(EncodeAlignment(alignment));
+  const auto alignment_out = DecodeAlignment(EncodeAlignment(alignment).value());
   ASSERT_TRUE(alignment_out.ok()) << alignment_out.status();
   EXPECT_EQ(alignment_out->world_from_submodel[0].scale, 2.0);
   EXPECT_FALSE(alignment_out->seams[0].used);
@@ -363,7 +418,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(alignment_out->submodels[0].num_images, 7U);
 
   const PartitionReview review{.rounds = 2, .requests = {{1, 3, 24, "too few"}}};
-  const auto review_out = DecodePartitionReview(EncodePartitionReview(review));
+  const auto review_out = DecodePartitionReview(EncodePartitionReview(review).value());
   ASSERT_TRUE(review_out.ok()) << review_out.status();
   EXPECT_EQ(review_out->rounds, 2U);
   EXPECT_EQ(review_out->requests[0].cluster_a, 1U);
@@ -372,8 +427,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(review_out->requests[0].reason, "too few");
   EXPECT_EQ(DecodePartitionReview("")->rounds, 0U);
 
-  ConcludedModel model{.worlds = {{.images = SomeReconstruction().images}},
-                       .blocks = {{DigestOf("block")}}};
+  FinalisedModel model{.worlds = {{.images = SomeReconstruction().images}},
+                       .subproblems = {{DigestOf("block")}}};
   model.worlds[0].report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
   model.worlds[0].report.uncertainty = {
       .known = true, .held_image = "b.jpg", .bearing_sigma_factor = 0.9};
@@ -381,7 +436,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   model.worlds[0].report.weak_images = {{"c.jpg", "8 observations in one corner"}};
   model.worlds[0].report.adjustments.push_back(
       {.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
-  const auto model_out = DecodeConcludedModel(EncodeConcludedModel(model));
+  const auto model_out = DecodeFinalisedModel(EncodeFinalisedModel(model).value());
   ASSERT_TRUE(model_out.ok()) << model_out.status();
   const GlobalAdjustReport& report = model_out->worlds[0].report;
   EXPECT_EQ(report.gnss.outliers, model.worlds[0].report.gnss.outliers);
@@ -392,7 +447,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(report.weak_images[0].reason, "8 observations in one corner");
   EXPECT_EQ(report.uncertainty.held_image, "b.jpg");
   EXPECT_EQ(report.uncertainty.bearing_sigma_factor, 0.9);
-  EXPECT_EQ(model_out->blocks, model.blocks);
+  EXPECT_EQ(model_out->subproblems, model.subproblems);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include <limits>
 
-#include "proto/codec/block_codec.h"
 #include "proto/codec/inspection_codec.h"
+#include "proto/codec/subproblem_codec.h"
 
 namespace orbweave {
 namespace {
@@ -30,7 +30,7 @@ std::vector<JoinedWorld> WorldWithErrors(double left_m) {
 }
 
 TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
-  const auto worlds = DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(3.0)));
+  const auto worlds = DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(3.0)).value());
   ASSERT_TRUE(worlds.ok()) << worlds.status();
   const Georeference& georeference = worlds->at(0).georeference;
   ASSERT_EQ(georeference.drive_errors.size(), 2U);
@@ -51,46 +51,49 @@ TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
 
 TEST(JoinedWorldsCodec, RefusesErrorsThatAreNoNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(nan))).ok());
+  EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(WorldWithErrors(nan)).value()).ok());
   for (const double inflation : {nan, 0.0, 0.9, std::numeric_limits<double>::infinity()}) {
     std::vector<JoinedWorld> worlds = WorldWithErrors(3.0);
     worlds[0].georeference.gnss_inflation = inflation;
-    EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(worlds)).ok()) << inflation;
+    EXPECT_FALSE(DecodeJoinedWorlds(EncodeJoinedWorlds(worlds).value()).ok()) << inflation;
   }
 }
 
-TEST(BlockInspectionCodec, CarriesPointsAboutPanoramas) {
-  BlockInspection inspection;
+TEST(SubproblemInspectionCodec, CarriesPointsAboutPanoramas) {
+  SubproblemInspection inspection;
   inspection.points_about = {{1.0, 2.0, 3.0}, {-4.0, 5.0, -6.0}};
-  const auto decoded = DecodeBlockInspection(EncodeBlockInspection(inspection));
+  const auto decoded = DecodeSubproblemInspection(EncodeSubproblemInspection(inspection).value());
   ASSERT_TRUE(decoded.ok()) << decoded.status();
   EXPECT_EQ(decoded->points_about, inspection.points_about);
   inspection.points_about[0].x() = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(DecodeBlockInspection(EncodeBlockInspection(inspection)).ok());
+  EXPECT_FALSE(DecodeSubproblemInspection(EncodeSubproblemInspection(inspection).value()).ok());
 }
 
-WorldBlock BlockWithDirection(ImageId of, double sigma_rad) {
-  WorldBlock block;
-  block.scene.images[ImageId(2)] = {};
-  block.images = {{.id = ImageId(2)}};
-  block.directions = {{.image = of,
-                       .direction_in_world = {0.0, 0.6, -0.8},
-                       .direction_in_cam = {0.0, 0.8, 0.6},
-                       .sigma_rad = sigma_rad}};
-  return block;
+Subproblem SubproblemWithDirection(ImageId of, double sigma_rad) {
+  Subproblem subproblem;
+  subproblem.scene.images[ImageId(2)] = {};
+  subproblem.images = {{.id = ImageId(2)}};
+  subproblem.directions = {{.image = of,
+                            .direction_in_world = {0.0, 0.6, -0.8},
+                            .direction_in_cam = {0.0, 0.8, 0.6},
+                            .sigma_rad = sigma_rad}};
+  return subproblem;
 }
 
-TEST(WorldBlockCodec, CarriesDirectionsOfImagesThatItHolds) {
-  const auto block = DecodeWorldBlock(EncodeWorldBlock(BlockWithDirection(ImageId(2), 0.1)));
-  ASSERT_TRUE(block.ok()) << block.status();
-  ASSERT_EQ(block->directions.size(), 1U);
-  const BlockDirection& direction = block->directions[0];
+TEST(SubproblemCodec, CarriesDirectionsOfImagesThatItHolds) {
+  const auto subproblem =
+      DecodeSubproblem(EncodeSubproblem(SubproblemWithDirection(ImageId(2), 0.1)).value());
+  ASSERT_TRUE(subproblem.ok()) << subproblem.status();
+  ASSERT_EQ(subproblem->directions.size(), 1U);
+  const SubproblemDirection& direction = subproblem->directions[0];
   EXPECT_EQ(direction.image, ImageId(2));
   EXPECT_EQ(direction.direction_in_world, Eigen::Vector3d(0.0, 0.6, -0.8));
   EXPECT_EQ(direction.direction_in_cam, Eigen::Vector3d(0.0, 0.8, 0.6));
   EXPECT_EQ(direction.sigma_rad, 0.1);
-  EXPECT_FALSE(DecodeWorldBlock(EncodeWorldBlock(BlockWithDirection(ImageId(3), 0.1))).ok());
-  EXPECT_FALSE(DecodeWorldBlock(EncodeWorldBlock(BlockWithDirection(ImageId(2), 0.0))).ok());
+  EXPECT_FALSE(
+      DecodeSubproblem(EncodeSubproblem(SubproblemWithDirection(ImageId(3), 0.1)).value()).ok());
+  EXPECT_FALSE(
+      DecodeSubproblem(EncodeSubproblem(SubproblemWithDirection(ImageId(2), 0.0)).value()).ok());
 }
 
 }  // namespace

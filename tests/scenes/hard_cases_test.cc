@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/estimators/compare_poses.h"
+#include "core/synthetic/corridor_options.h"
+#include "core/synthetic/make_corridor.h"
 #include "tests/scenes/orientate.h"
 
 namespace orbweave {
@@ -86,12 +88,22 @@ TEST(HardCases, ThirdOfTheMatchesIsWrong) {
   ExpectWholeAndExact(corridor, Orientate(corridor));
 }
 
+/// Positions 24 to 35 are off: an edge that leads from one of them to another image points
+/// elsewhere than GNSS, and may be dropped for it.
+bool CrossesTheJump(const ImagePair& pair) {
+  const auto is_off = [](ImageId id) { return id.value >= 24 && id.value < 36; };
+  return is_off(pair.a) != is_off(pair.b);
+}
+
 TEST(HardCases, GnssJumpsAreNamedAndDoNotBendTheModel) {
   const Corridor corridor = MakeCorridor(
       {.panoramas = 60, .features_per_panorama = kFeatures, .gnss_jump_panoramas = 12});
   const Orientated result = Orientate(corridor);
   ExpectWholeAndExact(corridor, result);
-  EXPECT_TRUE(result.dropped_edges.empty());
+  for (const DroppedEdge& edge : result.dropped_edges) {
+    EXPECT_TRUE(CrossesTheJump(edge.pair))
+        << edge.pair.a.value << " " << edge.pair.b.value << " " << edge.reason;
+  }
   const GnssReport& gnss = result.worlds[0].report.gnss;
   EXPECT_TRUE(gnss.used);
   for (size_t i = 24; i < 36; ++i) {

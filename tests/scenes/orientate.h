@@ -9,15 +9,17 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/graph/build_view_graph.h"
-#include "core/graph/drop_edges_against_chain.h"
-#include "core/graph/drop_edges_against_gnss.h"
+#include "core/graph/choose_edges.h"
 #include "core/graph/partition_view_graph.h"
+#include "core/mapping/cluster_problem.h"
+#include "core/mapping/cluster_reconstruction.h"
+#include "core/mapping/reconstruct_cluster.h"
+#include "core/merging/alignment.h"
 #include "core/merging/merge_submodels.h"
 #include "core/scene/view_edge_of.h"
-#include "core/stages/assemble_cluster.h"
-#include "core/stages/match_image_pair.h"
 #include "core/synthetic/corridor.h"
+#include "stages/match_images/match_image_pair.h"
+#include "stages/reconstruct_cluster/assemble_cluster.h"
 #include "tests/core/merging/adjust_globally.h"
 #include "tests/core/merging/align_all.h"
 
@@ -93,22 +95,18 @@ inline Orientated Orientate(const Corridor& corridor, const PartitionOptions& op
   const std::vector<TwoViewGeometry> geometries = orientate_internal::Verify(corridor);
   std::vector<ViewEdge> edges;
   for (const TwoViewGeometry& geometry : geometries) edges.push_back(ViewEdgeOf(geometry));
-  EdgesByGnss by_gnss = DropEdgesAgainstGnss(edges, corridor.manifest);
-  EdgesByChain by_chain = DropEdgesAgainstChain(by_gnss.kept, corridor.manifest);
-  Orientated result{.dropped_edges = std::move(by_gnss.dropped)};
-  std::ranges::move(by_chain.dropped, std::back_inserter(result.dropped_edges));
-  const ViewGraph graph =
-      BuildViewGraph(static_cast<uint32_t>(corridor.features.size()), std::move(by_chain.kept), {})
-          .graph;
+  ChosenEdges chosen = ChooseEdges(edges, corridor.manifest, {});
+  const ViewGraph& graph = chosen.graph;
+  Orientated result{.dropped_edges = std::move(chosen.dropped)};
   const Partition partition = PartitionViewGraph(graph, options).value();
   std::vector<Submodel> submodels;
   for (uint32_t c = 0; c < partition.clusters.size(); ++c) {
     const ClusterProblem problem =
         orientate_internal::Problem(corridor, partition.clusters[c], graph, geometries);
     ClusterReconstruction cluster = ReconstructCluster(problem, {}, {.seed = c + 1}).value();
-    uint32_t component = 0;
-    for (Reconstruction& each : cluster.components)
-      submodels.push_back({c, component++, std::move(each)});
+    uint32_t submodel = 0;
+    for (Reconstruction& each : cluster.submodels)
+      submodels.push_back({c, submodel++, std::move(each)});
     std::ranges::copy(cluster.contradicted_pairs, std::back_inserter(result.contradicted_pairs));
     std::ranges::copy(cluster.not_registered, std::back_inserter(result.not_registered));
   }

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/synthetic/corridor_options.h"
+#include "core/synthetic/make_corridor.h"
 #include "tests/scenes/orientate.h"
 
 namespace orbweave {

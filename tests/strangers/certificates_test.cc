@@ -11,6 +11,7 @@
 #include "security/secret_file.h"
 #include "tests/support/tls_server.h"
 #include "tests/support/wait_for_end.h"
+#include "worker/task_runner.h"
 
 namespace orbweave {
 namespace {
@@ -43,7 +44,7 @@ TEST(Certificates, ThoseOfAnotherAuthorityAreWorthNothing) {
   // The stranger knows the right authority, so that it is the server who refuses.
   const std::string ca = *ReadSecretFile(server.keys() + "/client/ca.crt");
   ASSERT_TRUE(WriteSecretFile(foreign + "/admin/ca.crt", ca).ok());
-  GrpcCoordinatorClient stranger(server.address(), {}, {.tls_folder = foreign + "/admin"});
+  GrpcCoordinatorClient stranger(server.address(), {.tls_folder = foreign + "/admin"});
   EXPECT_TRUE(absl::IsUnavailable(stranger.ListJobs().status()));
   EXPECT_TRUE(server.As("admin")->ListJobs().ok());
 }
@@ -57,7 +58,7 @@ TEST(Certificates, AreAskedOfEverybody) {
 TEST(Certificates, OfAServerOfAnotherAuthorityAreRefusedByTheCaller) {
   TlsServer server;
   const std::string foreign = testing::MakeKeys(server.folder() / "foreign");
-  GrpcCoordinatorClient deceived(server.address(), {}, {.tls_folder = foreign + "/client"});
+  GrpcCoordinatorClient deceived(server.address(), {.tls_folder = foreign + "/client"});
   EXPECT_TRUE(absl::IsUnavailable(deceived.ListJobs().status()));
 }
 

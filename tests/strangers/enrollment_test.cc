@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Join tokens for certificates: a real server, and the desk behind it with a clock turned by hand.
+// Join tokens for certificates: a real server, and the service behind it with a clock turned by
+// hand.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ TEST(Enroll, GivesACertificateWithWhichAWorkerJoins) {
   EXPECT_EQ(own->identity.role, Role::kWorker);
   EXPECT_THAT(own->identity.name, StartsWith("host-"));
   EXPECT_NEAR(static_cast<double>(own->ends_unix_s - UnixNow()), 86400.0, 60.0);
-  GrpcCoordinatorClient worker(server.address(), {}, {.tls_folder = fresh.path});
+  GrpcCoordinatorClient worker(server.address(), {.tls_folder = fresh.path});
   EXPECT_TRUE(
       worker.Join({.name = own->identity.name, .version = std::string(BuildVersion())}).ok());
   EXPECT_TRUE(absl::IsPermissionDenied(worker.ListJobs().status()));
@@ -119,19 +120,19 @@ TEST(Renew, IsNotForClients) {
       absl::IsPermissionDenied(RenewCertificate(server.address(), {server.keys() + "/client"})));
 }
 
-class Desk : public ::testing::Test {
+class EnrollmentOverTime : public ::testing::Test {
  protected:
-  Desk() {
+  EnrollmentOverTime() {
     ORBWEAVE_CHECK(MakeKeyStore(keys_, "city", {}, now_).ok());
     Open();
   }
 
   void Open() {
-    auto desk = EnrollmentDesk::Open({.tls = {keys_ + "/coordinator"},
-                                      .used_folder = folder_ / "used",
-                                      .now_unix_s = [this] { return now_; }});
-    ORBWEAVE_CHECK(desk.ok());
-    desk_ = *std::move(desk);
+    auto enrollment_service = EnrollmentService::Open({.tls = {keys_ + "/coordinator"},
+                                                       .used_folder = folder_ / "used",
+                                                       .now_unix_s = [this] { return now_; }});
+    ORBWEAVE_CHECK(enrollment_service.ok());
+    enrollment_service_ = *std::move(enrollment_service);
   }
 
   std::string Token(int64_t valid_s) {
@@ -150,41 +151,43 @@ class Desk : public ::testing::Test {
   std::string keys_ = folder_ / "keys";
   std::string request_ = *MakeCertificateRequest(*MakePrivateKey());
   int64_t now_ = 1'800'000'000;
-  std::unique_ptr<EnrollmentDesk> desk_;
+  std::unique_ptr<EnrollmentService> enrollment_service_;
 };
 
-TEST_F(Desk, RemembersATokenUntilItWouldHaveExpired) {
+TEST_F(EnrollmentOverTime, RemembersATokenUntilItWouldHaveExpired) {
   const std::string token = Token(100);
-  ASSERT_TRUE(desk_->Enroll(token, request_, "a").ok());
+  ASSERT_TRUE(enrollment_service_->Enroll(token, request_, "a").ok());
   now_ += 99;
   Open();
-  EXPECT_TRUE(absl::IsPermissionDenied(desk_->Enroll(token, request_, "a").status()));
+  EXPECT_TRUE(absl::IsPermissionDenied(enrollment_service_->Enroll(token, request_, "a").status()));
   EXPECT_EQ(NumRemembered(), 1U);
   now_ += 1;
   Open();
   EXPECT_EQ(NumRemembered(), 0U);
-  EXPECT_TRUE(absl::IsPermissionDenied(desk_->Enroll(token, request_, "a").status()));
+  EXPECT_TRUE(absl::IsPermissionDenied(enrollment_service_->Enroll(token, request_, "a").status()));
 }
 
-TEST_F(Desk, ABadRequestDoesNotSpendTheToken) {
+TEST_F(EnrollmentOverTime, ABadRequestDoesNotSpendTheToken) {
   const std::string token = Token(100);
-  EXPECT_TRUE(absl::IsInvalidArgument(desk_->Enroll(token, "no request", "a").status()));
-  EXPECT_TRUE(absl::IsInvalidArgument(desk_->Enroll(token, request_, "../a").status()));
-  EXPECT_TRUE(desk_->Enroll(token, request_, "a").ok());
+  EXPECT_TRUE(
+      absl::IsInvalidArgument(enrollment_service_->Enroll(token, "no request", "a").status()));
+  EXPECT_TRUE(
+      absl::IsInvalidArgument(enrollment_service_->Enroll(token, request_, "../a").status()));
+  EXPECT_TRUE(enrollment_service_->Enroll(token, request_, "a").ok());
 }
 
-TEST_F(Desk, NoTwoTokensGiveTheSameName) {
-  const auto first = desk_->Enroll(Token(100), request_, "a");
-  const auto second = desk_->Enroll(Token(100), request_, "a");
+TEST_F(EnrollmentOverTime, NoTwoTokensGiveTheSameName) {
+  const auto first = enrollment_service_->Enroll(Token(100), request_, "a");
+  const auto second = enrollment_service_->Enroll(Token(100), request_, "a");
   EXPECT_NE(ReadCertificate(*first)->identity.name, ReadCertificate(*second)->identity.name);
 }
 
-TEST_F(Desk, RefusesATokenOfAnotherKeyStore) {
+TEST_F(EnrollmentOverTime, RefusesATokenOfAnotherKeyStore) {
   const std::string foreign = folder_ / "foreign";
   ASSERT_TRUE(MakeKeyStore(foreign, "city", {}, now_).ok());
   ASSERT_TRUE(WriteJoinToken(foreign, folder_ / "token", now_ + 100).ok());
   EXPECT_TRUE(absl::IsPermissionDenied(
-      desk_->Enroll(*ReadSecretFile(folder_ / "token"), request_, "a").status()));
+      enrollment_service_->Enroll(*ReadSecretFile(folder_ / "token"), request_, "a").status()));
 }
 
 }  // namespace

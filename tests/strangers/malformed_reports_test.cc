@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
+#include <limits>
 
 #include "core/base/random.h"
 #include "core/pipeline/build_version.h"
@@ -15,6 +17,7 @@
 #include "tests/support/grpc_raw_call.h"
 #include "tests/support/tls_server.h"
 #include "worker/grpc_channel.h"
+#include "worker/task_runner.h"
 
 namespace orbweave {
 namespace {
@@ -71,6 +74,21 @@ class MalformedReports : public ::testing::Test {
   uint64_t session_ = 0;
   Lease lease_{};
 };
+
+TEST_F(MalformedReports, OfHowLongToWaitAreRefused) {
+  using Limits = std::numeric_limits<double>;
+  for (const double wait_s : {Limits::quiet_NaN(), Limits::infinity(), -1.0}) {
+    v1::LeaseTaskRequest request;
+    request.set_session(session_);
+    request.set_wait_s(wait_s);
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(10));
+    v1::LeaseTaskReply reply;
+    EXPECT_EQ(stub_->LeaseTask(&context, request, &reply).error_code(),
+              grpc::StatusCode::INVALID_ARGUMENT)
+        << wait_s;
+  }
+}
 
 TEST_F(MalformedReports, OfTasksAreRefused) {
   using Spoil = std::function<void(v1::CompleteTaskRequest&)>;

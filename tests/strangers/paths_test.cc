@@ -67,7 +67,6 @@ TEST_F(Paths, BeneathNoRootAreRefused) {
 TEST_F(Paths, AreNamedByTheClientWhereItsOwnRootSays) {
   GrpcCoordinatorClient client(
       server_.address(),
-      {},
       {.tls_folder = server_.keys() + "/client", .roots = {{"data", files_ / "root"}}});
   EXPECT_TRUE(client.LinkFile(DigestOf("pixels"), files_ / "root/street/../street/a.jpg").ok());
   EXPECT_TRUE(absl::IsNotFound(client.LinkFile(DigestOf("pixels"), files_ / "secret")));

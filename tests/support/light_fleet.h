@@ -3,8 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/sleep.h"
 #include "tests/support/wide_job.h"
 #include "worker/grpc_coordinator_client.h"
 #include "worker/task_executor.h"
@@ -51,11 +50,7 @@ class LightExecutor final : public TaskExecutor {
                                  TaskBlobs& blobs,
                                  const StageContext& context) override {
     runs_.Count(spec.inputs.at(0));
-    std::mutex mutex;
-    std::condition_variable_any never;
-    std::unique_lock lock(mutex);
-    never.wait_for(
-        lock, context.stop, std::chrono::duration<double>(task_s_), [] { return false; });
+    SleepUnlessStopped(task_s_, context.stop);
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     TaskResult result{.report_json = "{}"};
     const std::string answer = LightAnswer(spec.inputs.at(0));
@@ -87,9 +82,9 @@ class LightFleet {
       const std::string link = folder + "/" + name;
       std::filesystem::create_symlink(socket, link);
       threads_.emplace_back([this, name, link](const std::stop_token& stop) {
-        GrpcCoordinatorClient coordinator("unix:" + link, stop);
+        GrpcCoordinatorClient coordinator("unix:" + link);
         const WorkerOptions options{.name = name, .grace_s = 0.0};
-        if (!RunWorker(coordinator, make_executor_, options, stop).ok()) ++refused_;
+        if (!RunWorker(coordinator, coordinator, make_executor_, options, stop).ok()) ++refused_;
       });
     }
   }
@@ -115,7 +110,7 @@ struct LightFaults {
   uint64_t doubled = 0;  ///< parts that were run more than once
 };
 
-inline absl::StatusOr<LightFaults> FaultsOf(CoordinatorApi& api,
+inline absl::StatusOr<LightFaults> FaultsOf(JobApi& api,
                                             const Digest& job,
                                             const std::vector<Digest>& recipes,
                                             RunCounter& runs) {

@@ -57,8 +57,8 @@ class TlsServer {
   [[nodiscard]] const std::string& address() const { return server_->address(); }
   [[nodiscard]] Coordinator& coordinator() { return *coordinator_; }
   [[nodiscard]] std::unique_ptr<GrpcCoordinatorClient> As(const std::string& name) const {
-    return std::make_unique<GrpcCoordinatorClient>(
-        address(), std::stop_token(), ClientOptions{.tls_folder = keys_ + "/" + name});
+    return std::make_unique<GrpcCoordinatorClient>(address(),
+                                                   ClientOptions{.tls_folder = keys_ + "/" + name});
   }
 
  private:

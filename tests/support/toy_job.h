@@ -12,7 +12,7 @@
 #include "absl/strings/match.h"
 #include "core/pipeline/coordinator_api.h"
 #include "core/pipeline/job_plan.h"
-#include "worker/task_runner.h"
+#include "core/pipeline/stage_function.h"
 
 /// A job small enough to follow by hand: "1 2 3" is split into numbers, each is squared by a task
 /// of its own, and the squares are summed: "14".
@@ -22,12 +22,13 @@ namespace orbweave::testing {
 inline JobPlan ToyPlan() {
   using Kind = InputRule::Kind;
   return {"toy",
-          {{.stage = "split", .inputs = {{Kind::kJobInput, "", 0}}},
+          {{.stage = "split", .version = "1", .inputs = {{Kind::kJobInput, "", 0}}},
            {.stage = "square",
+            .version = "1",
             .parts_from = "split",
             .inputs = {{Kind::kRecipe, "", 0}},
             .option_sections = {"toy"}},
-           {.stage = "sum", .inputs = {{Kind::kCollection, "square", 0}}}}};
+           {.stage = "sum", .version = "1", .inputs = {{Kind::kCollection, "square", 0}}}}};
 }
 
 inline absl::StatusOr<JobPlan> FindToyPlan(std::string_view kind) {
@@ -104,7 +105,7 @@ inline absl::StatusOr<JobSpec> PrepareToyJob(BlobAccess& blobs,
 }
 
 /// What the last stage of a finished toy job says.
-inline absl::StatusOr<std::string> ToyAnswer(CoordinatorApi& api, const Digest& job) {
+inline absl::StatusOr<std::string> ToyAnswer(ClientApi& api, const Digest& job) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes, api.GetOutcomes(job));
   if (outcomes.empty() || outcomes.back().stage != "sum")
     return absl::FailedPreconditionError("not summed yet");

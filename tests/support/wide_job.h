@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/blob_access.h"
+#include "core/pipeline/job_api.h"
 #include "core/pipeline/job_plan.h"
 
 /// A job of one stage with as many parts as one likes, which read nothing.
@@ -13,9 +14,11 @@
 namespace orbweave::testing {
 
 inline absl::StatusOr<JobPlan> FindWidePlan(std::string_view) {
-  return JobPlan{
-      "wide",
-      {{.stage = "part", .parts_listed_in = 0, .inputs = {{InputRule::Kind::kRecipe, "", 0}}}}};
+  return JobPlan{"wide",
+                 {{.stage = "part",
+                   .version = "1",
+                   .parts_listed_in = 0,
+                   .inputs = {{InputRule::Kind::kRecipe, "", 0}}}}};
 }
 
 /// The recipes of parts number `first` and on; of every number there is one in the world.

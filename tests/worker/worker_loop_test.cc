@@ -62,7 +62,8 @@ class RunningWorker {
                  .blob_folder = blob_folder} {
     thread_ = std::thread([this, &api] {
       const StageLookup lookup = LookupIn(stages_);
-      end_ = RunWorker(api, testing::RunInProcess(lookup, clock_), options_, stop_.get_token());
+      end_ =
+          RunWorker(api, api, testing::RunInProcess(lookup, clock_), options_, stop_.get_token());
     });
   }
   ~RunningWorker() { (void)Stop(); }
@@ -314,7 +315,7 @@ TEST_F(WorkerLoopTest, OutlastsACoordinatorThatIsStartedAgain) {
   auto coordinator = OpenCoordinator(folder_ / "state", clock_);
   auto server = *GrpcServer::Start(*coordinator, address);
   std::stop_source stop;
-  GrpcCoordinatorClient client(address, stop.get_token());
+  GrpcCoordinatorClient client(address);
   RunningWorker worker(client, ToyStages(), "w");
   const Digest first = Submit(*coordinator, "1 2");
   EXPECT_EQ(WaitForEnd(*coordinator, first)->state, JobState::kDone);
@@ -336,7 +337,7 @@ TEST_F(WorkerLoopTest, GoesOnWithItsTaskWhenTheCoordinatorIsStartedAgain) {
   auto coordinator = OpenCoordinator(folder_ / "state", clock_);
   auto server = *GrpcServer::Start(*coordinator, address);
   std::stop_source stop;
-  GrpcCoordinatorClient client(address, stop.get_token());
+  GrpcCoordinatorClient client(address);
   std::atomic<int> attempts{0};
   std::atomic<bool> may_end{false};
   testing::StageMap stages = ToyStages();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "core/averaging/similarity_graph.h"
 #include "tests/core/averaging/similarity_samples.h"
 
 namespace orbweave {

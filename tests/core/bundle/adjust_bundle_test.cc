@@ -7,6 +7,10 @@
 
 #include <cstring>
 
+#include "core/bundle/bearing_error.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
+#include "core/bundle/bundle_report.h"
 #include "core/bundle/ceres_adjuster.h"
 #include "tests/core/bundle/bundle_world.h"
 

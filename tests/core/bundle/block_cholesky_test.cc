@@ -5,11 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <Eigen/LU>
 #include <limits>
 
+#include "core/base/parallel_for.h"
 #include "core/base/random.h"
 
 namespace orbweave {
@@ -75,28 +76,28 @@ TEST(BlockCholesky, HasTheDiagonalOfTheDenseInverse) {
     const std::vector<Block6> diagonal = cholesky.InverseDiagonal();
     const Eigen::MatrixXd expected = Dense(matrix).inverse();
     for (uint32_t i = 0; i < num_blocks; ++i) {
-      EXPECT_LT((diagonal[i] - expected.block<6, 6>(6 * i, 6 * i)).norm(),
-                1e-12 * expected.norm());
+      EXPECT_LT((diagonal[i] - expected.block<6, 6>(6 * i, 6 * i)).norm(), 1e-12 * expected.norm());
       EXPECT_EQ(diagonal[i], diagonal[i].transpose());
     }
   }
 }
 
-TEST(BlockCholesky, LeavesTheSchurComplementOfKeptBlocks) {
+TEST(BlockCholesky, LeavesTheSchurComplementOfSubproblemCache) {
   const uint32_t num_blocks = 12;
   const SymmetricBlockMatrix matrix = RandomMatrix(num_blocks, 5);
-  std::vector<uint8_t> is_kept(num_blocks, 0);
-  for (const size_t block : {1U, 4U, 10U}) is_kept[block] = 1;
-  BlockCholesky cholesky(matrix, is_kept);
+  std::vector<uint8_t> is_retained(num_blocks, 0);
+  for (const size_t block : {1U, 4U, 10U}) is_retained[block] = 1;
+  BlockCholesky cholesky(matrix, is_retained);
   ASSERT_TRUE(cholesky.Factorize(matrix));
-  // The inverse of the complement is the kept part of the inverse.
+  // The inverse of the complement is the retained part of the inverse.
   const Eigen::MatrixXd inverse = Dense(matrix).inverse();
   const Eigen::MatrixXd complement = Dense(cholesky.Remaining());
   Eigen::MatrixXd kept_inverse(18, 18);
-  const Eigen::Index kept[] = {1, 4, 10};
+  const Eigen::Index retained[] = {1, 4, 10};
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j < 3; ++j) {
-      kept_inverse.block<6, 6>(6 * i, 6 * j) = inverse.block<6, 6>(6 * kept[i], 6 * kept[j]);
+      kept_inverse.block<6, 6>(6 * i, 6 * j) =
+          inverse.block<6, 6>(6 * retained[i], 6 * retained[j]);
     }
   }
   EXPECT_LT((complement * kept_inverse - Eigen::MatrixXd::Identity(18, 18)).norm(), 1e-12);
@@ -105,17 +106,36 @@ TEST(BlockCholesky, LeavesTheSchurComplementOfKeptBlocks) {
   cholesky.SolveForward(x);
   Eigen::VectorXd kept_rhs(18);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    kept_rhs.segment<6>(6 * i) = x[static_cast<size_t>(kept[i])];
+    kept_rhs.segment<6>(6 * i) = x[static_cast<size_t>(retained[i])];
   }
   const Eigen::VectorXd kept_solution = complement.llt().solve(kept_rhs);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    x[static_cast<size_t>(kept[i])] = kept_solution.segment<6>(6 * i);
+    x[static_cast<size_t>(retained[i])] = kept_solution.segment<6>(6 * i);
   }
   cholesky.SolveBackward(x);
   const Eigen::VectorXd expected = inverse * Eigen::VectorXd::Ones(6 * num_blocks);
   for (uint32_t i = 0; i < num_blocks; ++i) {
     EXPECT_LT((x[i] - expected.segment<6>(6 * i)).norm(), 1e-12);
   }
+}
+
+TEST(BlockCholesky, IsSolvedByManyThreadsAtOnce) {
+  const uint32_t num_blocks = 200;
+  const SymmetricBlockMatrix matrix = RandomMatrix(num_blocks, 11);
+  BlockCholesky cholesky(matrix);
+  ASSERT_TRUE(cholesky.Factorize(matrix));
+  const size_t num_solves = 64;
+  std::vector<std::vector<Vector6>> alone;
+  for (size_t k = 0; k < num_solves; ++k) {
+    alone.emplace_back(num_blocks, Vector6::Constant(1.0 + static_cast<double>(k)));
+    cholesky.Solve(alone.back());
+  }
+  std::vector<std::vector<Vector6>> together(num_solves);
+  ParallelFor(num_solves, 8, [&](size_t k) {
+    together[k].assign(num_blocks, Vector6::Constant(1.0 + static_cast<double>(k)));
+    cholesky.Solve(together[k]);
+  });
+  EXPECT_EQ(together, alone);
 }
 
 TEST(BlockCholesky, KeepsABandSparse) {

@@ -62,7 +62,7 @@ double LargestDifference(const BundleState& a, const BundleState& b) {
 EvaluatedState StepOfAll(const BundleProblem& problem, const Gauge& gauge, TrialCost& cost) {
   BundleEliminator eliminator(problem, gauge, {}, {}, 1);
   const EvaluatedState start = eliminator.Start();
-  EXPECT_TRUE(eliminator.Linearize(start, kControl));
+  EXPECT_TRUE(eliminator.Linearise(start, kControl));
   EvaluatedState trial;
   cost = eliminator.BackSubstitute(start, {}, trial);
   return trial;
@@ -75,20 +75,22 @@ TEST(BundleEliminator, KeepingVariablesDoesNotChangeTheStep) {
   const EvaluatedState expected = StepOfAll(problem, gauge, expected_cost);
   const uint32_t seen = problem.observations.front().point;
   const uint32_t also_seen = problem.observations.back().point;
-  for (const KeptVariables& kept : {KeptVariables{.poses = {2, 3, 7}},
-                                    KeptVariables{.biases = {0, 1}},
-                                    KeptVariables{.points = {seen, also_seen}},
-                                    KeptVariables{{0, 1, 2, 3, 4, 5, 6, 7}, {1}, {seen}}}) {
-    BundleEliminator eliminator(problem, gauge, kept, {}, 1);
+  for (const RetainedVariables& retained :
+       {RetainedVariables{.poses = {2, 3, 7}},
+        RetainedVariables{.biases = {0, 1}},
+        RetainedVariables{.points = {seen, also_seen}},
+        RetainedVariables{{0, 1, 2, 3, 4, 5, 6, 7}, {1}, {seen}}}) {
+    BundleEliminator eliminator(problem, gauge, retained, {}, 1);
     const EvaluatedState start = eliminator.Start();
-    ASSERT_TRUE(eliminator.Linearize(start, kControl));
+    ASSERT_TRUE(eliminator.Linearise(start, kControl));
     const NormalSystem remaining = eliminator.Remaining();
-    EXPECT_EQ(remaining.S.num_blocks, kept.poses.size() + kept.biases.size() + kept.points.size());
+    EXPECT_EQ(remaining.S.num_blocks,
+              retained.poses.size() + retained.biases.size() + retained.points.size());
     EvaluatedState trial;
     const TrialCost cost = eliminator.BackSubstitute(start, SolveRemaining(remaining), trial);
     EXPECT_LT(LargestDifference(expected.variables, trial.variables), 1e-10);
     double whole = cost.cost;
-    for (const KeptPointTrial& point : cost.kept_points) whole += point.after[0].cost;
+    for (const RetainedPointTrial& point : cost.retained_points) whole += point.after[0].cost;
     EXPECT_NEAR(whole, expected_cost.cost, 1e-9 * whole);
     EXPECT_LT(cost.predicted_decrease, expected_cost.predicted_decrease);
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {

@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "core/bundle/adjust_bundle.h"
+#include "core/bundle/bundle_options.h"
+#include "core/bundle/bundle_problem.h"
 #include "core/bundle/ceres_adjuster.h"
 #include "core/geometry/equirectangular_camera.h"
 #include "tests/core/bundle/bundle_world.h"

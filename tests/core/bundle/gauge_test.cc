@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bundle/bearing_error.h"
 #include "tests/core/bundle/bundle_world.h"
 
 namespace orbweave {

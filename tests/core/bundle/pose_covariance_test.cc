@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
+#include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bearing_residual.h"
 #include "tests/core/bundle/bundle_world.h"
 
@@ -226,9 +227,8 @@ TEST(PoseCovariance, CountsTheBiasOfADrive) {
 
 // Leaves `pose` its first `count` observations and no prior.
 void Blindfold(uint32_t pose, int count, BundleProblem& problem) {
-  std::erase_if(problem.observations, [&](const BundleObservation& seen) {
-    return seen.pose == pose && count-- <= 0;
-  });
+  std::erase_if(problem.observations,
+                [&](const BundleObservation& seen) { return seen.pose == pose && count-- <= 0; });
   std::erase_if(problem.position_priors,
                 [&](const PositionPrior& prior) { return prior.pose == pose; });
   std::erase_if(problem.direction_priors,

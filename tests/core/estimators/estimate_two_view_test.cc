@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <ostream>
 
+#include "core/estimators/two_view_options.h"
+#include "core/synthetic/make_street.h"
 #include "tests/support/random_world.h"
 
 namespace orbweave {
@@ -363,6 +365,44 @@ TEST(EstimateTwoView, IsNotMisledByCloudsThatMatchMoreThanTheScene) {
       EXPECT_EQ(geometry.num_putative, 400U);
     }
   }
+}
+
+/// Adds matches of the facade on the right whose windows repeat: each with the one `period_m` on.
+void AddAliases(size_t count, double period_m, TwoViewWorld& world) {
+  Random random(79);
+  for (size_t i = 0; i < count; ++i) {
+    const Vector3d X(8.0, random.Uniform(-12.0, 2.0), random.Uniform(0.0, 14.0));
+    const Vector3d alias = X + Vector3d(0.0, 0.0, period_m);
+    world.bearings_a.push_back(WithNoise(random, X.normalized(), kSigmaRad));
+    world.bearings_b.push_back(
+        WithNoise(random, BearingOf(world.b_from_a, alias / 8.0), kSigmaRad));
+  }
+}
+
+TEST(EstimateTwoView, IsNotMisledByAFacadeWhoseWindowsRepeat) {
+  for (const double period_m : {11.0, 14.0}) {
+    for (uint64_t seed = 0; seed < 10; ++seed) {
+      TwoViewWorld world = MakeStreet(seed, 100);
+      AddAliases(250, period_m, world);
+      const TwoViewGeometry geometry = Estimate(world);
+      EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral) << period_m << " " << seed;
+      EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 2e-3);
+      EXPECT_LT(DirectionError(geometry, world), 1e-2) << period_m << " " << seed;
+    }
+  }
+}
+
+TEST(EstimateTwoView, BelievesAFacadeThatNothingElseContradicts) {
+  TwoViewWorld world = MakeStreet(4, 12);
+  AddAliases(250, 0.0, world);
+  Random random(80);
+  for (int i = 0; i < 150; ++i) {
+    world.bearings_a.push_back(RandomDirection(random));
+    world.bearings_b.push_back(RandomDirection(random));
+  }
+  const TwoViewGeometry geometry = Estimate(world);
+  EXPECT_GT(geometry.inliers.size(), 240U);
+  EXPECT_LT(DirectionError(geometry, world), 1e-2);
 }
 
 TEST(EstimateTwoView, KnowsNothingOfAPairInWhichOnlyTheSkyMatches) {

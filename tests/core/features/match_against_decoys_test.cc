@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/features/find_nearest_two.h"
 
 namespace orbweave {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "core/features/match_guided.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +12,7 @@
 
 #include "core/base/random.h"
 #include "core/features/match_descriptors.h"
+#include "core/features/match_options.h"
 
 namespace orbweave {
 namespace {

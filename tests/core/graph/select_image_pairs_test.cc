@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "core/graph/pair_options.h"
+
 namespace orbweave {
 namespace {
 

@@ -6,8 +6,11 @@
 #include <gmock/gmock.h>
 
 #include "core/io/byte_stream.h"
+#include "core/io/colmap_pair_id.h"
 #include "core/io/file.h"
+#include "core/io/read_colmap_database.h"
 #include "core/io/sqlite_connection.h"
+#include "core/io/write_colmap_database.h"
 #include "tests/core/io/io_test_support.h"
 
 namespace orbweave {

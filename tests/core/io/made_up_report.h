@@ -12,7 +12,7 @@
 
 namespace orbweave {
 
-/// A report of `num_images` panoramas on a loop round a block in `num_clusters` clusters, with
+/// A report of `num_images` panoramas on a loop round a subproblem in `num_clusters` clusters, with
 /// overlap, a loose image, one that is uncertain, GNSS outliers, images left out and warnings.
 inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
   Random random(7);
@@ -91,7 +91,7 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                    {"merge", 2.1, 2.0, 1, 0, 0},
                    {"adjust_globally", 11.9, 11.7, 1, 0, 0}};
   report.adjustments = {{.phases = {{7, true, {180250.5, 91400.25, 91399.5}}, {4, false, {}}},
-                         .bytes_of_block = {51200, 64000}}};
+                         .bytes_of_subproblem = {51200, 64000}}};
   report.workers = {{"worker-1", 1, 61}, {"worker-2", 1, 58}};
   report.elapsed_s = 231.4;
   report.warnings = {

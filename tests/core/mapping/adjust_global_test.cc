@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/export_component.h"
+#include "core/mapping/export_submodel.h"
 #include "core/mapping/filter_points.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/true_state.h"
@@ -31,9 +31,9 @@ TEST(AdjustGrowingModel, BringsADisturbedModelBack) {
   const StreetFixture street({.centres = StraightWalk(10, 3.0), .noise_px = 0.3});
   MappingState state = street.TriangulatedStateWith(FirstImages(10));
   Disturb(state, 0.02);
-  ASSERT_GT(ErrorOf(ExportComponent(state), street.world.cams_from_world).position_rmse, 0.02);
+  ASSERT_GT(ErrorOf(ExportSubmodel(state), street.world.cams_from_world).position_rmse, 0.02);
   ASSERT_TRUE(AdjustGrowingModel(state, {}, {}).ok());
-  EXPECT_LT(ErrorOf(ExportComponent(state), street.world.cams_from_world).position_rmse, 0.01);
+  EXPECT_LT(ErrorOf(ExportSubmodel(state), street.world.cams_from_world).position_rmse, 0.01);
 }
 
 TEST(AdjustFinalModel, RemovesWhatStandsOutFromAnExactModel) {

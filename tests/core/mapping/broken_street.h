@@ -10,7 +10,7 @@
 
 namespace orbweave {
 
-/// A street of 24 panoramas, 8 m apart and with a bend, that was reconstructed in two components;
+/// A street of 24 panoramas, 8 m apart and with a bend, that was reconstructed in two submodels;
 /// the second has a frame and a scale of its own. Few pairs are left between them.
 class BrokenStreet {
  public:

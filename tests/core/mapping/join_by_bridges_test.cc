@@ -7,17 +7,17 @@
 
 #include <algorithm>
 
-#include "core/mapping/export_component.h"
+#include "core/mapping/export_submodel.h"
 #include "tests/core/mapping/broken_street.h"
 #include "tests/core/mapping/model_error.h"
 
 namespace orbweave {
 namespace {
 
-std::vector<MappingState> Join(BrokenStreet& street, std::vector<MappingState> components) {
+std::vector<MappingState> Join(BrokenStreet& street, std::vector<MappingState> submodels) {
   RegistrationLog log(BrokenStreet::kImages);
   auto joined =
-      JoinByBridges(std::move(components), street.World().problem, street.Graph(), {}, log, {});
+      JoinByBridges(std::move(submodels), street.World().problem, street.Graph(), {}, log, {});
   EXPECT_TRUE(joined.ok()) << joined.status();
   return joined.ok() ? *std::move(joined) : std::vector<MappingState>();
 }
@@ -29,11 +29,11 @@ std::vector<MappingState> Both(const BrokenStreet& street) {
   return both;
 }
 
-TEST(JoinByBridges, MakesOneOfTwoComponentsThatOnePairAndGnssHoldTogether) {
+TEST(JoinByBridges, MakesOneOfTwoSubmodelsThatOnePairAndGnssHoldTogether) {
   BrokenStreet street({.pairs_between = 1});
   const std::vector<MappingState> joined = Join(street, Both(street));
   ASSERT_EQ(joined.size(), 1U);
-  const Reconstruction model = ExportComponent(joined[0]);
+  const Reconstruction model = ExportSubmodel(joined[0]);
   EXPECT_EQ(model.images.size(), BrokenStreet::kImages);
   EXPECT_LT(ErrorOf(model, street.World().cams_from_world).position_rmse, 0.6);
   const auto spans_both = [](const Track& track) {
@@ -61,11 +61,11 @@ TEST(JoinByBridges, LeavesApartWhatGnssContradicts) {
   EXPECT_EQ(Join(street, Both(street)).size(), 2U);
 }
 
-TEST(JoinByBridges, TakesInAnImageThatNoComponentHolds) {
+TEST(JoinByBridges, TakesInAnImageThatNoSubmodelHolds) {
   BrokenStreet street({.pairs_between = 3});
-  std::vector<MappingState> components;
-  components.push_back(street.Part(0, 11, {}));
-  const std::vector<MappingState> joined = Join(street, std::move(components));
+  std::vector<MappingState> submodels;
+  submodels.push_back(street.Part(0, 11, {}));
+  const std::vector<MappingState> joined = Join(street, std::move(submodels));
   ASSERT_EQ(joined.size(), 1U);
   EXPECT_GT(joined[0].Registered().size(), 11U);
 }

@@ -11,7 +11,8 @@
 
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
-#include "core/mapping/reconstruct_cluster.h"
+#include "core/mapping/cluster_problem.h"
+#include "core/synthetic/make_street.h"
 
 namespace orbweave {
 

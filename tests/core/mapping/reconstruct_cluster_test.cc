@@ -7,6 +7,10 @@
 
 #include <set>
 
+#include "core/mapping/cluster_problem.h"
+#include "core/mapping/cluster_reconstruction.h"
+#include "core/mapping/mapping_options.h"
+#include "core/synthetic/make_street.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/ray_street.h"
 
@@ -39,28 +43,28 @@ void ExpectWellFormed(const Reconstruction& reconstruction) {
 TEST(ReconstructCluster, RecoversACleanStreet) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0), .noise_px = 0.0});
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 10U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 10U);
   EXPECT_TRUE(result.not_registered.empty());
   EXPECT_LT(result.residual_rms_px, 1e-4);
-  const ModelError error = ErrorOf(result.components[0], world.cams_from_world);
+  const ModelError error = ErrorOf(result.submodels[0], world.cams_from_world);
   EXPECT_LT(error.position_rmse, 1e-5);
   EXPECT_LT(error.max_rotation_rad, 1e-6);
-  ExpectWellFormed(result.components[0]);
+  ExpectWellFormed(result.submodels[0]);
 }
 
 TEST(ReconstructCluster, ReachesTheNoiseLevel) {
   const RayStreet world =
       MakeStreet({.centres = StraightWalk(30, 3.0), .noise_px = 0.5, .outlier_share = 0.02});
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 30U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 30U);
   EXPECT_GT(result.residual_rms_px, 0.60);
   EXPECT_LT(result.residual_rms_px, 0.71);  // 0.5 px along two axes, less what is fitted
-  const ModelError error = ErrorOf(result.components[0], world.cams_from_world);
+  const ModelError error = ErrorOf(result.submodels[0], world.cams_from_world);
   EXPECT_LT(error.position_rmse, 0.01);
   EXPECT_LT(error.max_rotation_rad, 1e-3);
-  ExpectWellFormed(result.components[0]);
+  ExpectWellFormed(result.submodels[0]);
 }
 
 TEST(ReconstructCluster, PanoramasMayBeTurnedAnyWay) {
@@ -70,13 +74,13 @@ TEST(ReconstructCluster, PanoramasMayBeTurnedAnyWay) {
   const RayStreet turned = MakeStreet(options);
   const ClusterReconstruction of_upright = Reconstruct(upright);
   const ClusterReconstruction of_turned = Reconstruct(turned);
-  ASSERT_EQ(of_turned.components.size(), 1U);
-  EXPECT_EQ(of_turned.components[0].images.size(), of_upright.components[0].images.size());
-  EXPECT_NEAR(static_cast<double>(of_turned.components[0].tracks.size()),
-              static_cast<double>(of_upright.components[0].tracks.size()),
-              0.01 * static_cast<double>(of_upright.components[0].tracks.size()));
+  ASSERT_EQ(of_turned.submodels.size(), 1U);
+  EXPECT_EQ(of_turned.submodels[0].images.size(), of_upright.submodels[0].images.size());
+  EXPECT_NEAR(static_cast<double>(of_turned.submodels[0].tracks.size()),
+              static_cast<double>(of_upright.submodels[0].tracks.size()),
+              0.01 * static_cast<double>(of_upright.submodels[0].tracks.size()));
   EXPECT_NEAR(of_turned.residual_rms_px, of_upright.residual_rms_px, 0.01);
-  EXPECT_LT(ErrorOf(of_turned.components[0], turned.cams_from_world).position_rmse, 0.01);
+  EXPECT_LT(ErrorOf(of_turned.submodels[0], turned.cams_from_world).position_rmse, 0.01);
 }
 
 TEST(ReconstructCluster, ClosesALoop) {
@@ -84,17 +88,17 @@ TEST(ReconstructCluster, ClosesALoop) {
   options.window = 23;
   const RayStreet world = MakeStreet(options);
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 24U);
-  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 24U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.01);
 }
 
 TEST(ReconstructCluster, WithstandsManyWrongMatches) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(15, 3.0), .outlier_share = 0.3});
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 15U);
-  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.02);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 15U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.02);
 }
 
 TEST(ReconstructCluster, PassesAStopAtALight) {
@@ -109,30 +113,30 @@ TEST(ReconstructCluster, PassesAStopAtALight) {
   for (int i = 1; i <= 6; ++i) centres.push_back(stop + Eigen::Vector3d(3.0 * i, 0.0, 0.0));
   const RayStreet world = MakeStreet({.centres = centres, .points_per_metre = 16, .window = 22});
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 32U);
-  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.02);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 32U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.02);
 }
 
-TEST(ReconstructCluster, HasNoComponentOfACameraThatNeverMoves) {
+TEST(ReconstructCluster, HasNoSubmodelOfACameraThatNeverMoves) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(6, 0.0), .points_per_metre = 80});
   ASSERT_FALSE(world.problem.pairs.empty());
   const ClusterReconstruction result = Reconstruct(world);
-  EXPECT_TRUE(result.components.empty());
+  EXPECT_TRUE(result.submodels.empty());
   EXPECT_EQ(result.not_registered.size(), 6U);
 }
 
-TEST(ReconstructCluster, KeepsTwoComponentsApart) {
+TEST(ReconstructCluster, KeepsTwoSubmodelsApart) {
   std::vector<Eigen::Vector3d> centres = StraightWalk(8, 3.0);
   for (const Eigen::Vector3d& centre : StraightWalk(6, 3.0)) {
     centres.push_back(centre + Eigen::Vector3d(500.0, 0.0, 0.0));
   }
   const RayStreet world = MakeStreet({.centres = centres});
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 2U);
-  EXPECT_EQ(result.components[0].images.size(), 8U);
-  EXPECT_EQ(result.components[1].images.size(), 6U);
-  EXPECT_EQ(result.components[1].images.begin()->first, ImageId(8));
+  ASSERT_EQ(result.submodels.size(), 2U);
+  EXPECT_EQ(result.submodels[0].images.size(), 8U);
+  EXPECT_EQ(result.submodels[1].images.size(), 6U);
+  EXPECT_EQ(result.submodels[1].images.begin()->first, ImageId(8));
 }
 
 TEST(ReconstructCluster, NamesImagesThatItCannotPlace) {
@@ -146,8 +150,8 @@ TEST(ReconstructCluster, NamesImagesThatItCannotPlace) {
   std::erase_if(world.problem.pairs,
                 [](const TwoViewGeometry& pair) { return pair.pair.a == ImageId(0); });
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 8U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 8U);
   ASSERT_EQ(result.not_registered.size(), 2U);
   EXPECT_EQ(result.not_registered[0].image, ImageId(0));
   EXPECT_EQ(result.not_registered[0].reason, "no verified matches");
@@ -168,9 +172,9 @@ TEST(ReconstructCluster, RecoversFromABadSeed) {
   world.problem.pairs[first].b_from_a.rotation =
       RotationFromVector({0.5, 0.2, 0.0}) * world.problem.pairs[first].b_from_a.rotation;
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 12U);
-  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.01);
 }
 
 TEST(ReconstructCluster, StartsInAScenePartlyTooFarForDepth) {
@@ -185,8 +189,8 @@ TEST(ReconstructCluster, StartsInAScenePartlyTooFarForDepth) {
     ASSERT_LT(pair.median_angle_rad * 180.0 / std::numbers::pi, mapping.min_angle_deg);
   }
   const ClusterReconstruction result = Reconstruct(world, mapping);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 12U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
 }
 
 /// Both starts of the same world end in the same model, but for what noise leaves open.
@@ -197,14 +201,14 @@ void ExpectStartsAgree(const RayStreet& world) {
   EXPECT_TRUE(at_once.started_globally) << at_once.start_remark;
   EXPECT_EQ(at_once.start_remark, "");
   EXPECT_EQ(at_once.num_local_adjustments, 0);
-  ASSERT_EQ(at_once.components.size(), 1U);
-  ASSERT_EQ(from_seed.components.size(), 1U);
-  EXPECT_EQ(at_once.components[0].images.size(), from_seed.components[0].images.size());
+  ASSERT_EQ(at_once.submodels.size(), 1U);
+  ASSERT_EQ(from_seed.submodels.size(), 1U);
+  EXPECT_EQ(at_once.submodels[0].images.size(), from_seed.submodels[0].images.size());
   EXPECT_NEAR(at_once.residual_rms_px, from_seed.residual_rms_px, 0.01);
-  const double seed_error = ErrorOf(from_seed.components[0], world.cams_from_world).position_rmse;
-  const double error = ErrorOf(at_once.components[0], world.cams_from_world).position_rmse;
+  const double seed_error = ErrorOf(from_seed.submodels[0], world.cams_from_world).position_rmse;
+  const double error = ErrorOf(at_once.submodels[0], world.cams_from_world).position_rmse;
   EXPECT_LT(error, 1.1 * seed_error + 1e-3);
-  ExpectWellFormed(at_once.components[0]);
+  ExpectWellFormed(at_once.submodels[0]);
 }
 
 TEST(ReconstructCluster, StartsAgreeOnAStraightStreet) {
@@ -244,9 +248,9 @@ TEST(ReconstructCluster, AutoBeginsWithASeedWherePairsContradictEachOther) {
       Reconstruct(world, {.start = MappingStart::kAuto, .max_seeds = 100});
   EXPECT_FALSE(result.started_globally);
   EXPECT_NE(result.start_remark, "");
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 12U);
-  EXPECT_LT(ErrorOf(result.components[0], world.cams_from_world).position_rmse, 0.01);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.01);
 }
 
 TEST(ReconstructCluster, AGlobalStartThatFailsIsNamedAndReplaced) {
@@ -254,8 +258,8 @@ TEST(ReconstructCluster, AGlobalStartThatFailsIsNamedAndReplaced) {
       Reconstruct(MakeStreetWithBadPairs(), {.start = MappingStart::kGlobal, .max_seeds = 100});
   EXPECT_FALSE(result.started_globally);
   EXPECT_NE(result.start_remark.find("images only"), std::string::npos) << result.start_remark;
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 12U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
 }
 
 TEST(ReconstructCluster, AGlobalStartRegistersWhatPairsCannotPlace) {
@@ -269,11 +273,11 @@ TEST(ReconstructCluster, AGlobalStartRegistersWhatPairsCannotPlace) {
   const ClusterReconstruction result = Reconstruct(world, {.start = MappingStart::kAuto});
   EXPECT_TRUE(result.started_globally) << result.start_remark;
   EXPECT_EQ(result.num_local_adjustments, 1);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 15U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 15U);
 }
 
-TEST(ReconstructCluster, AGlobalStartKeepsComponentsApart) {
+TEST(ReconstructCluster, AGlobalStartKeepsSubmodelsApart) {
   std::vector<Eigen::Vector3d> centres = StraightWalk(8, 3.0);
   for (const Eigen::Vector3d& centre : StraightWalk(6, 3.0)) {
     centres.push_back(centre + Eigen::Vector3d(500.0, 0.0, 0.0));
@@ -281,9 +285,9 @@ TEST(ReconstructCluster, AGlobalStartKeepsComponentsApart) {
   const ClusterReconstruction result =
       Reconstruct(MakeStreet({.centres = centres}), {.start = MappingStart::kAuto});
   EXPECT_TRUE(result.started_globally) << result.start_remark;
-  ASSERT_EQ(result.components.size(), 2U);
-  EXPECT_EQ(result.components[0].images.size(), 8U);
-  EXPECT_EQ(result.components[1].images.size(), 6U);
+  ASSERT_EQ(result.submodels.size(), 2U);
+  EXPECT_EQ(result.submodels[0].images.size(), 8U);
+  EXPECT_EQ(result.submodels[1].images.size(), 6U);
 }
 
 TEST(ReconstructCluster, ThePaperBeginsWithASeed) {
@@ -298,7 +302,7 @@ TEST(ReconstructCluster, TinyInputsAreNoError) {
     const RayStreet world =
         MakeStreet({.centres = StraightWalk(count, 3.0), .points_per_metre = 40});
     const ClusterReconstruction result = Reconstruct(world);
-    EXPECT_EQ(result.components.size(), count == 3 ? 1U : 0U) << count;
+    EXPECT_EQ(result.submodels.size(), count == 3 ? 1U : 0U) << count;
     EXPECT_EQ(result.not_registered.size(), count == 3 ? 0U : static_cast<size_t>(count)) << count;
   }
 }
@@ -308,8 +312,8 @@ TEST(ReconstructCluster, PaperPresetReconstructsToo) {
   MappingOptions options;
   options.preset = MappingPreset::kPaper;
   const ClusterReconstruction result = Reconstruct(world, options);
-  ASSERT_EQ(result.components.size(), 1U);
-  EXPECT_EQ(result.components[0].images.size(), 12U);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
 }
 
 TEST(ReconstructCluster, PaperPresetAdjustsLocallyOnceMoreThanThreeImagesAreNew) {
@@ -317,7 +321,7 @@ TEST(ReconstructCluster, PaperPresetAdjustsLocallyOnceMoreThanThreeImagesAreNew)
   // Nothing but the end adjusts globally: 10 images after the seed, local adjustments at 4 and 8.
   MappingOptions options = {.preset = MappingPreset::kPaper, .global_growth = 10.0};
   const ClusterReconstruction result = Reconstruct(world, options);
-  ASSERT_EQ(result.components.size(), 1U);
+  ASSERT_EQ(result.submodels.size(), 1U);
   EXPECT_EQ(result.num_local_adjustments, 2);
 }
 
@@ -330,30 +334,29 @@ TEST(ReconstructCluster, PaperPresetWeighsAndLimitsPixelsAlike) {
   const ClusterReconstruction ours = Reconstruct(world, options);
   options.preset = MappingPreset::kPaper;
   const ClusterReconstruction paper = Reconstruct(world, options);
-  ASSERT_EQ(paper.components.size(), 1U);
-  for (const Track& track : paper.components[0].tracks) {
+  ASSERT_EQ(paper.submodels.size(), 1U);
+  for (const Track& track : paper.submodels[0].tracks) {
     for (const Observation& seen : track.observations)
       EXPECT_FLOAT_EQ(static_cast<float>(seen.sigma_rad),
                       static_cast<float>(kStreetCamera.AngleFromPixels(1.0)));
   }
   // Errors of up to 4 px stay, and so do points of two observations.
-  EXPECT_GE(paper.components[0].tracks.size(), ours.components[0].tracks.size());
+  EXPECT_GE(paper.submodels[0].tracks.size(), ours.submodels[0].tracks.size());
 }
 
 TEST(ReconstructCluster, GivesTheSameBytesForAnyThreadCount) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(10, 3.0), .outlier_share = 0.05});
   const auto one = ReconstructCluster(world.problem, {}, {.num_threads = 1, .seed = 3}).value();
   const auto two = ReconstructCluster(world.problem, {}, {.num_threads = 2, .seed = 3}).value();
-  ASSERT_EQ(one.components.size(), two.components.size());
-  ASSERT_EQ(one.components[0].tracks.size(), two.components[0].tracks.size());
-  for (const auto& [id, image] : one.components[0].images) {
-    const Rigid3& other = two.components[0].images.at(id).cam_from_world;
+  ASSERT_EQ(one.submodels.size(), two.submodels.size());
+  ASSERT_EQ(one.submodels[0].tracks.size(), two.submodels[0].tracks.size());
+  for (const auto& [id, image] : one.submodels[0].images) {
+    const Rigid3& other = two.submodels[0].images.at(id).cam_from_world;
     EXPECT_EQ(image.cam_from_world.rotation.coeffs(), other.rotation.coeffs());
     EXPECT_EQ(image.cam_from_world.translation, other.translation);
   }
-  for (size_t i = 0; i < one.components[0].tracks.size(); ++i) {
-    EXPECT_EQ(one.components[0].tracks[i].point_in_world,
-              two.components[0].tracks[i].point_in_world);
+  for (size_t i = 0; i < one.submodels[0].tracks.size(); ++i) {
+    EXPECT_EQ(one.submodels[0].tracks[i].point_in_world, two.submodels[0].tracks[i].point_in_world);
   }
 }
 
@@ -374,8 +377,8 @@ TEST(ReconstructCluster, IsCancelledBetweenImages) {
 TEST(ReconstructCluster, ColoursATrackByTheMeanOfItsFeatures) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(5, 3.0)});
   const ClusterReconstruction result = Reconstruct(world);
-  ASSERT_FALSE(result.components.empty());
-  for (const Track& track : result.components[0].tracks) {
+  ASSERT_FALSE(result.submodels.empty());
+  for (const Track& track : result.submodels[0].tracks) {
     EXPECT_EQ(track.color.g, 100);
     EXPECT_EQ(track.color.b, 200);
   }

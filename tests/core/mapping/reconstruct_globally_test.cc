@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/export_component.h"
+#include "core/mapping/export_submodel.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/true_state.h"
 
@@ -27,7 +27,7 @@ TEST(ReconstructGlobally, ReachesTheNoiseLevel) {
   EXPECT_EQ(model.fault, "");
   EXPECT_EQ(model.state->Registered().size(), 30U);
   EXPECT_EQ(model.growth.num_local_adjustments, 0);
-  const ModelError error = ErrorOf(ExportComponent(*model.state), street.world.cams_from_world);
+  const ModelError error = ErrorOf(ExportSubmodel(*model.state), street.world.cams_from_world);
   EXPECT_LT(error.position_rmse, 0.01);
   EXPECT_LT(error.max_rotation_rad, 1e-3);
 }

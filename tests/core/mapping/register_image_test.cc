@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mapping/scene_correspondences.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {
@@ -41,6 +42,30 @@ TEST(RegisterImage, RefusesAnImageWhoseMatchesAreWrong) {
   }
   MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});
   EXPECT_FALSE(RegisterImage(state, 4, {}, {}).value().registered);
+}
+
+/// Moves six in ten of the points that image 4 sees `shift` along the street, as if its windows had
+/// been matched with others.
+void ShiftPoints(const Eigen::Vector3d& shift, MappingState& state) {
+  const SceneCorrespondences seen = FindSceneCorrespondences(state, 4);
+  for (size_t i = 0; i < seen.size(); ++i) {
+    if (i % 10 >= 6) continue;
+    state.SetPosition(seen.points[i], seen.positions[i] + shift);
+  }
+}
+
+TEST(RegisterImage, HeedsPairsWhereMostPointsAreAWindowTooFarAlong) {
+  const StreetFixture street(
+      {.centres = StraightWalk(5, 3.0), .noise_px = 0.3, .random_rotations = true});
+  MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});
+  const Eigen::Vector3d step = state.Centre(3) - state.Centre(2);
+  ShiftPoints(-2.0 * step, state);
+  const Eigen::Vector3d truth = street.world.cams_from_world[4].Centre();
+  MappingState blind = state;
+  ASSERT_TRUE(RegisterImage(blind, 4, {.heeds_pairs = false}, {}).value().registered);
+  EXPECT_GT((blind.Centre(4) - truth).norm(), 5.0);
+  ASSERT_TRUE(RegisterImage(state, 4, {}, {}).value().registered);
+  EXPECT_LT((state.Centre(4) - truth).norm(), 0.05);
 }
 
 TEST(RegisterImage, IsCancelledOnRequest) {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/export_component.h"
+#include "core/mapping/export_submodel.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/true_state.h"
 
@@ -25,7 +25,7 @@ TEST(StartGlobally, HasAllImagesNearTheirPlaces) {
   MappingState state = street.StateWith({});
   ASSERT_TRUE(Start(state));
   EXPECT_EQ(state.Registered().size(), 25U);
-  const ModelError error = ErrorOf(ExportComponent(state), street.world.cams_from_world);
+  const ModelError error = ErrorOf(ExportSubmodel(state), street.world.cams_from_world);
   EXPECT_LT(error.position_rmse, 0.03);
   EXPECT_LT(error.max_rotation_rad, 2e-3);
 }

@@ -5,9 +5,13 @@
 #include <map>
 #include <utility>
 
-#include "core/merging/adjust_blocks.h"
+#include "core/bundle/bundle_options.h"
 #include "core/merging/divide_world.h"
+#include "core/merging/finalise_adjustment.h"
+#include "core/merging/georeference.h"
 #include "core/merging/georeference_reconstruction.h"
+#include "core/merging/inspect_subproblem.h"
+#include "core/partitioned_ba/adjust_subproblems.h"
 
 namespace orbweave::testing {
 
@@ -16,7 +20,7 @@ struct GloballyAdjusted {
   GlobalAdjustReport report{};
 };
 
-// All that the stages do to a world after the merge, for one that is a single block.
+// All that the stages do to a world after the merge, for one that is a single subproblem.
 inline absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruction,
                                                        const ImageManifest& manifest,
                                                        const GlobalAdjustOptions& options,
@@ -29,23 +33,23 @@ inline absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruc
     reconstruction = Transformed(*georeference.enu_from_world, std::move(reconstruction));
   std::map<ImageId, uint32_t> one_owner;
   for (const auto& [id, image] : reconstruction.images) one_owner[id] = 0;
-  ORBWEAVE_ASSIGN_OR_RETURN(AdjustedBlocks adjusted,
-                            AdjustBlocks(DivideWorld(std::move(reconstruction),
-                                                     0,
-                                                     one_owner,
-                                                     georeference,
-                                                     manifest,
-                                                     options.gnss_bias_sigma_m),
-                                         options,
-                                         bundle,
-                                         context));
+  ORBWEAVE_ASSIGN_OR_RETURN(AdjustedSubproblems adjusted,
+                            AdjustSubproblems(DivideWorld(std::move(reconstruction),
+                                                          0,
+                                                          one_owner,
+                                                          georeference,
+                                                          manifest,
+                                                          options.gnss_bias_sigma_m),
+                                              options,
+                                              bundle,
+                                              context));
   AdjustedWorld left{.summaries = std::move(adjusted.summaries),
                      .report = std::move(adjusted.report)};
-  for (const WorldBlock& block : adjusted.blocks)
-    left.inspections.push_back(InspectBlock(block, context.num_threads));
-  const ConcludedWorld world =
-      ConcludeAdjustment(std::move(left), {}, georeference, manifest, options);
-  return GloballyAdjusted{GatherWorld(world, std::move(adjusted.blocks)), world.report};
+  for (const Subproblem& subproblem : adjusted.subproblems)
+    left.inspections.push_back(InspectSubproblem(subproblem, context.num_threads));
+  const FinalisedWorld world =
+      FinaliseAdjustment(std::move(left), {}, georeference, manifest, options);
+  return GloballyAdjusted{GatherWorld(world, std::move(adjusted.subproblems)), world.report};
 }
 
 }  // namespace orbweave::testing

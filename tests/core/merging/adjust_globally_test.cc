@@ -10,6 +10,8 @@
 #include <cstring>
 
 #include "core/geometry/rotation.h"
+#include "core/synthetic/corridor_options.h"
+#include "core/synthetic/make_corridor.h"
 #include "tests/core/merging/corridor_model.h"
 
 namespace orbweave {

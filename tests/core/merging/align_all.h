@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "core/merging/align_options.h"
 #include "core/merging/align_submodels.h"
+#include "core/merging/alignment.h"
 
 namespace orbweave::testing {
 
-// FitSeams cluster by cluster, then AlignSubmodels. `submodels`: by cluster and component.
+// FitSeams cluster by cluster, then AlignSubmodels. `submodels`: by cluster and submodel.
 inline absl::StatusOr<Alignment> AlignAll(std::span<const Submodel> submodels,
                                           const AlignOptions& options = {},
                                           const StageContext& context = {}) {

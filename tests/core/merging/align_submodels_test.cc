@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/merging/alignment.h"
+#include "core/synthetic/make_street.h"
 #include "tests/core/merging/align_all.h"
 #include "tests/core/merging/split_world.h"
 

@@ -22,8 +22,8 @@ ImageManifest Street(uint32_t num_images) {
 }
 
 /// Holds images [begin, end); image i is turned by i hundredths of a radian about z.
-ConcludedWorld World(uint32_t begin, uint32_t end, bool georeferenced) {
-  ConcludedWorld world;
+FinalisedWorld World(uint32_t begin, uint32_t end, bool georeferenced) {
+  FinalisedWorld world;
   for (uint32_t i = begin; i < end; ++i) {
     world.images[ImageId(i)].cam_from_world.rotation =
         RotationFromVector(Eigen::Vector3d(0.0, 0.0, 0.01 * i));
@@ -38,7 +38,7 @@ double TurnAboutZ(const RegisteredImage& image) {
 
 TEST(AttachLooseImages, PutsMissingImagesAtTheirPositionsTurnedAsTheirNeighbours) {
   const ImageManifest manifest = Street(12);
-  std::vector<ConcludedWorld> worlds = {World(2, 5, true)};
+  std::vector<FinalisedWorld> worlds = {World(2, 5, true)};
   for (uint32_t i = 9; i < 11; ++i) worlds[0].images.merge(World(i, i + 1, true).images);
   AttachLooseImages(manifest, worlds);
   ASSERT_EQ(worlds[0].images.size(), 12U);
@@ -59,7 +59,7 @@ TEST(AttachLooseImages, StandsLevelWithItsHeadingWhereNobodyOfTheDriveIsObserved
   ImageManifest manifest = Street(3);
   manifest.images[2].drive = 1;
   manifest.images[2].prior.heading_deg = 90.0;
-  std::vector<ConcludedWorld> worlds = {World(0, 2, true)};
+  std::vector<FinalisedWorld> worlds = {World(0, 2, true)};
   AttachLooseImages(manifest, worlds);
   const Rigid3& camera = worlds[0].images.at(ImageId(2)).cam_from_world;
   EXPECT_LT((camera.rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitZ()).norm(), 1e-12)
@@ -70,7 +70,7 @@ TEST(AttachLooseImages, StandsLevelWithItsHeadingWhereNobodyOfTheDriveIsObserved
 
 TEST(AttachLooseImages, TakesImagesOfAWorldThatIsNotGeoreferencedButNotOfOneThatIs) {
   const ImageManifest manifest = Street(9);
-  std::vector<ConcludedWorld> worlds = {World(0, 4, true), World(4, 7, true), World(7, 9, false)};
+  std::vector<FinalisedWorld> worlds = {World(0, 4, true), World(4, 7, true), World(7, 9, false)};
   AttachLooseImages(manifest, worlds);
   EXPECT_EQ(worlds[0].images.size(), 6U);
   EXPECT_TRUE(worlds[0].images.at(ImageId(8)).loose);
@@ -81,13 +81,13 @@ TEST(AttachLooseImages, TakesImagesOfAWorldThatIsNotGeoreferencedButNotOfOneThat
 TEST(AttachLooseImages, LeavesOutImagesWithoutPositionAndWorldsWithoutGnss) {
   ImageManifest manifest = Street(4);
   manifest.images[3].prior.position_in_enu.reset();
-  std::vector<ConcludedWorld> worlds = {World(0, 3, true)};
+  std::vector<FinalisedWorld> worlds = {World(0, 3, true)};
   AttachLooseImages(manifest, worlds);
   EXPECT_EQ(worlds[0].images.size(), 3U);
-  std::vector<ConcludedWorld> free = {World(0, 2, false)};
+  std::vector<FinalisedWorld> free = {World(0, 2, false)};
   AttachLooseImages(manifest, free);
   EXPECT_EQ(free[0].images.size(), 2U);
-  std::vector<ConcludedWorld> none;
+  std::vector<FinalisedWorld> none;
   AttachLooseImages(manifest, none);
   EXPECT_TRUE(none.empty());
 }

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/merging/adjust_blocks.h"
 #include "core/merging/divide_world.h"
+#include "core/merging/finalise_adjustment.h"
+#include "core/partitioned_ba/adjust_subproblems.h"
+#include "core/synthetic/make_corridor.h"
 #include "tests/core/merging/corridor_model.h"
 
 namespace orbweave {
@@ -29,34 +31,34 @@ std::vector<Seam> OneSeam() {
   return {seam};
 }
 
-std::vector<WorldBlock> AdjustedBlocksOf(double noise_px) {
+std::vector<Subproblem> AdjustedSubproblemsOf(double noise_px) {
   const Corridor corridor = MakeCorridor({.panoramas = 2 * kPerCluster, .noise_px = noise_px});
   const Reconstruction model = testing::TrueModel(corridor);
-  auto adjusted = AdjustBlocks(
+  auto adjusted = AdjustSubproblems(
       DivideWorld(model, 0, Owners(model), {.reason = "none"}, corridor.manifest, 2.0), {}, {}, {});
   EXPECT_TRUE(adjusted.ok());
-  return std::move(adjusted->blocks);
+  return std::move(adjusted->subproblems);
 }
 
-SeamCertificate Certify(const std::vector<WorldBlock>& blocks) {
+SeamCertificate Certify(const std::vector<Subproblem>& subproblems) {
   SeamCertifier certifier(OneSeam(), {0, 1});
-  for (const WorldBlock& block : blocks) certifier.Add(PlaceBySides(block));
+  for (const Subproblem& subproblem : subproblems) certifier.Add(PlaceBySides(subproblem));
   const std::vector<SeamCertificate> certificates = certifier.Finish(kBearingFactor);
   EXPECT_EQ(certificates.size(), 1U);
   return certificates.empty() ? SeamCertificate{} : certificates.front();
 }
 
 /// Shifts what panoramas of cluster 1 alone see.
-void Tear(const Eigen::Vector3d& shift, std::vector<WorldBlock>& blocks) {
-  for (WorldBlock& block : blocks) {
-    for (Track& track : block.scene.tracks) {
+void Tear(const Eigen::Vector3d& shift, std::vector<Subproblem>& subproblems) {
+  for (Subproblem& subproblem : subproblems) {
+    for (Track& track : subproblem.scene.tracks) {
       if (track.Name().image.value >= kPerCluster) track.point_in_world += shift;
     }
   }
 }
 
 TEST(SeamCertifier, FindsNoMoreThanNoiseWhereBothSidesAgree) {
-  const SeamCertificate seam = Certify(AdjustedBlocksOf(0.5));
+  const SeamCertificate seam = Certify(AdjustedSubproblemsOf(0.5));
   EXPECT_EQ(seam.num_images, 10U);
   EXPECT_LT(seam.position_jump_m, 3.0 * seam.position_noise_m);
   EXPECT_LT(seam.rotation_jump_deg, 3.0 * seam.rotation_noise_deg);
@@ -64,24 +66,24 @@ TEST(SeamCertifier, FindsNoMoreThanNoiseWhereBothSidesAgree) {
 }
 
 TEST(SeamCertifier, FindsNothingInExactBearings) {
-  const SeamCertificate seam = Certify(AdjustedBlocksOf(0.0));
+  const SeamCertificate seam = Certify(AdjustedSubproblemsOf(0.0));
   EXPECT_LT(seam.position_jump_m, 1e-6);
   EXPECT_LT(seam.rotation_jump_deg, 1e-6);
 }
 
 TEST(SeamCertifier, FindsASideThatIsTornOff) {
-  std::vector<WorldBlock> blocks = AdjustedBlocksOf(0.5);
+  std::vector<Subproblem> subproblems = AdjustedSubproblemsOf(0.5);
   const Eigen::Vector3d shift(0.03, -0.04, 0.0);
-  Tear(shift, blocks);
-  const SeamCertificate seam = Certify(blocks);
+  Tear(shift, subproblems);
+  const SeamCertificate seam = Certify(subproblems);
   EXPECT_GT(seam.position_jump_m, 0.3 * shift.norm());
   EXPECT_GT(seam.position_jump_m, 6.0 * seam.position_noise_m);
 }
 
 TEST(SeamCertifier, KnowsNothingOfASeamWithoutPoints) {
-  std::vector<WorldBlock> blocks = AdjustedBlocksOf(0.5);
-  for (WorldBlock& block : blocks) block.scene.tracks.clear();
-  EXPECT_EQ(Certify(blocks).num_images, 0U);
+  std::vector<Subproblem> subproblems = AdjustedSubproblemsOf(0.5);
+  for (Subproblem& subproblem : subproblems) subproblem.scene.tracks.clear();
+  EXPECT_EQ(Certify(subproblems).num_images, 0U);
 }
 
 }  // namespace

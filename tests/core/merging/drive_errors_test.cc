@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/merging/georeference.h"
 #include "core/merging/georeference_reconstruction.h"
 #include "core/merging/gnss_smoothness.h"
 #include "tests/core/merging/driven_street.h"

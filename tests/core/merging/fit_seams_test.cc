@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "core/merging/rim.h"
+#include "core/merging/boundary_tracks.h"
 #include "proto/codec/seams_codec.h"
 #include "tests/core/merging/split_world.h"
 
@@ -46,31 +46,32 @@ TEST(FitSeams, FindsThoseWithACommonImageOnce) {
 
 TEST(FitSeams, NeedsNoMoreThanRims) {
   const SplitWorld world = StraightWorld();
-  std::vector<Submodel> rims = world.submodels;
-  for (Submodel& rim : rims) {
+  std::vector<Submodel> boundaries = world.submodels;
+  for (Submodel& boundary : boundaries) {
     std::vector<ImageId> shared;
-    for (const auto& [id, image] : rim.reconstruction.images) {
+    for (const auto& [id, image] : boundary.reconstruction.images) {
       for (const Submodel& other : world.submodels) {
-        if (other.cluster == rim.cluster || !other.reconstruction.images.contains(id)) continue;
+        if (other.cluster == boundary.cluster || !other.reconstruction.images.contains(id))
+          continue;
         shared.push_back(id);
         break;
       }
     }
-    rim.reconstruction = RimOf(rim.reconstruction, shared);
+    boundary.reconstruction = BoundaryTracksOf(boundary.reconstruction, shared);
   }
   const std::span<const Submodel> whole = world.submodels;
-  const std::span<const Submodel> part = rims;
-  for (size_t m = 0; m < rims.size(); ++m) {
-    EXPECT_EQ(EncodeSeamsOfCluster(Fit(whole.subspan(m, 1), whole.subspan(m + 1), 1)),
-              EncodeSeamsOfCluster(Fit(part.subspan(m, 1), part.subspan(m + 1), 1)));
+  const std::span<const Submodel> part = boundaries;
+  for (size_t m = 0; m < boundaries.size(); ++m) {
+    EXPECT_EQ(EncodeSeamsOfCluster(Fit(whole.subspan(m, 1), whole.subspan(m + 1), 1)).value(),
+              EncodeSeamsOfCluster(Fit(part.subspan(m, 1), part.subspan(m + 1), 1)).value());
   }
 }
 
 TEST(FitSeams, GivesTheSameBytesForAnyNumberOfThreads) {
   const SplitWorld world = StraightWorld();
   const std::span<const Submodel> all = world.submodels;
-  EXPECT_EQ(EncodeSeamsOfCluster(Fit(all.first(1), all.subspan(1), 1)),
-            EncodeSeamsOfCluster(Fit(all.first(1), all.subspan(1), 3)));
+  EXPECT_EQ(EncodeSeamsOfCluster(Fit(all.first(1), all.subspan(1), 1)).value(),
+            EncodeSeamsOfCluster(Fit(all.first(1), all.subspan(1), 3)).value());
 }
 
 TEST(FitSeams, AllowsClustersOfWhichNothingIsLeft) {
@@ -83,20 +84,20 @@ TEST(FitSeams, AllowsClustersOfWhichNothingIsLeft) {
 TEST(SeamsCodec, GivesBackWhatItTook) {
   const SplitWorld world = StraightWorld();
   const std::span<const Submodel> all = world.submodels;
-  const std::string bytes = EncodeSeamsOfCluster(Fit(all.first(2), all.subspan(2), 1));
+  const std::string bytes = EncodeSeamsOfCluster(Fit(all.first(2), all.subspan(2), 1)).value();
   const auto decoded = DecodeSeamsOfCluster(bytes);
   ASSERT_TRUE(decoded.ok()) << decoded.status();
-  EXPECT_EQ(EncodeSeamsOfCluster(*decoded), bytes);
+  EXPECT_EQ(EncodeSeamsOfCluster(*decoded).value(), bytes);
 }
 
 TEST(SeamsCodec, RefusesWhatIsCutOff) {
   const SplitWorld world = StraightWorld();
   const std::span<const Submodel> all = world.submodels;
-  const std::string bytes = EncodeSeamsOfCluster(Fit(all.first(2), all.subspan(2), 1));
+  const std::string bytes = EncodeSeamsOfCluster(Fit(all.first(2), all.subspan(2), 1)).value();
   for (size_t size = 1; size + 1 < bytes.size(); size += 97) {
     const auto decoded = DecodeSeamsOfCluster(std::string_view(bytes).substr(0, size));
     if (!decoded.ok()) continue;
-    EXPECT_LT(EncodeSeamsOfCluster(*decoded).size(), bytes.size()) << size;
+    EXPECT_LT(EncodeSeamsOfCluster(*decoded).value().size(), bytes.size()) << size;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/geometry/rotation.h"
 #include "core/merging/find_gravity.h"
+#include "core/merging/georeference.h"
 #include "tests/support/random_world.h"
 
 namespace orbweave {

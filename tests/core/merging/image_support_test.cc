@@ -10,6 +10,7 @@
 
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
+#include "core/synthetic/make_corridor.h"
 #include "tests/core/merging/adjust_globally.h"
 #include "tests/core/merging/corridor_model.h"
 
@@ -128,20 +129,20 @@ TEST(JudgeSupport, NeedsMoreThanTheEpipolarPlanesOfOneOtherImage) {
   // Pairs alone leave the distance between two images open.
   std::vector<PatchSupport> patches;
   Random random(3);
-  WorldBlock block;
-  block.scene.images[ImageId(0)] = {};
-  block.scene.images[ImageId(1)] = {
+  Subproblem subproblem;
+  subproblem.scene.images[ImageId(0)] = {};
+  subproblem.scene.images[ImageId(1)] = {
       .cam_from_world = Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0})};
   for (FeatureIndex f = 0; f < 300; ++f) {
     Track track{.point_in_world = 5.0 * testing::RandomDirection(random)};
-    for (const auto& [id, image] : block.scene.images) {
+    for (const auto& [id, image] : subproblem.scene.images) {
       track.observations.push_back(
           {.ref = {id, f}, .bearing = (image.cam_from_world * track.point_in_world).normalized()});
     }
-    block.scene.tracks.push_back(track);
+    subproblem.scene.tracks.push_back(track);
   }
   std::map<ImageId, std::vector<PatchSupport>> of_image;
-  AddSupport(SupportOf(block), of_image);
+  AddSupport(SupportOf(subproblem), of_image);
   const SupportVerdict verdict = JudgeSupport(of_image.at(ImageId(1)));
   EXPECT_TRUE(verdict.is_weak);
   EXPECT_THAT(verdict.reason, HasSubstr("do not fix its pose"));
@@ -167,11 +168,11 @@ TEST(SupportOf, DoesNotChangeWhenThePanoramaTurns) {
   EXPECT_LT((sum_of(model) - before).norm(), 1e-9 * before.norm());
 }
 
-TEST(SupportOf, PartsOfABlockAddUpToTheWhole) {
+TEST(SupportOf, PartsOfASubproblemAddUpToTheWhole) {
   const Corridor corridor = Street();
-  WorldBlock whole{.scene = TrueModel(corridor)};
-  WorldBlock first = whole;
-  WorldBlock second = whole;
+  Subproblem whole{.scene = TrueModel(corridor)};
+  Subproblem first = whole;
+  Subproblem second = whole;
   const auto half = static_cast<std::ptrdiff_t>(whole.scene.tracks.size() / 2);
   first.scene.tracks.erase(first.scene.tracks.begin() + half, first.scene.tracks.end());
   second.scene.tracks.erase(second.scene.tracks.begin(), second.scene.tracks.begin() + half);

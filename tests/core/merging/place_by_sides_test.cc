@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/merging/divide_world.h"
+#include "core/synthetic/make_corridor.h"
 #include "tests/core/merging/corridor_model.h"
 
 namespace orbweave {
@@ -18,14 +19,14 @@ namespace {
 constexpr uint32_t kPerCluster = 40;
 
 /// An image that shares no point with another cluster of two.
-ImageId FarFromOthers(const WorldBlock& block) {
-  return block.cluster == 0 ? ImageId(2) : ImageId(2 * kPerCluster - 1);
+ImageId FarFromOthers(const Subproblem& subproblem) {
+  return subproblem.cluster == 0 ? ImageId(2) : ImageId(2 * kPerCluster - 1);
 }
 
 using Placements = std::map<std::pair<ImageId, uint32_t>, SidePlacement>;
 
-/// A corridor in blocks of kPerCluster panoramas.
-std::vector<WorldBlock> Blocks(int num_clusters) {
+/// A corridor in subproblems of kPerCluster panoramas.
+std::vector<Subproblem> Subproblems(int num_clusters) {
   const Corridor corridor =
       MakeCorridor({.panoramas = static_cast<int>(kPerCluster) * num_clusters});
   const Reconstruction model = testing::TrueModel(corridor);
@@ -34,12 +35,12 @@ std::vector<WorldBlock> Blocks(int num_clusters) {
   return DivideWorld(model, 0, owners, {.reason = "none"}, corridor.manifest, 2.0);
 }
 
-/// Those that two clusters have of one image, summed over the blocks.
-Placements BetweenClusters(const std::vector<WorldBlock>& blocks) {
+/// Those that two clusters have of one image, summed over the subproblems.
+Placements BetweenClusters(const std::vector<Subproblem>& subproblems) {
   Placements sum;
   std::map<ImageId, int> clusters_of_image;
-  for (const WorldBlock& block : blocks) {
-    for (const SidePlacement& placement : PlaceBySides(block)) {
+  for (const Subproblem& subproblem : subproblems) {
+    for (const SidePlacement& placement : PlaceBySides(subproblem)) {
       const auto [at, is_new] = sum.try_emplace({placement.image, placement.cluster});
       if (is_new) ++clusters_of_image[placement.image];
       at->second.hessian += placement.hessian;
@@ -51,28 +52,28 @@ Placements BetweenClusters(const std::vector<WorldBlock>& blocks) {
   return sum;
 }
 
-/// The same world with all tracks in its first block.
-std::vector<WorldBlock> WithTracksInOneBlock(std::vector<WorldBlock> blocks) {
-  WorldBlock& first = blocks.front();
-  std::map<ImageId, BlockImage> images;
-  for (const WorldBlock& block : blocks) {
-    for (const BlockImage& image : block.images) images.emplace(image.id, image);
-    first.scene.images.insert(block.scene.images.begin(), block.scene.images.end());
+/// The same world with all tracks in its first subproblem.
+std::vector<Subproblem> WithTracksInOneSubproblem(std::vector<Subproblem> subproblems) {
+  Subproblem& first = subproblems.front();
+  std::map<ImageId, SubproblemImage> images;
+  for (const Subproblem& subproblem : subproblems) {
+    for (const SubproblemImage& image : subproblem.images) images.emplace(image.id, image);
+    first.scene.images.insert(subproblem.scene.images.begin(), subproblem.scene.images.end());
   }
   first.images.clear();
   for (const auto& [id, image] : images) first.images.push_back(image);
-  for (size_t b = 1; b < blocks.size(); ++b) {
-    std::ranges::move(blocks[b].scene.tracks, std::back_inserter(first.scene.tracks));
-    blocks[b].scene.tracks.clear();
+  for (size_t b = 1; b < subproblems.size(); ++b) {
+    std::ranges::move(subproblems[b].scene.tracks, std::back_inserter(first.scene.tracks));
+    subproblems[b].scene.tracks.clear();
   }
-  return blocks;
+  return subproblems;
 }
 
-TEST(PlaceBySides, SumsToTheSameWhicheverBlockHasATrack) {
-  const std::vector<WorldBlock> blocks = Blocks(3);
-  ASSERT_EQ(blocks.size(), 3U);
-  const Placements apart = BetweenClusters(blocks);
-  const Placements together = BetweenClusters(WithTracksInOneBlock(blocks));
+TEST(PlaceBySides, SumsToTheSameWhicheverSubproblemHasATrack) {
+  const std::vector<Subproblem> subproblems = Subproblems(3);
+  ASSERT_EQ(subproblems.size(), 3U);
+  const Placements apart = BetweenClusters(subproblems);
+  const Placements together = BetweenClusters(WithTracksInOneSubproblem(subproblems));
   ASSERT_FALSE(apart.empty());
   ASSERT_EQ(apart.size(), together.size());
   for (const auto& [key, placement] : apart) {
@@ -84,11 +85,11 @@ TEST(PlaceBySides, SumsToTheSameWhicheverBlockHasATrack) {
 }
 
 TEST(PlaceBySides, ListsImagesInOrderAndNoneFromWithinACluster) {
-  const std::vector<WorldBlock> blocks = Blocks(2);
-  for (const WorldBlock& block : blocks) {
-    const std::vector<SidePlacement> placements = PlaceBySides(block);
+  const std::vector<Subproblem> subproblems = Subproblems(2);
+  for (const Subproblem& subproblem : subproblems) {
+    const std::vector<SidePlacement> placements = PlaceBySides(subproblem);
     ASSERT_FALSE(placements.empty());
-    EXPECT_EQ(std::ranges::count(placements, FarFromOthers(block), &SidePlacement::image), 0);
+    EXPECT_EQ(std::ranges::count(placements, FarFromOthers(subproblem), &SidePlacement::image), 0);
     for (size_t i = 1; i < placements.size(); ++i) {
       EXPECT_LT(std::pair(placements[i - 1].image, placements[i - 1].cluster),
                 std::pair(placements[i].image, placements[i].cluster));
@@ -97,9 +98,9 @@ TEST(PlaceBySides, ListsImagesInOrderAndNoneFromWithinACluster) {
 }
 
 TEST(PlaceBySides, HasNothingToSayOfAnUndividedWorld) {
-  for (const SidePlacement& placement : PlaceBySides(Blocks(1).front()))
+  for (const SidePlacement& placement : PlaceBySides(Subproblems(1).front()))
     EXPECT_EQ(placement.cluster, 0U);  // the held image alone
-  EXPECT_LE(PlaceBySides(Blocks(1).front()).size(), 1U);
+  EXPECT_LE(PlaceBySides(Subproblems(1).front()).size(), 1U);
 }
 
 }  // namespace

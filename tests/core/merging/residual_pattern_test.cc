@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/merging/residual_pattern.h"
+#include "core/partitioned_ba/residual_pattern.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/synthetic/make_corridor.h"
 #include "tests/core/merging/adjust_globally.h"
 #include "tests/core/merging/corridor_model.h"
 

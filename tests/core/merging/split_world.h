@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/merging/align_submodels.h"
+#include "core/merging/alignment.h"
+#include "core/merging/submodel.h"
+#include "core/scene/reconstruction.h"
+#include "core/synthetic/make_street.h"
 #include "tests/support/random_world.h"
 
 /// A street of panoramas and points, and submodels cut from it.

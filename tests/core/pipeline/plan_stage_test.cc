@@ -13,13 +13,18 @@ using Kind = InputRule::Kind;
 
 /// first: one part; fan: a part per recipe of first; last: first's output 1 and all outputs of fan.
 JobPlan FanPlan() {
-  return {
-      "fan",
-      {{.stage = "first", .inputs = {{Kind::kJobInput, "", 0}}, .option_sections = {"a"}},
-       {.stage = "fan",
-        .parts_from = "first",
-        .inputs = {{Kind::kJobInput, "", 0}, {Kind::kRecipe, "", 0}}},
-       {.stage = "last", .inputs = {{Kind::kOutput, "first", 1}, {Kind::kAllOutputs, "fan", 0}}}}};
+  return {"fan",
+          {{.stage = "first",
+            .version = "1",
+            .inputs = {{Kind::kJobInput, "", 0}},
+            .option_sections = {"a"}},
+           {.stage = "fan",
+            .version = "2",
+            .parts_from = "first",
+            .inputs = {{Kind::kJobInput, "", 0}, {Kind::kRecipe, "", 0}}},
+           {.stage = "last",
+            .version = "1",
+            .inputs = {{Kind::kOutput, "first", 1}, {Kind::kAllOutputs, "fan", 0}}}}};
 }
 
 const JobSpec kJob{.kind = "fan", .inputs = {DigestOf("input")}, .options_text = "a.x=1\nb.y=2\n"};
@@ -77,8 +82,10 @@ TEST(PlanStage, CollectsOneOutputOfEachPart) {
 JobPlan LoopPlan() {
   return {"loop",
           {{.stage = "decide",
+            .version = "1",
             .inputs = {{Kind::kOutput, "decide", 0}, {Kind::kCollection, "work", 0}}},
            {.stage = "work",
+            .version = "1",
             .parts_from = "decide",
             .inputs = {{Kind::kRecipe, "", 0}},
             .back_to = "decide"}}};
@@ -107,8 +114,11 @@ TEST(PlanStage, GivesNoTaskWhenThereIsNoRecipe) {
 }
 
 TEST(PlanStage, GivesEachListedRecipeAPart) {
-  const JobPlan listed{
-      "listed", {{.stage = "verify", .parts_listed_in = 1, .inputs = {{Kind::kRecipe, "", 0}}}}};
+  const JobPlan listed{"listed",
+                       {{.stage = "verify",
+                         .version = "1",
+                         .parts_listed_in = 1,
+                         .inputs = {{Kind::kRecipe, "", 0}}}}};
   const auto plan = PlanStage(listed, 0, kJob, {}, {DigestOf("x"), DigestOf("y")});
   ASSERT_TRUE(plan.ok());
   ASSERT_EQ(plan->tasks.size(), 2U);
@@ -124,6 +134,14 @@ TEST(PlanStage, NamesWhatIsMissing) {
   const auto plan = PlanStage(FanPlan(), 2, kJob, {{one_output}, {}}, {});
   EXPECT_TRUE(absl::IsFailedPrecondition(plan.status()));
   EXPECT_THAT(std::string(plan.status().message()), ::testing::HasSubstr("first left no output 1"));
+}
+
+TEST(PlanStage, RefusesAStageWithoutVersion) {
+  JobPlan plan = FanPlan();
+  plan.stages[0].version.clear();
+  const auto stage = PlanStage(plan, 0, {.kind = "fan", .inputs = {DigestOf("a")}}, {}, {});
+  EXPECT_TRUE(absl::IsFailedPrecondition(stage.status()));
+  EXPECT_NE(stage.status().message().find("first"), std::string::npos) << stage.status();
 }
 
 }  // namespace

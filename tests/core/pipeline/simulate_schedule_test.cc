@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/base/random.h"
 
 namespace orbweave {
@@ -91,6 +93,31 @@ TEST(SimulateSchedule, BytesTakeTimeOnBothLinks) {
 TEST(SimulateSchedule, TheCoordinatorServesOneTaskAfterAnother) {
   const FleetModel model{.coordinator_s_per_task = 0.5};
   EXPECT_DOUBLE_EQ(SimulateSchedule({RunOf("a", {1, 1, 1, 1, 1, 1})}, 6, model).makespan_s, 3.0);
+}
+
+TEST(SimulateSchedule, ARunHasRoomWhereWorkersOfferWhatItNeeds) {
+  StageLoad run = RunOf("a", {1, 1, 1, 1, 1, 1});
+  FleetModel model{.slots = 3, .offers = {.memory_bytes = 100, .threads = 4}};
+  EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 1, model).makespan_s, 2.0) << "three at a time";
+  run.needs.memory_bytes = 50;
+  EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 1, model).makespan_s, 3.0);
+  run.needs.threads = 3;
+  EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 1, model).makespan_s, 6.0);
+  EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 2, model).makespan_s, 3.0);
+  run.needs.gpus = 1;
+  EXPECT_TRUE(std::isinf(SimulateSchedule({run}, 1000, model).makespan_s));
+  EXPECT_TRUE(std::isinf(CriticalPath({run}, model).makespan_s));
+  model.offers.gpus = 1;
+  EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 2, model).makespan_s, 3.0);
+}
+
+TEST(SimulateSchedule, TasksOfAWorkerShareItsLink) {
+  StageLoad run;
+  for (int p = 0; p < 4; ++p) run.parts.push_back({.bytes = 1e9});
+  FleetModel model{.worker_gbit_per_s = 4.0, .coordinator_gbit_per_s = 1e9};
+  const double one_slot_s = SimulateSchedule({run}, 1, model).makespan_s;
+  model.slots = 4;
+  EXPECT_DOUBLE_EQ(SimulateSchedule({run}, 1, model).makespan_s, one_slot_s);
 }
 
 TEST(SimulateSchedule, AJobWithoutTasksTakesNoTime) {

@@ -5,29 +5,32 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pipeline/coordinator_api.h"
+#include "core/pipeline/job_api.h"
 #include "core/pipeline/job_plan.h"
-#include "core/pipeline/stage_version.h"
 
 namespace orbweave {
 namespace {
 
 TaskSpec ExampleTask() {
   return {.stage = "match_images",
+          .version = "4",
           .inputs = {DigestOf("a"), DigestOf("b")},
           .options_text = "matching.max_ratio=0.8\n"};
 }
 
-TEST(TaskSpec, IdChangesWithStageInputsAndOptions) {
+TEST(TaskSpec, IdChangesWithStageVersionInputsAndOptions) {
   const Digest id = ExampleTask().Id();
   TaskSpec other_stage = ExampleTask();
   other_stage.stage = "align_submodels";
+  TaskSpec other_version = ExampleTask();
+  other_version.version = "5";
   TaskSpec swapped = ExampleTask();
   std::swap(swapped.inputs[0], swapped.inputs[1]);
   TaskSpec other_options = ExampleTask();
   other_options.options_text = "matching.max_ratio=0.9\n";
   EXPECT_EQ(ExampleTask().Id(), id);
   EXPECT_NE(other_stage.Id(), id);
+  EXPECT_NE(other_version.Id(), id);
   EXPECT_NE(swapped.Id(), id);
   EXPECT_NE(other_options.Id(), id);
 }
@@ -50,16 +53,6 @@ TEST(JobSpec, IdDoesNotChangeWithLabelButWithAllElse) {
   EXPECT_EQ(relabelled.Id(), job.Id());
   EXPECT_NE(other_options.Id(), job.Id());
   EXPECT_NE(other_inputs.Id(), job.Id());
-}
-
-TEST(StageVersion, IsKnownForEveryStageOfEveryPlan) {
-  for (const char* kind : {"sparse", "sparse_from_matches"}) {
-    const auto plan = FindJobPlan(kind);
-    ASSERT_TRUE(plan.ok());
-    for (const StageRule& rule : plan->stages)
-      EXPECT_NE(StageVersion(rule.stage), "0") << rule.stage;
-  }
-  EXPECT_EQ(StageVersion("no_such_stage"), "0");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "core/geometry/rotation.h"
 #include "core/synthetic/corridor.h"
+#include "core/synthetic/make_corridor.h"
 
 namespace orbweave {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/geometry/rotation.h"
+#include "core/synthetic/make_corridor.h"
 
 namespace orbweave {
 namespace {

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/geometry/rotation.h"
+#include "core/synthetic/rendered_panorama.h"
 
 namespace orbweave {
 namespace {

@@ -7,7 +7,10 @@
 
 #include <cmath>
 
+#include "core/geometry/rigid3.h"
+#include "core/synthetic/make_street.h"
 #include "core/synthetic/realistic_street.h"
+#include "core/synthetic/street.h"
 
 namespace orbweave {
 namespace {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/synthetic/make_street.h"
+
 namespace orbweave {
 namespace {
 

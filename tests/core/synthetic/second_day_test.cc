@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "core/synthetic/make_street.h"
 #include "core/synthetic/street.h"
 
 namespace orbweave {

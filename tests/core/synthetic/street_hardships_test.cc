@@ -12,6 +12,9 @@
 #include <set>
 #include <string>
 
+#include "core/synthetic/camera_rays.h"
+#include "core/synthetic/lens_rig.h"
+#include "core/synthetic/make_street.h"
 #include "core/synthetic/realistic_street.h"
 #include "core/synthetic/render_street_panorama.h"
 

@@ -9,8 +9,11 @@
 #include <array>
 #include <cmath>
 
+#include "core/synthetic/make_street.h"
 #include "core/synthetic/render_street_panorama.h"
+#include "core/synthetic/rendered_panorama.h"
 #include "core/synthetic/sample_surface.h"
+#include "core/synthetic/street_options.h"
 
 namespace orbweave {
 namespace {

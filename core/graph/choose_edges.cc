@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/graph/choose_edges.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/graph/drop_edges_against_chain.h"
+#include "core/graph/drop_edges_against_gnss.h"
+#include "core/graph/drop_edges_against_headings.h"
+
+namespace orbweave {
+
+ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
+                        const ImageManifest& manifest,
+                        const ViewGraphOptions& options) {
+  EdgesByGnss by_gnss = DropEdgesAgainstGnss(edges, manifest);
+  EdgesByChain by_chain = DropEdgesAgainstChain(by_gnss.kept, manifest);
+  FilteredViewGraph filtered = BuildViewGraph(
+      static_cast<uint32_t>(manifest.images.size()), std::move(by_chain.kept), options);
+  EdgesByGnss by_heading = DropEdgesAgainstHeadings(filtered.graph.edges, manifest);
+  ChosenEdges chosen{.graph = std::move(filtered.graph), .dropped = std::move(by_gnss.dropped)};
+  chosen.graph.edges = std::move(by_heading.kept);
+  for (std::vector<DroppedEdge>* dropped :
+       {&by_chain.dropped, &by_heading.dropped, &filtered.dropped}) {
+    std::ranges::move(*dropped, std::back_inserter(chosen.dropped));
+  }
+  return chosen;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/finalise_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "core/merging/assess_world.h"
+#include "core/merging/check_gnss.h"
+#include "core/merging/check_sequence_steps.h"
+#include "core/merging/choose_local_frame.h"
+#include "core/merging/global_problem.h"
+#include "core/merging/judge_gnss.h"
+
+namespace orbweave {
+namespace {
+
+Reconstruction PosesOf(std::span<const SubproblemSummary> summaries) {
+  Reconstruction poses;
+  for (const SubproblemSummary& summary : summaries) {
+    poses.images.insert(summary.owned_images.begin(), summary.owned_images.end());
+  }
+  return poses;
+}
+
+/// An image that lost all its observations is where its neighbours and GNSS put it.
+void LoosenUnobserved(std::span<const SubproblemSummary> summaries,
+                      const ImageManifest& manifest,
+                      Reconstruction& poses,
+                      GlobalAdjustReport& report) {
+  std::map<ImageId, uint32_t> observations;
+  for (const SubproblemSummary& summary : summaries) {
+    for (const auto& [id, count] : summary.observations_of_image) observations[id] += count;
+  }
+  for (auto& [id, image] : poses.images) {
+    if (image.loose || observations[id] > 0) continue;
+    image.loose = true;
+    report.unobserved_images.push_back(manifest.At(id).name);
+  }
+}
+
+void MeasureResiduals(std::span<const SubproblemSummary> summaries, GlobalAdjustReport& report) {
+  double sum_px = 0.0;
+  double sum_px2 = 0.0;
+  uint64_t count = 0;
+  for (const SubproblemSummary& summary : summaries) {
+    sum_px += summary.residual_px_sum;
+    sum_px2 += summary.residual_px2_sum;
+    for (const auto& [id, observations] : summary.observations_of_image) count += observations;
+  }
+  report.num_observations = count;
+  if (count == 0) return;
+  report.residual_px_mean = sum_px / static_cast<double>(count);
+  report.residual_px_rms = std::sqrt(sum_px2 / static_cast<double>(count));
+  ResidualPattern pattern;
+  for (const SubproblemSummary& summary : summaries) pattern.Add(summary.pattern);
+  report.pattern_px = pattern.LargestPx(report.residual_px_rms);
+  report.checks.push_back(CheckResidualPattern(pattern, report.residual_px_rms));
+}
+
+/// The drives' biases, by group.
+std::vector<Eigen::Vector3d> BiasesOf(std::span<const SubproblemSummary> summaries,
+                                      size_t num_groups) {
+  std::vector<Eigen::Vector3d> biases_m(num_groups, Eigen::Vector3d::Zero());
+  for (const SubproblemSummary& summary : summaries) {
+    for (const SubproblemBias& bias : summary.biases) biases_m[bias.group] = bias.value_m;
+  }
+  return biases_m;
+}
+
+SeamCertifier CertifierOf(const AdjustedWorld& adjusted, const std::vector<Seam>& seams) {
+  std::set<uint32_t> clusters;
+  for (const SubproblemSummary& summary : adjusted.summaries) {
+    if (!summary.owned_images.empty()) clusters.insert(summary.cluster);
+  }
+  SeamCertifier certifier(seams, clusters);
+  for (const SubproblemInspection& inspection : adjusted.inspections)
+    certifier.Add(inspection.placements);
+  return certifier;
+}
+
+using Supports = std::map<ImageId, std::vector<PatchSupport>>;
+
+Supports SupportsOf(const std::vector<SubproblemInspection>& inspections) {
+  Supports supports;
+  for (const SubproblemInspection& inspection : inspections)
+    AddSupport(inspection.supports, supports);
+  return supports;
+}
+
+/// Takes out what its own observations do not place, and widens the sigmas of images whose
+/// observations know less than their number.
+void JudgeSupports(const Supports& supports,
+                   const ImageManifest& manifest,
+                   Reconstruction& poses,
+                   GlobalAdjustReport& report) {
+  for (auto image = poses.images.begin(); image != poses.images.end();) {
+    const auto& [id, registered] = *image;
+    const auto support = supports.find(id);
+    if (registered.loose || support == supports.end()) {
+      ++image;
+      continue;
+    }
+    const SupportVerdict verdict = JudgeSupport(support->second);
+    if (verdict.is_weak) {
+      report.weak_images.push_back({manifest.At(id).name, verdict.reason});
+      image = poses.images.erase(image);
+      continue;
+    }
+    if (std::optional<PoseUncertainty>& uncertainty = image->second.uncertainty) {
+      const double factor = std::max(verdict.coherence, 1.0);
+      uncertainty->position_covariance *= factor;
+      uncertainty->rotation_sigma_rad *= std::sqrt(factor);
+    }
+    ++image;
+  }
+}
+
+}  // namespace
+
+FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
+                                  const std::vector<Seam>& seams,
+                                  const Georeference& georeference,
+                                  const ImageManifest& manifest,
+                                  const GlobalAdjustOptions& options) {
+  FinalisedWorld world{.report = std::move(adjusted.report)};
+  const std::vector<SubproblemSummary>& summaries = adjusted.summaries;
+  Reconstruction poses = PosesOf(summaries);
+  GlobalProblem problem = MakeGlobalProblem(poses);
+  if (georeference.enu_from_world)
+    AddGnss(poses, manifest, georeference, options.gnss_bias_sigma_m, 1.0, problem);
+  const std::vector<Eigen::Vector3d> biases_m =
+      BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
+  const SeamCertifier certifier = CertifierOf(adjusted, seams);
+  const Supports supports = SupportsOf(adjusted.inspections);
+  std::vector<Eigen::Vector3d> points_about;
+  for (const SubproblemInspection& inspection : adjusted.inspections)
+    std::ranges::copy(inspection.points_about, std::back_inserter(points_about));
+  AssessedWorld assessed =
+      AssessWorld(std::move(adjusted.inspections), problem, biases_m, manifest);
+  for (const auto& [id, uncertainty] : assessed.uncertainties)
+    poses.images.at(id).uncertainty = uncertainty;
+  WidenByDriveErrors(georeference, manifest, poses);
+  world.report.uncertainty = std::move(assessed.report);
+  std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
+                    std::back_inserter(world.report.checks));
+  if (georeference.enu_from_world) {
+    world.report.gnss = JudgeGnss(problem, biases_m, manifest);
+    world.report.gnss.deformation_m = georeference.deformation_m;
+    world.report.adjustments.back().biases_m = biases_m;
+  } else {
+    world.report.gnss.reason = georeference.reason;
+  }
+  LoosenUnobserved(summaries, manifest, poses, world.report);
+  JudgeSupports(supports, manifest, poses, world.report);
+  MeasureResiduals(summaries, world.report);
+  if (!georeference.enu_from_world) world.model_from_world = ChooseLocalFrame(poses, manifest);
+  const double sigma_factor = world.report.uncertainty.bearing_sigma_factor;
+  world.seams = certifier.Finish(sigma_factor * sigma_factor);
+  for (SeamCertificate& seam : world.seams) {
+    seam.position_jump_m *= world.model_from_world.scale;
+    seam.position_noise_m *= world.model_from_world.scale;
+  }
+  world.images = std::move(poses.images);
+  world.report.checks.push_back(
+      CheckSequenceSteps(ModelImages(world), manifest, georeference.enu_from_world.has_value()));
+  return world;
+}
+
+std::map<ImageId, RegisteredImage> ModelImages(const FinalisedWorld& world) {
+  return Transformed(world.model_from_world, Reconstruction{.images = world.images}).images;
+}
+
+TracksOfWorld::TracksOfWorld(const FinalisedWorld& world)
+    : model_from_world_(world.model_from_world) {
+  for (const auto& [id, image] : world.images) {
+    if (!image.loose) observers_.insert(id);
+  }
+}
+
+bool TracksOfWorld::IsSeen(Track& track) const {
+  std::erase_if(track.observations,
+                [&](const Observation& seen) { return !observers_.contains(seen.ref.image); });
+  return track.observations.size() > 1;
+}
+
+void TracksOfWorld::Add(Subproblem subproblem, const Visit& visit) {
+  for (Track& track : subproblem.scene.tracks) {
+    if (!IsSeen(track)) continue;
+    track.point_in_world = model_from_world_ * track.point_in_world;
+    visit(track);
+  }
+  for (SplitTrack& track : subproblem.split) {
+    Track& whole = split_[track.id];
+    whole.point_in_world = model_from_world_ * track.part.point_in_world;
+    whole.color = track.part.color;
+    std::ranges::move(track.part.observations, std::back_inserter(whole.observations));
+  }
+}
+
+void TracksOfWorld::Finish(const Visit& visit) {
+  for (auto& [id, track] : split_) {
+    if (!IsSeen(track)) continue;
+    std::ranges::sort(track.observations, {}, &Observation::ref);
+    visit(track);
+  }
+}
+
+Reconstruction GatherWorld(const FinalisedWorld& world, std::vector<Subproblem> subproblems) {
+  Reconstruction model{.images = ModelImages(world)};
+  const auto take = [&model](const Track& track) { model.tracks.push_back(track); };
+  TracksOfWorld tracks(world);
+  for (Subproblem& subproblem : subproblems) tracks.Add(std::move(subproblem), take);
+  tracks.Finish(take);
+  model.SortTracks();
+  return model;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pipeline/blob_access.h"
+
+namespace orbweave {
+
+/// The coordinator's blobs for who brings a job's inputs. Codes common to all: Unavailable
+/// (connection; try again).
+class BlobDepot : public BlobAccess {
+ public:
+  /// Which of these blobs are stored (same order).
+  [[nodiscard]] virtual absl::StatusOr<std::vector<bool>> StatBlobs(
+      const std::vector<Digest>& digests) = 0;
+  /// Registers a file on the coordinator's machine as a blob without copying it; verified at every
+  /// read. NotFound / PermissionDenied: the coordinator cannot read it; DataLoss: it has another
+  /// digest.
+  [[nodiscard]] virtual absl::Status LinkFile(const Digest& digest, const std::string& path) = 0;
+};
+
+}  // namespace orbweave

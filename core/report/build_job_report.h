@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/artifacts/stage_results.h"
+#include "core/io/job_report.h"
+#include "core/io/measure_reconstruction.h"
+#include "core/merging/align_submodels.h"
+#include "core/merging/certify_seams.h"
+#include "core/merging/review_seams.h"
+#include "core/partitioned_ba/global_options.h"
+#include "core/report/job_results.h"
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+[[nodiscard]] ClusterSummary SummariseCluster(const ClusterResult& cluster);
+
+/// The part of the report that follows from results alone: counts, residuals (recomputed from
+/// the models), clusters, seams, GNSS, one row per image, and a reason for every image that is not
+/// registered. Stages, workers, times and options are the caller's.
+[[nodiscard]] JobReport BuildJobReport(const JobResults& results);
+
+}  // namespace orbweave

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/report/list_missing_images.h"
+
+#include <map>
+#include <set>
+
+#include "core/report/check_standing_camera.h"
+
+namespace orbweave {
+namespace {
+
+/// Why each image that no model observes is missing, by what is known latest in the line.
+std::vector<std::string> ReasonsOfImages(const JobResults& results) {
+  std::vector<std::string> reasons(results.manifest.images.size(),
+                                   "no verified matches with any other image");
+  for (const ClusterSummary& cluster : results.clusters) {
+    for (const NotRegistered& image : cluster.not_registered) {
+      reasons[image.image.value] = image.reason;
+    }
+  }
+  std::map<std::string, std::string> weak;
+  const std::vector<std::string> standing = StandingReasons(results);
+  for (size_t i = 0; i < standing.size(); ++i) {
+    if (!standing[i].empty()) reasons[i] = standing[i];
+  }
+  for (const AdjustedModel& model : results.models) {
+    for (const Exclusion& image : model.report.weak_images) weak[image.name] = image.reason;
+  }
+  for (const ImageRecord& image : results.manifest.images) {
+    const auto found = weak.find(image.name);
+    if (found != weak.end()) reasons[image.id.value] = found->second;
+  }
+  for (const AdjustedModel& model : results.models) {
+    const std::set<std::string> unobserved(model.report.unobserved_images.begin(),
+                                           model.report.unobserved_images.end());
+    for (const auto& [id, image] : model.images) {
+      if (unobserved.contains(results.manifest.At(id).name))
+        reasons[id.value] = "it has no observations of its own left";
+    }
+  }
+  for (size_t i = 0; i < results.image_problems.size(); ++i) {
+    if (!results.image_problems[i].empty()) reasons[i] = results.image_problems[i];
+  }
+  return reasons;
+}
+
+}  // namespace
+
+void ListMissingImages(const JobResults& results, JobReport& report) {
+  const std::vector<std::string> reasons = ReasonsOfImages(results);
+  report.not_registered = results.manifest.excluded;
+  std::map<int, std::vector<size_t>> loose_of_cluster;
+  for (size_t i = 0; i < report.images.size(); ++i) {
+    const ReportImage& row = report.images[i];
+    if (row.registered && !row.loose) continue;
+    if (row.loose) loose_of_cluster[row.cluster].push_back(i);
+    report.not_registered.push_back(
+        {row.name, reasons[i] + (row.loose ? "; it is placed loosely" : "")});
+  }
+  for (const auto& [cluster, images] : loose_of_cluster) {
+    report.warnings.push_back(
+        (cluster < 0 ? "outside of clusters" : "cluster " + std::to_string(cluster)) + ": " +
+        std::to_string(images.size()) +
+        " images have no observations and are placed loosely, first " +
+        report.images[images.front()].name + ": " + reasons[images.front()]);
+  }
+}
+
+}  // namespace orbweave

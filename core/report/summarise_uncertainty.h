@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+
+#include "core/io/job_report.h"
+#include "core/partitioned_ba/global_options.h"
+#include "core/scene/reconstruction.h"
+
+namespace orbweave {
+
+/// The uncertainty of one model's poses for the report: median and 95 % quantile over its images,
+/// and the ten whose positions are least certain, worst first.
+[[nodiscard]] ReportUncertainty SummariseUncertainty(
+    const UncertaintyReport& report, const std::map<ImageId, RegisteredImage>& images);
+
+}  // namespace orbweave

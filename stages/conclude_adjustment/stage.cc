@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/conclude_adjustment/stage.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/merging/attach_loose_images.h"
+#include "core/merging/finalise_adjustment.h"
+#include "core/merging/inspect_subproblem.h"
+#include "stages/codecs.h"
+
+namespace orbweave {
+
+absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& task) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
+                            task.Read(&ConcludeAdjustmentStage::manifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JoinedWorld> worlds,
+                            task.Read(&ConcludeAdjustmentStage::worlds));
+  ORBWEAVE_ASSIGN_OR_RETURN(AdjustmentProgress progress,
+                            task.Read(&ConcludeAdjustmentStage::progress));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph divided,
+                            task.Read(&ConcludeAdjustmentStage::divided));
+  const GlobalAdjustOptions& options = task.options<GlobalAdjustOptions>();
+  FinalisedModel model;
+  for (uint32_t world = 0; world < worlds.size(); ++world) {
+    AdjustedWorld adjusted{.report = std::move(progress.worlds[world].report)};
+    std::vector<Digest>& subproblems = model.subproblems.emplace_back();
+    for (SubproblemPlace& place : progress.subproblems) {
+      if (place.world != world) continue;
+      ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
+      subproblems.push_back(place.subproblem);
+      adjusted.summaries.push_back(std::move(place.summary));
+      ORBWEAVE_ASSIGN_OR_RETURN(adjusted.inspections.emplace_back(),
+                                task.Fetch<SubproblemInspection>(place.inspection));
+    }
+    model.worlds.push_back(FinaliseAdjustment(std::move(adjusted),
+                                              divided.partition.seams,
+                                              worlds[world].georeference,
+                                              manifest,
+                                              options));
+    if (model.worlds.back().images.empty()) {  // nothing in it is placed by its own observations
+      model.worlds.pop_back();
+      model.subproblems.pop_back();
+    }
+  }
+  if (options.attach_loose) AttachLooseImages(manifest, model.worlds);
+  ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::model, model).status());
+  task.Report(nlohmann::json{{"worlds", model.worlds.size()}}.dump());
+  return absl::OkStatus();
+}
+
+}  // namespace orbweave

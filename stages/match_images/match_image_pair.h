@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/base/stage_context.h"
+#include "core/estimators/two_view_options.h"
+#include "core/features/match_options.h"
+#include "core/scene/features.h"
+#include "core/scene/two_view_geometry.h"
+
+namespace orbweave {
+
+/// All bearings of an image, once, for the pairs it takes part in.
+[[nodiscard]] std::vector<Eigen::Vector3d> BearingsOf(const Features& features);
+
+/// One image of a pair: its features and their bearings.
+struct PairSide {
+  const Features& features;
+  const std::vector<Eigen::Vector3d>& bearings;
+};
+
+/// The verified matches of two panoramas, by a ladder (MatchRung): nearest descriptors and geometry
+/// on rays; where these are no evidence, samples of cameras that stand upright. What a geometry
+/// predicts is then looked for along its epipolar planes (matching.guided), against decoys
+/// (MatchAgainstDecoys): matches that the ratio test lost are recovered, and a pair whose few
+/// matches are no evidence by themselves is kept where those that they predict are; then
+/// log10_false_alarms is the sum of both, since new matches had no part in finding the geometry.
+/// `given`: putative matches from outside; when not empty, descriptors are not looked at.
+[[nodiscard]] absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
+                                                             const PairSide& a,
+                                                             const PairSide& b,
+                                                             const std::vector<FeatureMatch>& given,
+                                                             const MatchOptions& match_options,
+                                                             const TwoViewOptions& two_view_options,
+                                                             const StageContext& context);
+
+}  // namespace orbweave

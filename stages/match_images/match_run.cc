@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/match_images/match_run.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "stages/codecs.h"
+#include "stages/match_images/pair_seed.h"
+#include "stages/stage_task.h"
+
+namespace orbweave {
+namespace {
+
+struct LoadedImage {
+  Features features{};
+  std::vector<Eigen::Vector3d> bearings{};
+  Digest digest{};
+};
+
+absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<FeatureFile>& files,
+                                                          BlobAccess& blobs) {
+  std::map<ImageId, LoadedImage> images;
+  for (const FeatureFile& file : files) {
+    ORBWEAVE_ASSIGN_OR_RETURN(Features features, FetchBlob<Features>(file.features, blobs));
+    std::vector<Eigen::Vector3d> bearings = BearingsOf(features);
+    images[file.image] = {std::move(features), std::move(bearings), file.features};
+  }
+  return images;
+}
+
+StageContext PairContext(const StageContext& context, const LoadedImage& a, const LoadedImage& b) {
+  StageContext pair_context = context;
+  pair_context.seed = PairSeed(a.digest, b.digest);
+  return pair_context;
+}
+
+bool MatchesExist(const MatchRecipe::Pair& pair, const LoadedImage& a, const LoadedImage& b) {
+  return std::all_of(pair.matches.begin(), pair.matches.end(), [&](const FeatureMatch& match) {
+    return match.a < a.features.size() && match.b < b.features.size();
+  });
+}
+
+}  // namespace
+
+absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
+                                    BlobAccess& blobs,
+                                    const MatchOptions& match_options,
+                                    const TwoViewOptions& two_view_options,
+                                    const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images, LoadImages(recipe.images, blobs));
+  MatchedRun run;
+  size_t putative = 0;
+  size_t done = 0;
+  for (const MatchRecipe::Pair& pair : recipe.pairs) {
+    const LoadedImage& a = images.at(pair.pair.a);
+    const LoadedImage& b = images.at(pair.pair.b);
+    if (!MatchesExist(pair, a, b)) {
+      return absl::InvalidArgumentError(
+          "match_images: a match names a keypoint that its image does not have");
+    }
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
+                              MatchImagePair(pair.pair,
+                                             {a.features, a.bearings},
+                                             {b.features, b.bearings},
+                                             pair.matches,
+                                             match_options,
+                                             two_view_options,
+                                             PairContext(context, a, b)));
+    putative += geometry.num_putative;
+    if (geometry.kind != TwoViewKind::kNone) run.verified.push_back(std::move(geometry));
+    context.Report(++done, recipe.pairs.size(), "pairs");
+  }
+  run.report_json = nlohmann::json{
+      {"pairs", recipe.pairs.size()},
+      {"verified", run.verified.size()},
+      {"putative",
+       putative}}.dump();
+  return run;
+}
+
+}  // namespace orbweave

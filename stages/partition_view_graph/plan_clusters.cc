@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/partition_view_graph/plan_clusters.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/graph/shared_images.h"
+
+namespace orbweave {
+
+std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
+                                        const ViewGraph& graph,
+                                        const ImageManifest& manifest,
+                                        const std::vector<Digest>& features,
+                                        const std::map<ImagePair, Digest>& blob_of_pair) {
+  std::vector<std::vector<uint32_t>> clusters_of_image(graph.num_images);
+  std::vector<ClusterRecipe> recipes(partition.clusters.size());
+  for (uint32_t c = 0; c < recipes.size(); ++c) {
+    recipes[c].cluster = c;
+    for (const ImageId id : partition.clusters[c].images) {
+      recipes[c].images.push_back({id, features[id.value]});
+      const PosePrior& prior = manifest.At(id).prior;
+      if (prior.position_in_enu) {
+        recipes[c].fixes.push_back(
+            {id, *prior.position_in_enu, prior.horizontal_sigma_m, prior.vertical_sigma_m});
+      }
+      clusters_of_image[id.value].push_back(c);
+    }
+  }
+  for (ClusterRecipe& recipe : recipes) recipe.shared = SharedImages(partition, recipe.cluster);
+  std::vector<std::set<Digest>> blobs(recipes.size());
+  for (const ViewEdge& edge : graph.edges) {
+    const auto& of_a = clusters_of_image[edge.pair.a.value];
+    const auto& of_b = clusters_of_image[edge.pair.b.value];
+    for (const uint32_t c : of_a) {
+      if (std::find(of_b.begin(), of_b.end(), c) == of_b.end()) continue;
+      recipes[c].pairs.push_back(edge.pair);
+      blobs[c].insert(blob_of_pair.at(edge.pair));
+    }
+  }
+  for (size_t c = 0; c < recipes.size(); ++c)
+    recipes[c].matches.assign(blobs[c].begin(), blobs[c].end());
+  return recipes;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/report/check_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/report/build_job_report.h"
+#include "core/report/check_contradicted_pairs.h"
+#include "core/report/judge_model.h"
+#include "core/synthetic/street.h"
+
+namespace orbweave {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A street of images 3 m apart, neighbours joined by verified pairs. images_of_model[m]: first and
+/// last + 1 of those that model m holds; the models are free unless `on_earth`.
+JobResults Street(uint32_t num_images,
+                  const std::vector<std::pair<uint32_t, uint32_t>>& images_of_model,
+                  bool on_earth = false) {
+  JobResults results;
+  for (uint32_t i = 0; i < num_images; ++i) {
+    ImageRecord& image = results.manifest.images.emplace_back();
+    image.id = ImageId(i);
+    image.name = "pano_" + std::to_string(i) + ".jpg";
+    if (i > 0) results.view_graph.edges.push_back({ImageId(i - 1), ImageId(i)});
+    if (!on_earth) continue;
+    image.prior.position_in_enu = Eigen::Vector3d(3.0 * i, 0.0, 0.0);
+    image.prior.horizontal_sigma_m = 2.0;
+  }
+  for (const auto& [begin, end] : images_of_model) {
+    AdjustedModel& model = results.models.emplace_back();
+    for (uint32_t i = begin; i < end; ++i) {
+      model.images[ImageId(i)] = {
+          .cam_from_world = Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {3.0 * i, 0.0, 0.0}),
+          .uncertainty = PoseUncertainty{}};
+    }
+    model.report.adjustments = {{.iterations = 9, .converged = true}};
+    model.report.residual_px_rms = 0.6;
+    model.report.uncertainty.known = true;
+    model.report.gnss.reason = "no image has a GNSS position";
+    if (!on_earth) continue;
+    model.report.gnss = {.used = true, .num_priors = end - begin, .num_inliers = end - begin};
+  }
+  return results;
+}
+
+const CrossCheck* Find(const std::vector<CrossCheck>& checks, const std::string& name) {
+  const auto found = std::ranges::find(checks, name, &CrossCheck::name);
+  return found == checks.end() ? nullptr : &*found;
+}
+
+CheckLevel LevelOf(const JobReport& report, const std::string& name) {
+  const CrossCheck* check = Find(report.checks, name);
+  EXPECT_NE(check, nullptr) << name;
+  return check == nullptr ? CheckLevel::kBad : check->level;
+}
+
+TEST(JudgeModel, ARightStreetIsGoodAndGivesNoReasons) {
+  for (const bool on_earth : {false, true}) {
+    const JobReport report = BuildJobReport(Street(36, {{0, 36}}, on_earth));
+    EXPECT_EQ(report.verdict.level, CheckLevel::kGood);
+    EXPECT_THAT(report.verdict.reasons, IsEmpty());
+    for (const CrossCheck& check : report.checks) {
+      EXPECT_EQ(check.level, CheckLevel::kGood) << check.name;
+      EXPECT_FALSE(check.sentence.empty()) << check.name;
+    }
+  }
+}
+
+TEST(JudgeModel, ImagesLeftOutMakeItDoubtfulThenBad) {
+  CheckLevel last = CheckLevel::kGood;
+  for (uint32_t registered = 36; registered > 1; --registered) {
+    const Verdict verdict = BuildJobReport(Street(36, {{0, registered}})).verdict;
+    EXPECT_GE(verdict.level, last) << "more lost is no better: " << registered;
+    EXPECT_EQ(verdict.reasons.empty(), verdict.level == CheckLevel::kGood);
+    last = verdict.level;
+  }
+  EXPECT_EQ(BuildJobReport(Street(36, {{0, 35}})).verdict.level, CheckLevel::kGood)
+      << "one image is no sign of more";
+  const Verdict doubtful = BuildJobReport(Street(36, {{0, 31}})).verdict;
+  EXPECT_EQ(doubtful.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(doubtful.reasons.front(), HasSubstr("31 of 36 panoramas are registered"));
+  EXPECT_EQ(BuildJobReport(Street(36, {{0, 17}})).verdict.level, CheckLevel::kBad);
+}
+
+TEST(JudgeModel, NoModelIsBad) {
+  const Verdict verdict = BuildJobReport(Street(12, {})).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kBad);
+  ASSERT_EQ(verdict.reasons.size(), 1U);
+  EXPECT_THAT(verdict.reasons.front(), HasSubstr("no panorama"));
+  EXPECT_EQ(JudgeModel({}).level, CheckLevel::kBad) << "nor is an empty report good";
+}
+
+TEST(JudgeModel, ASideModelOfAFreeStreetIsDoubtfulAndManyAreBad) {
+  const JobReport two = BuildJobReport(Street(40, {{0, 30}, {30, 40}}));
+  EXPECT_EQ(two.verdict.level, CheckLevel::kDoubtful);
+  EXPECT_EQ(LevelOf(two, "images_in_one_frame"), CheckLevel::kDoubtful);
+  EXPECT_EQ(LevelOf(two, "connected_in_one_model"), CheckLevel::kDoubtful);
+  EXPECT_EQ(LevelOf(two, "images_registered"), CheckLevel::kGood);
+  const JobReport many = BuildJobReport(Street(40, {{0, 14}, {14, 27}, {27, 40}}));
+  EXPECT_EQ(many.verdict.level, CheckLevel::kBad);
+  EXPECT_THAT(many.verdict.reasons.front(), HasSubstr("14 of 40 registered panoramas lie in one"));
+}
+
+TEST(JudgeModel, ModelsThatGnssPutsIntoOneFrameAreOneMapButAPartThatFellApartIsTold) {
+  JobResults results = Street(40, {{0, 20}, {20, 40}}, true);
+  const JobReport apart = BuildJobReport(results);
+  EXPECT_EQ(LevelOf(apart, "images_in_one_frame"), CheckLevel::kGood);
+  EXPECT_THAT(Find(apart.checks, "images_in_one_frame")->sentence,
+              HasSubstr("2 models joined by GNSS alone"));
+  EXPECT_EQ(LevelOf(apart, "connected_in_one_model"), CheckLevel::kDoubtful);
+  // Two streets that no pair joins are two models by right.
+  std::erase_if(results.view_graph.edges,
+                [](const ImagePair& pair) { return pair.b == ImageId(20); });
+  EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
+}
+
+TEST(JudgeModel, GnssThatMostlyDisagreesIsDoubted) {
+  JobResults results = Street(40, {{0, 40}}, true);
+  GnssReport& gnss = results.models.front().report.gnss;
+  gnss = {.used = true, .num_priors = 40, .num_inliers = 30};
+  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  gnss.num_inliers = 15;
+  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kDoubtful);
+}
+
+TEST(JudgeModel, GnssThatAgreesAtTenTimesItsSigmaIsDoubted) {
+  JobResults results = Street(40, {{0, 40}}, true);
+  for (ImageRecord& image : results.manifest.images) {
+    image.prior.horizontal_sigma_m = 2.0;
+    image.prior.vertical_sigma_m = 4.0;
+  }
+  GnssReport& gnss = results.models.front().report.gnss;
+  gnss = {.used = true, .num_priors = 40, .num_inliers = 40, .residual_median_m = 5.0};
+  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  gnss.residual_median_m = 20.0;
+  const JobReport report = BuildJobReport(results);
+  EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
+  EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("20.0 m from it"));
+}
+
+TEST(JudgeModel, GnssThatIsGivenAndNotUsedIsDoubtedUnlessItCouldNotTell) {
+  JobResults results = Street(40, {{0, 40}}, true);
+  GnssReport& gnss = results.models.front().report.gnss;
+  gnss = {.used = false, .reason = "GNSS scatters by 65 m"};
+  JobReport report = BuildJobReport(results);
+  EXPECT_EQ(report.verdict.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(report.verdict.reasons.front(), HasSubstr("40 GNSS positions are not used"));
+  EXPECT_THAT(report.verdict.reasons.front(), HasSubstr("either they are wrong or the model is"));
+  // Positions that differ by less than their noise say nothing of a model.
+  for (ImageRecord& image : results.manifest.images) image.prior.horizontal_sigma_m = 50.0;
+  EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
+  for (ImageRecord& image : results.manifest.images) image.prior.horizontal_sigma_m = 2.0;
+  gnss.reason = "switched off";
+  report = BuildJobReport(results);
+  EXPECT_EQ(report.verdict.level, CheckLevel::kGood);
+  EXPECT_EQ(Find(report.checks, "gnss_used"), nullptr);
+}
+
+TEST(JudgeModel, AnAdjustmentThatStoppedEarlyIsDoubtedByWhatItsLastStepMoved) {
+  JobResults results = Street(20, {{0, 20}});
+  GlobalAdjustReport& model = results.models.front().report;
+  model.adjustments.back().converged = false;
+  model.accepted_costs = {{5000.0, 4000.0, 4000.0 - 0.5 * 20 * 9.0}};  // three sigmas each
+  const JobReport report = BuildJobReport(results);
+  EXPECT_EQ(report.verdict.level, CheckLevel::kDoubtful);
+  EXPECT_NEAR(Find(report.checks, "adjustment_converged")->value, 3.0, 1e-9);
+  model.accepted_costs = {{5000.0, 4000.0, 3999.9}};
+  EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
+}
+
+TEST(JudgeModel, UnknownUncertaintyIsDoubted) {
+  JobResults results = Street(20, {{0, 20}});
+  for (auto& [id, image] : results.models.front().images) image.uncertainty.reset();
+  results.models.front().report.uncertainty = {.reason = "not positive definite"};
+  const Verdict verdict = BuildJobReport(results).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(verdict.reasons.front(), HasSubstr("not positive definite"));
+}
+
+/// Four clusters in a row with certificates of these ratios of jump and noise; 0: none.
+JobReport WithSeams(const std::vector<double>& ratios) {
+  JobReport report = BuildJobReport(Street(40, {{0, 40}}));
+  for (uint32_t i = 0; i < ratios.size(); ++i) {
+    report.seams.push_back({.cluster_a = i, .cluster_b = i + 1});
+    if (ratios[i] > 0.0)
+      report.seams.back().after = {
+          .images = 9, .position_jump_m = ratios[i], .position_noise_m = 1.0};
+  }
+  report.checks = CheckJob(Street(40, {{0, 40}}), report);
+  report.verdict = JudgeModel(report);
+  return report;
+}
+
+TEST(JudgeModel, SeamsAreDoubtedOneByOneAndBadTogether) {
+  EXPECT_EQ(WithSeams({1.0, 0.4, 2.9}).verdict.level, CheckLevel::kGood);
+  const Verdict one = WithSeams({1.0, 7.0, 2.0}).verdict;
+  EXPECT_EQ(one.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(one.reasons.front(), HasSubstr("between clusters 1 and 2, is off by 7 times"));
+  EXPECT_EQ(WithSeams({9.0, 7.0, 2.0}).verdict.level, CheckLevel::kBad);
+}
+
+TEST(JudgeModel, AClusterWithoutACertifiedSeamIsDoubted) {
+  EXPECT_EQ(WithSeams({1.0, 0.0, 2.0}).verdict.level, CheckLevel::kGood)
+      << "both clusters have another seam";
+  const JobReport last = WithSeams({1.0, 2.0, 0.0});
+  EXPECT_EQ(LevelOf(last, "clusters_certified"), CheckLevel::kDoubtful);
+}
+
+TEST(JudgeModel, ASeamThatLoopsContradictIsDoubted) {
+  JobReport report = WithSeams({1.0, 1.0, 1.0});
+  report.seams[1].used = false;
+  EXPECT_EQ(Find(CheckJob(Street(40, {{0, 40}}), report), "seams_in_loops")->level,
+            CheckLevel::kGood)
+      << "too few common tracks contradict nothing";
+  report.seams[1].contradicted = true;
+  EXPECT_EQ(Find(CheckJob(Street(40, {{0, 40}}), report), "seams_in_loops")->level,
+            CheckLevel::kDoubtful);
+}
+
+/// Two models on earth of a street in two parts, with a check each.
+JobResults TwoParts(uint32_t first) {
+  JobResults results = Street(60, {{0, first}, {first, 60}}, true);
+  std::erase_if(results.view_graph.edges,
+                [&](const ImagePair& pair) { return pair.b == ImageId(first); });
+  results.models[0].report.checks = {
+      {"steps", 9.0, 3.0, "m", CheckLevel::kDoubtful, "the step to pano_7.jpg is 9 m"},
+      {"fine", 1.0, 3.0, "m", CheckLevel::kGood, "fine"}};
+  results.models[1].report.checks = {
+      {"clock", 2.0, 0.3, "s", CheckLevel::kBad, "the clock is 2 s late"},
+      {"steps", 8.0, 3.0, "m", CheckLevel::kDoubtful, "the step to pano_39.jpg is 8 m"}};
+  return results;
+}
+
+TEST(JudgeModel, TakesTheWorstCheckOfAnyModelAndGivesReasonsWorstFirst) {
+  const Verdict verdict = BuildJobReport(TwoParts(40)).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kBad);
+  ASSERT_EQ(verdict.reasons.size(), 2U);
+  EXPECT_EQ(verdict.reasons[0], "model 1: the clock is 2 s late");
+  EXPECT_EQ(verdict.reasons[1], "model 0: the step to pano_7.jpg is 9 m (and 1 more of this kind)");
+}
+
+TEST(JudgeModel, AModelOfAHandfulOfImagesMakesAJobDoubtfulAtMost) {
+  const Verdict verdict = BuildJobReport(TwoParts(58)).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(verdict.reasons[1], HasSubstr("the clock"));
+}
+
+TEST(JudgeModel, SaysWhyMostImagesAreLeftOut) {
+  JobResults results = Street(30, {});
+  results.clusters = {{}};
+  results.view_graph.partition.clusters = {{}};
+  for (uint32_t i = 0; i < 30; ++i)
+    results.clusters[0].not_registered.push_back({ImageId(i), "the camera never moved"});
+  const Verdict verdict = BuildJobReport(results).verdict;
+  EXPECT_EQ(verdict.level, CheckLevel::kBad);
+  EXPECT_THAT(verdict.reasons[0], HasSubstr("30 images: the camera never moved, first pano_0.jpg"));
+}
+
+TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
+  JobResults results = Street(40, {{0, 30}, {30, 40}});
+  ASSERT_EQ(results.view_graph.edges.size(), 39U);
+  EXPECT_EQ(CheckContradictedPairs(results)->value, 0.0);
+  // Pairs between two models are no witnesses; those that the view graph lost still are.
+  results.clusters = {{.contradicted_pairs = {ImagePair{ImageId(29), ImageId(30)},
+                                              ImagePair{ImageId(3), ImageId(4)}}},
+                      {.cluster = 1,
+                       .contradicted_pairs = {ImagePair{ImageId(3), ImageId(4)},
+                                              ImagePair{ImageId(5), ImageId(9)},
+                                              ImagePair{ImageId(6), ImageId(9)}}}};
+  const CrossCheck check = *CheckContradictedPairs(results);
+  EXPECT_DOUBLE_EQ(check.value, 3.0 / 40.0);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(check.sentence,
+              HasSubstr("3 of 40 verified pairs contradict the model, first pano_3"));
+  for (uint32_t i = 1; i < 30; ++i)
+    results.clusters[0].contradicted_pairs.push_back({ImageId(i - 1), ImageId(i)});
+  EXPECT_EQ(CheckContradictedPairs(results)->level, CheckLevel::kBad);
+  EXPECT_EQ(CheckContradictedPairs(Street(5, {})), std::nullopt);
+}
+
+TEST(BuildJobReport, HasARowForEveryModelAndPlacesMissingImagesByGnss) {
+  JobResults results = Street(40, {{0, 20}, {25, 40}}, true);
+  results.manifest.origin = GeodeticPosition{47.0, 8.0, 400.0};
+  results.models[1].images[ImageId(30)].loose = true;
+  const JobReport report = BuildJobReport(results);
+  ASSERT_EQ(report.each_model.size(), 2U);
+  EXPECT_EQ(report.each_model[0].images, 20U);
+  EXPECT_EQ(report.each_model[1].images, 14U);
+  EXPECT_EQ(report.each_model[1].loose, 1U);
+  EXPECT_DOUBLE_EQ(report.each_model[0].step_median, 3.0);
+  EXPECT_DOUBLE_EQ(report.each_model[0].path_length, 57.0);
+  EXPECT_TRUE(report.origin.has_value());
+  EXPECT_FALSE(report.images[22].registered);
+  EXPECT_EQ(report.images[22].gnss_in_world, results.manifest.images[22].prior.position_in_enu);
+  EXPECT_EQ(report.images[30].StateText(), "loose");
+  EXPECT_EQ(report.images[27].model, 1U);
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/report/check_pairs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A drive of 100 images whose pairs of neighbours the model explains.
+JobResults Drive() {
+  JobResults results;
+  results.clusters.emplace_back();
+  for (uint32_t i = 0; i < 100; ++i) {
+    ImageRecord& image = results.manifest.images.emplace_back();
+    image.id = ImageId(i);
+    image.name = std::to_string(i) + ".jpg";
+    if (i > 0) results.clusters[0].explained_pairs.push_back({ImageId(i - 1), ImageId(i)});
+  }
+  return results;
+}
+
+void Contradict(uint32_t a, uint32_t b, JobResults& results) {
+  results.clusters[0].contradicted_pairs.push_back({ImageId(a), ImageId(b)});
+}
+
+TEST(CheckPairs, AModelThatExplainsItsPairsIsGood) {
+  const CrossCheck check = CheckPairs(Drive());
+  EXPECT_EQ(check.level, CheckLevel::kGood);
+  EXPECT_EQ(check.value, 1.0);
+  EXPECT_EQ(CheckPairs({}).level, CheckLevel::kGood);
+}
+
+TEST(CheckPairs, ScatteredLookAlikesAreNoReasonForDoubt) {
+  JobResults results = Drive();
+  for (uint32_t i = 0; i < 20; ++i) Contradict(i * 2, 50 + (i * 7) % 40, results);
+  const CrossCheck check = CheckPairs(results);
+  EXPECT_EQ(check.level, CheckLevel::kGood);
+  EXPECT_THAT(check.sentence, HasSubstr("20 pairs of others contradict it"));
+}
+
+TEST(CheckPairs, RunsOfContradictedPairsAreDoubtfulInBothDirections) {
+  JobResults there = Drive();
+  JobResults back = Drive();
+  for (uint32_t i = 0; i < 5; ++i) {
+    Contradict(10 + i, 60 + i, there);
+    Contradict(10 + i, 60 - i, back);
+  }
+  for (const JobResults& results : {there, back}) {
+    EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
+    EXPECT_THAT(CheckPairs(results).sentence, HasSubstr("up to 5 in a row"));
+  }
+}
+
+TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {
+  JobResults results = Drive();
+  for (uint32_t i = 0; i < 5; ++i) Contradict(10 + i, 60 + i, results);
+  for (ImageRecord& image : results.manifest.images)
+    image.prior.position_in_enu = Eigen::Vector3d(3.0 * image.id.value, 0.0, 0.0);
+  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+}
+
+TEST(CheckPairs, ATornStreetIsBad) {
+  JobResults results = Drive();
+  Contradict(40, 41, results);
+  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
+  Contradict(40, 42, results);
+  Contradict(70, 71, results);
+  const CrossCheck check = CheckPairs(results);
+  EXPECT_EQ(check.level, CheckLevel::kBad);
+  EXPECT_LT(check.value, check.limit);
+  EXPECT_THAT(check.sentence, HasSubstr("first 40.jpg and 41.jpg"));
+}
+
+TEST(CheckPairs, AnotherDriveIsNoNeighbour) {
+  JobResults results = Drive();
+  for (uint32_t i = 50; i < 100; ++i) results.manifest.images[i].drive = 1;
+  Contradict(49, 50, results);
+  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/report/list_missing_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/report/build_job_report.h"
+
+namespace orbweave {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Six images in two clusters. Model 0 observes images 0 to 2, and 3 to 5 are loose in it.
+JobResults SixImages() {
+  JobResults results;
+  for (uint32_t i = 0; i < 6; ++i) {
+    ImageRecord& image = results.manifest.images.emplace_back();
+    image.id = ImageId(i);
+    image.name = std::to_string(i) + ".jpg";
+  }
+  results.view_graph.partition.clusters = {
+      {.interior = {ImageId(0), ImageId(1), ImageId(2), ImageId(3)}},
+      {.interior = {ImageId(4), ImageId(5)}}};
+  AdjustedModel& model = results.models.emplace_back();
+  for (uint32_t i = 0; i < 6; ++i) model.images[ImageId(i)].loose = i > 2;
+  model.report.unobserved_images = {"3.jpg"};
+  results.clusters = {{.cluster = 1, .not_registered = {{ImageId(4), "too few points"}}}};
+  return results;
+}
+
+TEST(BuildJobReport, NamesLooseImagesWithTheirReasonsAndDoesNotCountThem) {
+  const JobReport report = BuildJobReport(SixImages());
+  EXPECT_EQ(report.registered, 3U);
+  std::vector<std::string> missing;
+  for (const Exclusion& image : report.not_registered)
+    missing.push_back(image.name + ": " + image.reason);
+  EXPECT_THAT(missing,
+              ElementsAre(HasSubstr("3.jpg: it has no observations of its own left; it is placed"),
+                          HasSubstr("4.jpg: too few points; it is placed loosely"),
+                          HasSubstr("5.jpg: no verified matches")));
+  EXPECT_THAT(report.warnings,
+              ElementsAre(HasSubstr("cluster 0: 1 images have no observations"),
+                          HasSubstr("cluster 1: 2 images have no observations")));
+  EXPECT_THAT(report.warnings[1], HasSubstr("first 4.jpg: too few points"));
+}
+
+TEST(BuildJobReport, AnImageThatAModelObservesIsNotLooseInAnother) {
+  JobResults results = SixImages();
+  AdjustedModel& second = results.models.emplace_back();
+  second.images[ImageId(5)] = {};
+  second.images[ImageId(0)].loose = true;
+  const JobReport report = BuildJobReport(results);
+  EXPECT_EQ(report.registered, 4U);
+  EXPECT_FALSE(report.images[5].loose);
+  EXPECT_EQ(report.images[5].model, 1U);
+  EXPECT_FALSE(report.images[0].loose);
+  EXPECT_EQ(report.images[0].model, 0U);
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "stages/list_seams/plan_seams.h"
+#include "stages/partition_view_graph/plan_clusters.h"
+#include "stages/select_image_pairs/plan_matching.h"
+
+namespace orbweave {
+namespace {
+
+std::vector<Digest> SomeDigests(uint32_t n) {
+  std::vector<Digest> digests;
+  for (uint32_t i = 0; i < n; ++i) digests.push_back(DigestOf(std::to_string(i)));
+  return digests;
+}
+
+TEST(PlanMatching, CutsPairsIntoRunsThatListTheirImages) {
+  std::vector<MatchRecipe::Pair> pairs;
+  for (uint32_t i = 0; i < 10; ++i) pairs.push_back({{ImageId(i), ImageId(i + 1)}, {}});
+  const auto digests = SomeDigests(11);
+  const auto recipes = PlanMatching(pairs, digests, 4);
+  ASSERT_EQ(recipes.size(), 3U);
+  EXPECT_EQ(recipes[0].pairs.size(), 4U);
+  EXPECT_EQ(recipes[2].pairs.size(), 2U);
+  ASSERT_EQ(recipes[1].images.size(), 5U);
+  EXPECT_EQ(recipes[1].images[0].image, ImageId(4));
+  EXPECT_EQ(recipes[1].images[0].features, digests[4]);
+}
+
+TEST(PlanMatching, MakesNoTaskOfNoPairs) { EXPECT_TRUE(PlanMatching({}, {}, 4).empty()); }
+
+TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
+  ViewGraph graph{.num_images = 5};
+  std::map<ImagePair, Digest> blob_of_pair;
+  for (uint32_t i = 0; i < 4; ++i) {
+    graph.edges.push_back({.pair = {ImageId(i), ImageId(i + 1)}});
+    blob_of_pair[graph.edges.back().pair] = DigestOf(i < 2 ? "first" : "second");
+  }
+  const Partition partition{
+      .clusters = {{.images = {ImageId(0), ImageId(1), ImageId(2)}, .interior = {}},
+                   {.images = {ImageId(2), ImageId(3), ImageId(4)}, .interior = {}}}};
+  ImageManifest manifest;
+  for (uint32_t i = 0; i < 5; ++i) manifest.images.push_back({.id = ImageId(i)});
+  manifest.images[2].prior.position_in_enu = Eigen::Vector3d(1.0, 2.0, 3.0);
+  const auto recipes = PlanClusters(partition, graph, manifest, SomeDigests(5), blob_of_pair);
+  ASSERT_EQ(recipes.size(), 2U);
+  EXPECT_EQ(recipes[1].cluster, 1U);
+  EXPECT_EQ(recipes[0].pairs.size(), 2U);
+  EXPECT_EQ(recipes[0].matches, std::vector<Digest>{DigestOf("first")});
+  EXPECT_EQ(recipes[1].matches, std::vector<Digest>{DigestOf("second")});
+  ASSERT_EQ(recipes[1].fixes.size(), 1U);
+  EXPECT_EQ(recipes[1].fixes[0].image, ImageId(2));
+}
+
+TEST(PlanSeams, GivesEachClusterItsRimAndThoseOfLaterNeighbours) {
+  const Partition partition{.clusters = std::vector<Cluster>(4),
+                            .seams = {{.cluster_a = 0, .cluster_b = 1},
+                                      {.cluster_a = 0, .cluster_b = 3},
+                                      {.cluster_a = 1, .cluster_b = 3}}};
+  const std::vector<Digest> boundaries = SomeDigests(4);
+  const std::vector<std::vector<Digest>> expected{{boundaries[0], boundaries[1], boundaries[3]},
+                                                  {boundaries[1], boundaries[3]},
+                                                  {boundaries[2]},
+                                                  {boundaries[3]}};
+  EXPECT_EQ(PlanSeams(partition, boundaries), expected);
+}
+
+}  // namespace
+}  // namespace orbweave
