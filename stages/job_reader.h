@@ -61,7 +61,7 @@ class JobReader {
   [[nodiscard]] absl::StatusOr<InterleavedDigests> List(Interleaved<A, B> Stage::*port) {
     ORBWEAVE_ASSIGN_OR_RETURN(const InputRule from, WiringOf(port));
     ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests, ListFrom(from));
-    return SplitInterleaved(EncodeCollection(digests));
+    return SplitInterleaved(digests);
   }
 
   /// Recipes of the stage that leaves what comes in by this port; none while nobody listed them.

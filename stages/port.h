@@ -76,9 +76,8 @@ struct InterleavedDigests {
   std::vector<Digest> second{};
 };
 
-/// From a collection blob. InvalidArgument: it is none, or the last part left only one.
-inline absl::StatusOr<InterleavedDigests> SplitInterleaved(std::string_view collection) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests, DecodeCollection(collection));
+/// InvalidArgument: the last part left only one.
+inline absl::StatusOr<InterleavedDigests> SplitInterleaved(const std::vector<Digest>& digests) {
   if (digests.size() % 2 != 0)
     return absl::InvalidArgumentError("a list of two outputs per part lacks the last one");
   InterleavedDigests split;

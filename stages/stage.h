@@ -16,8 +16,8 @@
 /// of it:
 ///
 ///   struct AlignSubmodelsStage {
-///     static constexpr StageFacts kFacts{.name = "align_submodels", .version = "4", .weight =
-///     0.1}; using Options = OptionSections<AlignOptions>;  // all the options that it can read
+///     static constexpr StageFacts kFacts{.name = "align_submodels", .version = "4"};
+///     using Options = OptionSections<AlignOptions>;  // all the options that it can read
 ///
 ///     EachPart<SeamsOfCluster> seams;  // one member per input, wired in stages/plans.cc
 ///     template <typename Visitor>

@@ -86,8 +86,8 @@ class StageTask {
   }
   template <typename A, typename B>
   [[nodiscard]] absl::StatusOr<InterleavedDigests> Read(Interleaved<A, B> Stage::*port) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs_.Get(DigestOf(port)));
-    return SplitInterleaved(bytes);
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> digests, ReadList(DigestOf(port)));
+    return SplitInterleaved(digests);
   }
   /// Everything that comes in by a port of all parts, one blob at a time.
   template <typename T>

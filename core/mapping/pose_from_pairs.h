@@ -3,8 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/mapping/mapping_state.h"
+#include "core/mapping/pair_witness.h"
 #include "core/mapping/scene_correspondences.h"
 
 namespace orbweave {
@@ -29,37 +31,14 @@ struct PoseFromPairs {
 /// with a registered image gives the rotation and the direction d of the baseline; its length s
 /// comes from one scene point P seen along v, (C_n + s d - P) x v = 0, or from a second pair, whose
 /// ray crosses. All such poses of the strongest five pairs are tried; that with which most rays
-/// agree, to points and to images, is refined on all of them (MinimiseBetweenViews). nullopt: no
-/// pair with a registered image, or no agreement.
+/// agree, to points and to images, is refined on all of them (MinimiseBetweenViews). `views` are
+/// those of MatchesWithRegistered. nullopt: no pair with a registered image, or no agreement.
 [[nodiscard]] std::optional<PoseFromPairs> EstimatePoseFromPairs(
     const MappingState& state,
     ImageSlot image,
+    std::span<const ViewMatches> views,
     const SceneCorrespondences& correspondences,
     double max_error_rad);
-
-/// Whether a strong pair of `image` with a registered one speaks against the pose: one with half as
-/// many matches as the strongest or more, and of those that show parallax fewer than half agree.
-/// Windows that repeat let an image see points a whole window further on, more of them than where
-/// it is; but two that stand next to each other see which of them is in front.
-[[nodiscard]] bool ContradictsStrongPair(const MappingState& state,
-                                         ImageSlot image,
-                                         const Rigid3& cam_from_world,
-                                         double max_error_rad);
-
-/// Matches with registered images that agree with the pose.
-[[nodiscard]] uint32_t CountAgreeingMatches(const MappingState& state,
-                                            ImageSlot image,
-                                            const Rigid3& cam_from_world,
-                                            double max_error_rad);
-
-/// Whether four points or matches agree with the pose that would neither at half nor at twice the
-/// distance from the image of its strongest pair: else nothing says how long that step is. True
-/// without such a pair.
-[[nodiscard]] bool IsLengthTold(const MappingState& state,
-                                ImageSlot image,
-                                const Rigid3& cam_from_world,
-                                const SceneCorrespondences& correspondences,
-                                double max_error_rad);
 
 /// Whether the pairs hold the pose: half of the matches agree with it, `min_matches` at least, and
 /// either points give the length of the baseline with evidence, or two directions cross and half of

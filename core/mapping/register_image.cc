@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/estimators/estimate_absolute_pose.h"
+#include "core/mapping/pair_witness.h"
 #include "core/mapping/pose_from_pairs.h"
 #include "core/mapping/scene_correspondences.h"
 
@@ -38,6 +40,7 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
   const ClusterImage& problem_image = state.Problem().images[image];
   const double max_error_rad = problem_image.camera.AngleFromPixels(limits.max_error_px);
   const SceneCorrespondences correspondences = FindSceneCorrespondences(state, image);
+  const std::vector<ViewMatches> views = MatchesWithRegistered(state, image);
   RegistrationAttempt attempt{.num_visible = state.Visible(image).Count()};
   const uint32_t needed = NeededInliers(limits, attempt.num_visible);
 
@@ -46,7 +49,7 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     attempt.num_inliers = std::max(attempt.num_inliers, support.count);
     if (support.count < needed) return false;
     if (limits.propose_from_pairs &&
-        !IsLengthTold(state, image, cam_from_world, correspondences, max_error_rad)) {
+        !IsLengthTold(cam_from_world, correspondences, views, max_error_rad)) {
       return false;  // so few points may all be far
     }
     state.Register(image, cam_from_world);
@@ -60,13 +63,13 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                  {.min_inliers = 6},
                                                  ContextOf(context, problem_image.id)));
   const bool is_doubtful = pose && limits.heeds_pairs &&
-                           ContradictsStrongPair(state, image, pose->cam_from_world, max_error_rad);
+                           ContradictsStrongPair(pose->cam_from_world, views, max_error_rad);
   std::optional<PoseFromPairs> proposed;
   if (is_doubtful || limits.propose_from_pairs)
-    proposed = EstimatePoseFromPairs(state, image, correspondences, max_error_rad);
+    proposed = EstimatePoseFromPairs(state, image, views, correspondences, max_error_rad);
   const auto agreeing = [&](const Rigid3& cam_from_world) {
     return SupportOf(cam_from_world, correspondences, max_error_rad).count +
-           CountAgreeingMatches(state, image, cam_from_world, max_error_rad);
+           CountAgreeingMatches(cam_from_world, views, max_error_rad);
   };
   const bool pairs_know_better =
       is_doubtful && proposed &&

@@ -25,13 +25,20 @@ SceneCorrespondences Thinned(const MappingState& state, ImageSlot image, size_t 
 
 constexpr double kMaxErrorRad = 4.0 * 2.0 * std::numbers::pi / 5400.0;
 
+std::optional<PoseFromPairs> Estimate(const MappingState& state,
+                                      ImageSlot image,
+                                      const SceneCorrespondences& correspondences) {
+  return EstimatePoseFromPairs(
+      state, image, MatchesWithRegistered(state, image), correspondences, kMaxErrorRad);
+}
+
 TEST(EstimatePoseFromPairs, NeedsAHandfulOfPoints) {
   const StreetFixture street(
       {.centres = StraightWalk(4, 3.0), .noise_px = 0.2, .random_rotations = true});
   const MappingState state = street.TriangulatedStateWith({0, 1, 2});
   const SceneCorrespondences few = Thinned(state, 3, 12);
   ASSERT_LT(few.size(), 20U);
-  const auto pose = EstimatePoseFromPairs(state, 3, few, kMaxErrorRad);
+  const auto pose = Estimate(state, 3, few);
   ASSERT_TRUE(pose.has_value());
   const Rigid3& truth = street.world.cams_from_world[3];
   EXPECT_LT((pose->cam_from_world.Centre() - truth.Centre()).norm(), 0.05);
@@ -43,7 +50,7 @@ TEST(EstimatePoseFromPairs, KeepsTheCentreUnderPureRotation) {
   centres.push_back(centres.back());
   const StreetFixture street({.centres = centres, .noise_px = 0.2, .random_rotations = true});
   const MappingState state = street.TriangulatedStateWith({0, 1, 2});
-  const auto pose = EstimatePoseFromPairs(state, 3, Thinned(state, 3, 10), kMaxErrorRad);
+  const auto pose = Estimate(state, 3, Thinned(state, 3, 10));
   ASSERT_TRUE(pose.has_value());
   EXPECT_LT((pose->cam_from_world.Centre() - centres.back()).norm(), 0.05);
 }
@@ -53,7 +60,7 @@ TEST(EstimatePoseFromPairs, NeedsNoPointWhereTwoDirectionsCross) {
                               .noise_px = 0.2,
                               .random_rotations = true});
   const MappingState state = street.StateWith({0, 1});
-  const auto pose = EstimatePoseFromPairs(state, 2, {}, kMaxErrorRad);
+  const auto pose = Estimate(state, 2, {});
   ASSERT_TRUE(pose.has_value());
   EXPECT_TRUE(IsHeldByPairs(*pose, 20));
   EXPECT_GT(pose->crossing_angle_rad, 0.5);
@@ -83,7 +90,7 @@ TEST(IsHeldByPairs, AsksForTheLengthOfTheBaseline) {
   const StreetFixture street(
       {.centres = StraightWalk(4, 3.0), .noise_px = 0.2, .random_rotations = true});
   const MappingState state = street.TriangulatedStateWith({0, 1, 2});
-  const auto held = EstimatePoseFromPairs(state, 3, Thinned(state, 3, 20), kMaxErrorRad);
+  const auto held = Estimate(state, 3, Thinned(state, 3, 20));
   ASSERT_TRUE(held.has_value());
   EXPECT_TRUE(IsHeldByPairs(*held, 20));
   EXPECT_LT(held->log10_false_alarms, -4.0);
@@ -91,7 +98,7 @@ TEST(IsHeldByPairs, AsksForTheLengthOfTheBaseline) {
   for (auto* values : {&two.bearings, &two.positions}) values->resize(2);
   two.nodes.resize(2);
   two.points.resize(2);
-  const auto open = EstimatePoseFromPairs(state, 3, two, kMaxErrorRad);
+  const auto open = Estimate(state, 3, two);
   EXPECT_FALSE(open.has_value() && IsHeldByPairs(*open, 20));
 }
 
@@ -106,7 +113,7 @@ TEST(IsHeldByPairs, RefusesAPoseThatMostMatchesContradict) {
 TEST(EstimatePoseFromPairs, HasNoAnswerWithoutARegisteredNeighbour) {
   const StreetFixture street({.centres = StraightWalk(4, 3.0)});
   const MappingState state = street.StateWith({});
-  EXPECT_FALSE(EstimatePoseFromPairs(state, 3, {}, kMaxErrorRad).has_value());
+  EXPECT_FALSE(Estimate(state, 3, {}).has_value());
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/estimators/split_by_plane.h"
+#include "core/estimators/matches_besides_plane.h"
 
 #include <algorithm>
 #include <cstdint>
