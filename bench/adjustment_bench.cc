@@ -16,9 +16,9 @@
 #include "core/bundle/bundle_problem.h"
 #include "core/bundle/bundle_report.h"
 #include "core/geometry/rotation.h"
-#include "core/partitioned_ba/adjust_partitioned.h"
 #include "core/synthetic/corridor.h"
 #include "core/synthetic/make_corridor.h"
+#include "tests/support/partitioned_ba/adjust_partitioned.h"
 
 /// Adjustment of a synthetic corridor (seed 1, noise 0.5 px of 5400). `step_per_observation` is the
 /// time of one Levenberg-Marquardt step over the number of observations, set-up included;

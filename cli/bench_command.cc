@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "cli/build_scaling_report.h"
+#include "bench/scaling/build_scaling_report.h"
+#include "bench/scaling/format_scaling.h"
+#include "bench/scaling/scaling_html.h"
+#include "bench/scaling/scaling_json.h"
 #include "cli/exit_code.h"
-#include "cli/format_scaling.h"
 #include "cli/measure_job.h"
 #include "cli/option_arguments.h"
 #include "cli/write_corridor.h"
 #include "core/io/file.h"
-#include "core/io/scaling_html.h"
-#include "core/io/scaling_json.h"
 
 namespace orbweave {
 namespace {

@@ -4,26 +4,11 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include "core/pipeline/measure_overhead.h"
+#include "bench/scaling/job_measurement.h"
 #include "stages/pipeline_options.h"
 
 namespace orbweave {
-
-/// What a job was and took.
-struct JobMeasurement {
-  std::string label{};
-  uint32_t panoramas = 0;
-  uint32_t registered = 0;
-  double residual_px_rms = 0.0;
-  std::vector<MeasuredTask> tasks{};
-  uint32_t workers = 0;  ///< 0: it ran some time ago, and what follows is not known
-  double wall_s = 0.0;
-  ScheduleOverhead overhead{};
-  double coordinator_cpu_s = 0.0;
-  uint64_t coordinator_peak_bytes = 0;
-};
 
 /// Reconstructs the corridor in `corridor` (see WriteCorridor) from nothing, as
 /// `orbweave reconstruct` does, with state in `folder`. Codes of RunLocalJob.

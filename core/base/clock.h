@@ -3,8 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 
 namespace orbweave {
 
@@ -22,23 +20,6 @@ class SteadyClock final : public Clock {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
   }
-};
-
-/// A clock turned by hand, for tests.
-class ManualClock final : public Clock {
- public:
-  [[nodiscard]] double NowSeconds() const override {
-    const std::lock_guard lock(mutex_);
-    return now_s_;
-  }
-  void Advance(double seconds) {
-    const std::lock_guard lock(mutex_);
-    now_s_ += seconds;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  double now_s_ = 0.0;
 };
 
 }  // namespace orbweave

@@ -8,8 +8,7 @@
 
 namespace orbweave {
 
-constexpr int kSpreadCells = 8;       ///< bands and sectors of `SphereSpread`
-constexpr int kVisibilityLevels = 5;  ///< 2x2, 4x4, ..., 32x32 cells of `SphereVisibility`
+constexpr int kSpreadCells = 8;  ///< bands and sectors of `SphereSpread`
 
 /// Cell of a unit bearing in a division of the sphere into n x n cells of equal area (Archimedes:
 /// bands of equal height in y, sectors of equal longitude): band * n + sector, in [0, n^2).
@@ -17,10 +16,5 @@ constexpr int kVisibilityLevels = 5;  ///< 2x2, 4x4, ..., 32x32 cells of `Sphere
 
 /// Share of the 8 x 8 cells that hold a bearing, 0 ... 1.
 [[nodiscard]] double SphereSpread(std::span<const Eigen::Vector3d> bearings);
-
-/// Visibility score of Schonberger and Frahm (CVPR 2016) on the sphere: over the levels n = 2, 4,
-/// ..., 32 the number of cells that hold a bearing, weighted by n^2, as a share of a full sphere's:
-/// 0 ... 1. It grows with the number of bearings and with their spread.
-[[nodiscard]] double SphereVisibility(std::span<const Eigen::Vector3d> bearings);
 
 }  // namespace orbweave

@@ -213,14 +213,4 @@ void TracksOfWorld::Finish(const Visit& visit) {
   }
 }
 
-Reconstruction GatherWorld(const FinalisedWorld& world, std::vector<Subproblem> subproblems) {
-  Reconstruction model{.images = ModelImages(world)};
-  const auto take = [&model](const Track& track) { model.tracks.push_back(track); };
-  TracksOfWorld tracks(world);
-  for (Subproblem& subproblem : subproblems) tracks.Add(std::move(subproblem), take);
-  tracks.Finish(take);
-  model.SortTracks();
-  return model;
-}
-
 }  // namespace orbweave

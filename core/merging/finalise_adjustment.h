@@ -68,8 +68,4 @@ class TracksOfWorld {
   std::map<uint32_t, Track> split_;
 };
 
-/// Both together.
-[[nodiscard]] Reconstruction GatherWorld(const FinalisedWorld& world,
-                                         std::vector<Subproblem> subproblems);
-
 }  // namespace orbweave

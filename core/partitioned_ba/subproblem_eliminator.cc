@@ -76,26 +76,6 @@ double SubproblemEliminator::HeldDistance(const EvaluatedState& state) const {
       .norm();
 }
 
-SeparatorSystem LineariseSubproblem(const BundleSubproblem& subproblem,
-                                    const EvaluatedState& state,
-                                    const StepControl& control,
-                                    const BundleOptions& options,
-                                    int num_threads) {
-  return SubproblemEliminator(subproblem, options, num_threads).Linearise(state, control);
-}
-
-SubproblemTrial BackSubstituteSubproblem(const BundleSubproblem& subproblem,
-                                         const EvaluatedState& state,
-                                         const StepControl& control,
-                                         const SeparatorStep& step,
-                                         const BundleOptions& options,
-                                         int num_threads) {
-  SubproblemEliminator solver(subproblem, options, num_threads);
-  // Deterministic: it was definite when the separators were solved.
-  ORBWEAVE_CHECK(solver.Linearise(state, control).is_definite);
-  return solver.BackSubstitute(state, step);
-}
-
 EvaluatedState Accepted(const BundleSubproblem& subproblem,
                         EvaluatedState trial,
                         const std::vector<ShortenedPoint>& shortened) {

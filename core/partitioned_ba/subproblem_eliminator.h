@@ -56,20 +56,6 @@ class SubproblemEliminator {
   BundleEliminator eliminator_;
 };
 
-/// The two half-steps as pure functions: BackSubstituteSubproblem linearises again instead of
-/// holding anything in between.
-[[nodiscard]] SeparatorSystem LineariseSubproblem(const BundleSubproblem& subproblem,
-                                                  const EvaluatedState& state,
-                                                  const StepControl& control,
-                                                  const BundleOptions& options,
-                                                  int num_threads);
-[[nodiscard]] SubproblemTrial BackSubstituteSubproblem(const BundleSubproblem& subproblem,
-                                                       const EvaluatedState& state,
-                                                       const StepControl& control,
-                                                       const SeparatorStep& step,
-                                                       const BundleOptions& options,
-                                                       int num_threads);
-
 /// An accepted trial state with its shortened separator points (ascending) where they belong.
 [[nodiscard]] EvaluatedState Accepted(const BundleSubproblem& subproblem,
                                       EvaluatedState trial,

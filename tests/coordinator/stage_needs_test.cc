@@ -9,6 +9,7 @@
 #include "coordinator/coordinator.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
+#include "tests/support/manual_clock.h"
 #include "tests/support/toy_job.h"
 
 namespace orbweave {

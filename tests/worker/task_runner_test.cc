@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "tests/support/manual_clock.h"
 #include "tests/support/toy_job.h"
 #include "worker/peak_memory.h"
 

@@ -53,22 +53,5 @@ TEST(SphereSpread, GoesFromNothingToTheWholeSphere) {
   EXPECT_EQ(SphereSpread(bearings), 1.0);
 }
 
-TEST(SphereVisibility, GrowsWithNumberAndSpread) {
-  Random random(4);
-  std::vector<Vector3d> spread;
-  std::vector<Vector3d> cap;
-  double last = 0.0;
-  for (int i = 0; i < 50; ++i) {
-    spread.push_back(RandomDirection(random));
-    cap.push_back((Vector3d::UnitX() + 0.1 * RandomDirection(random)).normalized());
-    const double visibility = SphereVisibility(spread);
-    EXPECT_GE(visibility, last);
-    last = visibility;
-  }
-  EXPECT_GT(SphereVisibility(spread), 2.0 * SphereVisibility(cap));
-  EXPECT_LE(SphereVisibility(spread), 1.0);
-  EXPECT_EQ(SphereVisibility({}), 0.0);
-}
-
 }  // namespace
 }  // namespace orbweave

@@ -15,6 +15,18 @@
 
 namespace orbweave::testing {
 
+// The model that the stages hand on in parts.
+inline Reconstruction GatherWorld(const FinalisedWorld& world,
+                                  std::vector<Subproblem> subproblems) {
+  Reconstruction model{.images = ModelImages(world)};
+  const auto take = [&model](const Track& track) { model.tracks.push_back(track); };
+  TracksOfWorld tracks(world);
+  for (Subproblem& subproblem : subproblems) tracks.Add(std::move(subproblem), take);
+  tracks.Finish(take);
+  model.SortTracks();
+  return model;
+}
+
 struct GloballyAdjusted {
   Reconstruction reconstruction{};  // east-north-up metres when report.gnss.used
   GlobalAdjustReport report{};

@@ -12,6 +12,7 @@
 #include "core/merging/finalise_adjustment.h"
 #include "core/synthetic/corridor_options.h"
 #include "core/synthetic/make_corridor.h"
+#include "tests/core/merging/adjust_globally.h"
 #include "tests/core/merging/corridor_model.h"
 
 namespace orbweave {
@@ -53,7 +54,7 @@ Reconstruction ModelOf(AdjustedSubproblems adjusted) {
   FinalisedWorld world;
   for (const SubproblemSummary& summary : adjusted.summaries)
     world.images.insert(summary.owned_images.begin(), summary.owned_images.end());
-  return GatherWorld(world, std::move(adjusted.subproblems));
+  return testing::GatherWorld(world, std::move(adjusted.subproblems));
 }
 
 double LargestDistance(const Reconstruction& x, const Reconstruction& y) {

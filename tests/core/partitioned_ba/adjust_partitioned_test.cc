@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/partitioned_ba/adjust_partitioned.h"
+#include "tests/support/partitioned_ba/adjust_partitioned.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/partitioned_ba/divide_bundle.h"
+#include "tests/support/partitioned_ba/divide_bundle.h"
 
 #include <gtest/gtest.h>
 

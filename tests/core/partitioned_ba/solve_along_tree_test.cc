@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/partitioned_ba/divide_bundle.h"
 #include "core/partitioned_ba/subproblem_eliminator.h"
 #include "tests/core/partitioned_ba/corridor_problem.h"
+#include "tests/support/partitioned_ba/divide_bundle.h"
 
 namespace orbweave {
 namespace {

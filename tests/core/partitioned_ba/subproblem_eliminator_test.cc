@@ -10,13 +10,34 @@
 
 #include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_report.h"
-#include "core/partitioned_ba/divide_bundle.h"
 #include "core/partitioned_ba/judge_trial.h"
 #include "core/partitioned_ba/solve_along_tree.h"
 #include "tests/core/partitioned_ba/corridor_problem.h"
+#include "tests/support/partitioned_ba/divide_bundle.h"
 
 namespace orbweave {
 namespace {
+
+/// The two half-steps as pure functions: the second linearises again instead of holding anything.
+SeparatorSystem LineariseSubproblem(const BundleSubproblem& subproblem,
+                                    const EvaluatedState& state,
+                                    const StepControl& control,
+                                    const BundleOptions& options,
+                                    int num_threads) {
+  return SubproblemEliminator(subproblem, options, num_threads).Linearise(state, control);
+}
+
+SubproblemTrial BackSubstituteSubproblem(const BundleSubproblem& subproblem,
+                                         const EvaluatedState& state,
+                                         const StepControl& control,
+                                         const SeparatorStep& step,
+                                         const BundleOptions& options,
+                                         int num_threads) {
+  SubproblemEliminator solver(subproblem, options, num_threads);
+  // Deterministic: it was definite when the separators were solved.
+  ORBWEAVE_CHECK(solver.Linearise(state, control).is_definite);
+  return solver.BackSubstitute(state, step);
+}
 
 constexpr StepControl kControl{.lambda = 1e-6};
 
