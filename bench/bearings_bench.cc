@@ -14,7 +14,6 @@
 #include "core/geometry/equirectangular_camera.h"
 #include "core/geometry/five_point.h"
 #include "core/geometry/p3p.h"
-#include "core/geometry/sphere_cells.h"
 #include "core/geometry/upright_three_point.h"
 #include "tests/support/random_world.h"
 
@@ -58,11 +57,6 @@ void SymmetricEpipolarAngles(benchmark::State& state) {
   }
 }
 BENCHMARK(SymmetricEpipolarAngles);
-
-void VisibilityOf1024Bearings(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(SphereVisibility(Pairs().bearings_a));
-}
-BENCHMARK(VisibilityOf1024Bearings);
 
 /// `kSize` consecutive pairs, another start each time.
 template <size_t kSize>

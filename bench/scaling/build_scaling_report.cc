@@ -13,6 +13,7 @@
 #include "bench/scaling/fit_growth.h"
 #include "bench/scaling/grow_job.h"
 #include "bench/scaling/stage_totals.h"
+#include "core/base/status.h"
 #include "core/pipeline/build_version.h"
 
 namespace orbweave {

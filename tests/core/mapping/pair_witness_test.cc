@@ -53,7 +53,10 @@ TEST(ContradictsStrongPair, SpeaksAgainstTheOtherSideOfTheNeighbourOnly) {
   const Eigen::Vector3d nearest = walk.state.Centre(2);
   const Eigen::Vector3d step = walk.truth.Centre() - nearest;
   EXPECT_FALSE(ContradictsStrongPair(walk.truth, walk.views, kMaxErrorRad));
-  EXPECT_TRUE(ContradictsStrongPair(walk.MovedTo(nearest - step), walk.views, kMaxErrorRad));
+  const Rigid3 behind = walk.MovedTo(nearest - step);
+  EXPECT_TRUE(ContradictsStrongPair(behind, walk.views, kMaxErrorRad));
+  EXPECT_GT(CountAgreeingMatches(walk.truth, walk.views, kMaxErrorRad),
+            CountAgreeingMatches(behind, walk.views, kMaxErrorRad));
   // Along the street a pair of directions says nothing of the length.
   EXPECT_FALSE(ContradictsStrongPair(walk.MovedTo(nearest + 2.0 * step), walk.views, kMaxErrorRad));
 }

@@ -69,22 +69,6 @@ TEST(EstimatePoseFromPairs, NeedsNoPointWhereTwoDirectionsCross) {
   EXPECT_LT((pose->cam_from_world.Centre() - truth.Centre()).norm(), 0.05);
 }
 
-TEST(ContradictsStrongPair, WhereTheImageStandsOnTheOtherSideOfItsNeighbour) {
-  const StreetFixture street(
-      {.centres = StraightWalk(4, 3.0), .noise_px = 0.3, .random_rotations = true});
-  const MappingState state = street.TriangulatedStateWith({0, 1, 2});
-  const Rigid3& truth = street.world.cams_from_world[3];
-  EXPECT_FALSE(ContradictsStrongPair(state, 3, truth, kMaxErrorRad));
-  const Eigen::Vector3d behind = 2.0 * state.Centre(2) - truth.Centre();
-  EXPECT_TRUE(
-      ContradictsStrongPair(state, 3, Rigid3::FromCentre(truth.rotation, behind), kMaxErrorRad));
-  EXPECT_GT(
-      CountAgreeingMatches(state, 3, truth, kMaxErrorRad),
-      CountAgreeingMatches(state, 3, Rigid3::FromCentre(truth.rotation, behind), kMaxErrorRad));
-  // Without a registered neighbour nothing speaks against a pose.
-  EXPECT_FALSE(ContradictsStrongPair(street.StateWith({}), 3, truth, kMaxErrorRad));
-}
-
 TEST(IsHeldByPairs, AsksForTheLengthOfTheBaseline) {
   // On a straight street all directions are parallel: without points nothing says how far.
   const StreetFixture street(
