@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/exit_code.h"
+#include "cli/print_surface.h"
 #include "core/estimators/compare_poses.h"
 #include "core/estimators/compare_with_claims.h"
 #include "core/io/camera_sigmas.h"
@@ -24,6 +25,7 @@ namespace {
 struct EvaluateArguments {
   std::string output{};
   std::string truth{};
+  std::string surface{};
 };
 
 void Print(const PoseErrors& errors, size_t compared, size_t known) {
@@ -92,6 +94,14 @@ absl::Status Evaluate(const EvaluateArguments& arguments) {
                                       arguments.truth + ", or they are in one place");
   }
   Print(*errors, estimated.size(), truth.size());
+  if (!arguments.surface.empty()) {
+    std::vector<Eigen::Vector3d> centres;
+    for (const Rigid3& camera : reference) centres.push_back(camera.Centre());
+    ORBWEAVE_RETURN_IF_ERROR(PrintSurface(arguments.output + "/dense",
+                                          arguments.surface,
+                                          errors->reference_from_model,
+                                          std::move(centres)));
+  }
   return is_model ? absl::OkStatus() : PrintClaims(arguments.output, model, truth);
 }
 
@@ -108,7 +118,14 @@ void AddEvaluateCommand(CLI::App& app, SelectedCommand& selected) {
       ->add_option(
           "--truth", arguments->truth, "CSV: name,x,y,z,qw,qx,qy,qz (cam_from_world, metres)")
       ->required();
-  command->footer("Example:\n  orbweave evaluate model --truth street/truth.csv");
+  command->add_option("--surface",
+                      arguments->surface,
+                      "PLY with points of the true surface, in the frame of --truth: judges the "
+                      "dense cloud in OUTPUT/dense");
+  command->footer(
+      "Examples:\n"
+      "  orbweave evaluate model --truth street/truth.csv\n"
+      "  orbweave evaluate model --truth street/truth.csv --surface street/surface.ply");
   command->callback([arguments, &selected] {
     selected.run = [arguments] { return ReportStatus(Evaluate(*arguments)); };
   });

@@ -31,6 +31,9 @@ absl::StatusOr<JobStatus> Settled(JobApi& coordinator, const Digest& id) {
   }
 }
 
+/// A dense job reads a model and leaves none.
+bool LeavesAModel(const JobStatus& job) { return job.spec.kind != DenseJob::kKind; }
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
@@ -47,7 +50,7 @@ absl::StatusOr<JobStatus> LastFinishedJob(JobApi& coordinator, const std::string
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
   for (auto listed = jobs.rbegin(); listed != jobs.rend(); ++listed) {
     ORBWEAVE_ASSIGN_OR_RETURN(JobStatus job, Settled(coordinator, listed->id));
-    if (job.state == JobState::kDone) return job;
+    if (job.state == JobState::kDone && LeavesAModel(job)) return job;
   }
   return absl::FailedPreconditionError(output + " holds no finished job; run it to its end first");
 }

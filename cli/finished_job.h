@@ -14,7 +14,8 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
                                                                         const Clock& clock);
 
-/// The last finished job of a coordinator that was just opened. FailedPrecondition: there is none.
+/// The last finished job with a model of a coordinator that was just opened. FailedPrecondition:
+/// there is none.
 [[nodiscard]] absl::StatusOr<JobStatus> LastFinishedJob(JobApi& coordinator,
                                                         const std::string& output);
 

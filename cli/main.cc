@@ -8,6 +8,7 @@
 #include "cli/bench_command.h"
 #include "cli/cancel_command.h"
 #include "cli/command.h"
+#include "cli/dense_command.h"
 #include "cli/drain_command.h"
 #include "cli/evaluate_command.h"
 #include "cli/exec_tasks_command.h"
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   orbweave::SelectedCommand selected;
   orbweave::AddRunCommand(app, selected);
   orbweave::AddReconstructCommand(app, selected);
+  orbweave::AddDenseCommand(app, selected);
   orbweave::AddEvaluateCommand(app, selected);
   orbweave::AddExportCommand(app, selected);
   orbweave::AddInspectCommand(app, selected);

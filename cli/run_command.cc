@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/dense_job.h"
 #include "cli/exit_code.h"
 #include "cli/fail_on_argument.h"
 #include "cli/image_arguments.h"
@@ -20,19 +21,23 @@ struct RunArguments {
   std::string clusters{};
   std::string output{};
   uint32_t workers = 2;
+  bool dense = false;
   FailOn fail_on{};
   OptionArguments options{};
 };
 
 absl::Status Run(const RunArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
-  return RunLocalJob({.output = arguments.output,
-                      .workers = arguments.workers,
-                      .fail_on = arguments.fail_on,
-                      .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
-                        return PrepareImageJob(
-                            coordinator, arguments.scan, arguments.clusters, options, context);
-                      }});
+  const LocalJob sparse{.output = arguments.output,
+                        .workers = arguments.workers,
+                        .fail_on = arguments.fail_on,
+                        .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
+                          return PrepareImageJob(
+                              coordinator, arguments.scan, arguments.clusters, options, context);
+                        }};
+  ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(sparse));
+  if (!arguments.dense) return absl::OkStatus();
+  return RunDenseJob(arguments.output, arguments.workers, options);
 }
 
 }  // namespace
@@ -51,6 +56,8 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--workers", arguments->workers, "Worker processes")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command->add_flag(
+      "--dense", arguments->dense, "Then compute the dense cloud as well, into OUTPUT/dense");
   AddFailOnArgument(*command, arguments->fail_on);
   AddOptionArguments(*command, arguments->options);
   command->footer(

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a fresh checkout to a model one can look at.
+# From a fresh checkout to a model and a dense cloud one can look at.
 #
 #   deploy/quickstart.sh                            the built-in street: rendered, reconstructed, compared with truth
 #   deploy/quickstart.sh IMAGES [orbweave options]  your own folder of 360 degree images
@@ -27,6 +27,6 @@ else
     "$orbweave" synth street --panoramas 48 --size 2048x1024 --output "$street"
   fi
   "$orbweave" run "$street/images" --output "$output" --gnss "$street/gnss.csv" --masks "$street/masks" \
-    --workers 2 "$@"
-  "$orbweave" evaluate "$output" --truth "$street/truth.csv"
+    --workers 2 --dense "$@"
+  "$orbweave" evaluate "$output" --truth "$street/truth.csv" --surface "$street/surface.ply"
 fi

@@ -45,6 +45,19 @@ class JobReader {
     return ReadFrom<T>(from);
   }
 
+  /// Its name only: of what the only part of a stage left, or of what a stage reads.
+  template <typename T, LeftByStage Outputs>
+  [[nodiscard]] absl::StatusOr<Digest> Name(One<T> Outputs::*port) const {
+    return DigestFrom(
+        {InputRule::Kind::kOutput, NameOf<typename Outputs::Stage>(), IndexOf(port, false)});
+  }
+  template <typename T, typename Stage>
+  requires(!LeftByStage<Stage>)
+      [[nodiscard]] absl::StatusOr<Digest> Name(One<T> Stage::*port) const {
+    ORBWEAVE_ASSIGN_OR_RETURN(const InputRule from, WiringOf(port));
+    return DigestFrom(from);
+  }
+
   /// Digests of what each part of a stage left that is done.
   template <typename T, LeftByStage Outputs>
   [[nodiscard]] absl::StatusOr<std::vector<Digest>> List(EachPart<T> Outputs::*port) {

@@ -8,6 +8,9 @@
 
 #include "core/base/options.h"
 #include "core/bundle/bundle_options.h"
+#include "core/dense/dense_options.h"
+#include "core/dense/fuse_pixels.h"
+#include "core/dense/select_sources.h"
 #include "core/estimators/two_view_options.h"
 #include "core/features/extract_features.h"
 #include "core/features/match_options.h"
@@ -22,8 +25,8 @@
 
 namespace orbweave {
 
-/// Every option of the sparse line, one section per algorithm. The text form, "section.key=value"
-/// lines, is what config files, `--set`, task names and the wire carry.
+/// Every option of the sparse and the dense line, one section per algorithm. The text form,
+/// "section.key=value" lines, is what config files, `--set`, task names and the wire carry.
 struct PipelineOptions {
   IngestOptions ingest{};
   ExtractOptions features{};
@@ -38,6 +41,9 @@ struct PipelineOptions {
   GlobalAdjustOptions global{};
   BundleOptions bundle{};
   DistributionOptions blocks{};
+  SourceOptions sources{};
+  DenseOptions dense{};
+  FuseOptions fusion{};
 
   template <typename Self, typename Visitor>
   static void VisitSections(Self& self, Visitor&& visit) {
@@ -54,6 +60,9 @@ struct PipelineOptions {
     visit("global", self.global);
     visit("bundle", self.bundle);
     visit("blocks", self.blocks);
+    visit("sources", self.sources);
+    visit("dense", self.dense);
+    visit("fusion", self.fusion);
   }
 };
 

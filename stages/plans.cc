@@ -8,19 +8,30 @@
 #include "stages/adjust_block/stage.h"
 #include "stages/align_submodels/stage.h"
 #include "stages/assemble_block/stage.h"
+#include "stages/assemble_tile/stage.h"
+#include "stages/check_depths/stage.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
+#include "stages/dense_codecs.h"
+#include "stages/estimate_depths/stage.h"
 #include "stages/extract_features/stage.h"
 #include "stages/fit_seams/stage.h"
+#include "stages/fuse_panorama/stage.h"
 #include "stages/ingest_images/stage.h"
 #include "stages/join_submodels/stage.h"
+#include "stages/list_checks/stage.h"
+#include "stages/list_fusions/stage.h"
 #include "stages/list_seams/stage.h"
+#include "stages/list_tiles/stage.h"
+#include "stages/list_views/stage.h"
 #include "stages/match_images/stage.h"
 #include "stages/partition_view_graph/stage.h"
 #include "stages/plan_builder.h"
+#include "stages/plan_depths/stage.h"
 #include "stages/reconstruct_cluster/stage.h"
 #include "stages/review_seams/stage.h"
 #include "stages/select_image_pairs/stage.h"
+#include "stages/select_views/stage.h"
 #include "stages/steer_adjustment/stage.h"
 #include "stages/verify_matches/stage.h"
 
@@ -91,6 +102,30 @@ void AddModelStages(const VerifiedImages& images, PlanBuilder& plan) {
                                    .divided = partition.divided});
 }
 
+/// From a finished model to one cloud of points, each piece of surface once.
+void AddDenseStages(const One<ImageManifest>& manifest,
+                    const One<FinalisedModel>& model,
+                    PlanBuilder& plan) {
+  const auto listed = plan.Add(ListViewsStage{.model = model});
+  const auto chosen = plan.Add(SelectViewsStage{.view = listed.views});
+  const auto planned =
+      plan.Add(PlanDepthsStage{.manifest = manifest, .model = model, .chosen = chosen.chosen});
+  const auto estimated = plan.Add(EstimateDepthsStage{.depth = planned.depths});
+  const auto checks = plan.Add(ListChecksStage{.plan = planned.plan, .maps = estimated.map});
+  const auto checked = plan.Add(CheckDepthsStage{.check = checks.checks});
+  const auto fusions = plan.Add(ListFusionsStage{.plan = planned.plan, .maps = checked.map});
+  const auto fused = plan.Add(FusePanoramaStage{.fusion = fusions.fusions});
+  const auto tiles = plan.Add(ListTilesStage{.runs = fused.runs});
+  plan.Add(AssembleTileStage{.recipe = tiles.tiles});
+}
+
+JobPlan DensePlanOf() {
+  PlanBuilder plan(DenseJob::kKind);
+  const auto job = InputsOf<DenseJob>();
+  AddDenseStages(job.manifest, job.model, plan);
+  return std::move(plan).Finish();
+}
+
 /// From `Job` by its first stages to verified images, and on to the model.
 template <typename Job>
 JobPlan PlanOf(VerifiedImages (*add_first_stages)(const Job&, PlanBuilder&)) {
@@ -104,6 +139,7 @@ JobPlan PlanOf(VerifiedImages (*add_first_stages)(const Job&, PlanBuilder&)) {
 absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind) {
   if (kind == SparseJob::kKind) return PlanOf<SparseJob>(AddImageStages);
   if (kind == SparseFromMatchesJob::kKind) return PlanOf<SparseFromMatchesJob>(AddVerification);
+  if (kind == DenseJob::kKind) return DensePlanOf();
   return absl::NotFoundError(absl::StrCat("there is no job kind '",
                                           std::string(kind),
                                           "' (known: ",
@@ -112,7 +148,9 @@ absl::StatusOr<JobPlan> FindJobPlan(std::string_view kind) {
 }
 
 std::vector<std::string> JobKinds() {
-  return {std::string(SparseJob::kKind), std::string(SparseFromMatchesJob::kKind)};
+  return {std::string(SparseJob::kKind),
+          std::string(SparseFromMatchesJob::kKind),
+          std::string(DenseJob::kKind)};
 }
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/artifacts/adjustment_records.h"
 #include "core/artifacts/recipes.h"
 #include "core/io/cluster_table.h"
 #include "core/io/image_sources.h"
@@ -46,6 +47,19 @@ struct SparseFromMatchesJob {
     visit("features", &SparseFromMatchesJob::features);
     visit("runs", &SparseFromMatchesJob::runs);
     visit("clusters_by_hand", &SparseFromMatchesJob::clusters_by_hand);
+  }
+};
+
+/// A finished model, as ConcludeAdjustmentStage leaves it, and the pictures of its images.
+struct DenseJob {
+  static constexpr std::string_view kKind = "dense";
+  One<ImageManifest> manifest;
+  One<FinalisedModel> model;
+
+  template <typename Visitor>
+  static void VisitPorts(Visitor&& visit) {
+    visit("manifest", &DenseJob::manifest);
+    visit("model", &DenseJob::model);
   }
 };
 

@@ -8,13 +8,13 @@
 
 #include "core/graph/set_aside_far_pairs.h"
 #include "core/io/cluster_table.h"
-#include "core/io/file.h"
 #include "core/io/printable_text.h"
 #include "core/io/read_colmap_database.h"
 #include "core/io/text_file.h"
 #include "stages/check_options_together.h"
 #include "stages/codecs.h"
 #include "stages/ingest_images/ingest_images.h"
+#include "stages/offer_files.h"
 #include "stages/plans.h"
 #include "stages/select_image_pairs/plan_matching.h"
 #include "stages/stage_task.h"
@@ -23,38 +23,6 @@ namespace orbweave {
 namespace {
 
 constexpr size_t kPairsPerVerification = 256;
-
-absl::Status OfferFile(BlobDepot& depot, const Digest& digest, const std::string& path) {
-  const absl::Status linked = depot.LinkFile(digest, path);
-  if (linked.ok() || absl::IsDataLoss(linked)) return linked;
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest stored, depot.Put(bytes));
-  if (stored != digest) return absl::DataLossError(path + " changed while it was read; run again");
-  return absl::OkStatus();
-}
-
-/// Every usable file and mask that the coordinator does not know yet.
-absl::Status OfferFiles(BlobDepot& depot,
-                        const ImageSources& sources,
-                        const StageContext& context) {
-  std::vector<Digest> digests;
-  std::vector<std::string> paths;
-  for (const SourceImage& image : sources.images) {
-    if (!image.problem.empty()) continue;
-    digests.push_back(image.content);
-    paths.push_back(image.path);
-    if (image.mask.IsZero()) continue;
-    digests.push_back(image.mask);
-    paths.push_back(image.mask_path);
-  }
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<bool> known, depot.StatBlobs(digests));
-  for (size_t i = 0; i < digests.size(); ++i) {
-    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
-    if (!known[i]) ORBWEAVE_RETURN_IF_ERROR(OfferFile(depot, digests[i], paths[i]));
-    context.Report(i + 1, digests.size(), "files");
-  }
-  return absl::OkStatus();
-}
 
 /// A database knows keypoints: one pixel of angular sigma, no descriptors, no colours.
 Features FeaturesOf(const EquirectangularCamera& camera, std::vector<Keypoint> keypoints) {

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   orbweave::Seeds seeds;
   orbweave::AddArtifactSeeds(seeds);
   orbweave::AddAdjustmentSeeds(seeds);
+  orbweave::AddDenseSeeds(seeds);
   orbweave::AddMessageSeeds(seeds);
   orbweave::AddTextSeeds(seeds);
   orbweave::AddImageSeeds(seeds);

@@ -32,7 +32,7 @@ void AddMessageSeeds(Seeds& seeds) {
   add("measured_task", MeasuredTask{3, "align", 4, cost});
   add("join_request", WorkerInfo{"node7/a", "0.1.0", 2, {held}});
   add("join_reply", JoinReply{7, 30.0, 5.0});
-  add("lease", Lease{digest, uint64_t{1} << 33, {"stage", {digest}, "o.p=1\n", 4}, 3});
+  add("lease", Lease{digest, uint64_t{1} << 33, {"stage", "1", {digest}, "o.p=1\n", 4}, 3});
   add("heartbeat_reply", HeartbeatReply{{digest}, true});
   seeds["message_channel"] = {ByteWriter()
                                   .Put(uint64_t{5})

@@ -15,6 +15,8 @@ using Seeds = std::map<std::string, std::vector<std::string>>;
 void AddArtifactSeeds(Seeds& seeds);
 /// What the subproblems of the global adjustment leave behind.
 void AddAdjustmentSeeds(Seeds& seeds);
+/// What the dense stages leave behind.
+void AddDenseSeeds(Seeds& seeds);
 /// Messages of the wire and between processes.
 void AddMessageSeeds(Seeds& seeds);
 /// Tables, options and addresses that people write.

@@ -54,9 +54,9 @@ TEST(FindJobPlan, SparseFromMatchesBeginsWithVerification) {
 }
 
 TEST(FindJobPlan, RefusesAnUnknownKindByName) {
-  const auto plan = FindJobPlan("dense");
+  const auto plan = FindJobPlan("no_such_kind");
   EXPECT_TRUE(absl::IsNotFound(plan.status()));
-  EXPECT_THAT(std::string(plan.status().message()), ::testing::HasSubstr("dense"));
+  EXPECT_THAT(std::string(plan.status().message()), ::testing::HasSubstr("no_such_kind"));
 }
 
 /// Last stage of the loop that stage `s` is in, or `s` itself.
@@ -89,6 +89,7 @@ TEST(FindJobPlan, EveryStageReadsOnlyStagesBeforeItOrOfItsLoop) {
 
 /// Ports of what a job of this kind brings.
 std::vector<PortInfo> JobPorts(const std::string& kind) {
+  if (kind == DenseJob::kKind) return PortsOf<DenseJob>();
   return kind == SparseJob::kKind ? PortsOf<SparseJob>() : PortsOf<SparseFromMatchesJob>();
 }
 

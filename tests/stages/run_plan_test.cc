@@ -115,7 +115,7 @@ TEST(RunJob, LeavesWhatWorkersLeave) {
 
 TEST(RunJob, RefusesAnUnknownKind) {
   testing::MemoryBlobs blobs;
-  EXPECT_TRUE(absl::IsNotFound(RunJob({.kind = "dense"}, blobs, {}).status()));
+  EXPECT_TRUE(absl::IsNotFound(RunJob({.kind = "no_such_kind"}, blobs, {}).status()));
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/option_arguments.h"
+#include "core/base/status.h"
+#include "core/io/scan_image_folder.h"
+
+namespace orbweave {
+
+/// Computes the dense cloud of the finished model in the folder `output`, with workers on this
+/// machine, into output/dense; shows progress and prints a summary. Run again it goes on where it
+/// was. FailedPrecondition: there is no finished model. Codes of RunLocalJob.
+[[nodiscard]] absl::Status RunDenseJob(const std::string& output,
+                                       uint32_t workers,
+                                       const PipelineOptions& options);
+
+/// The same for the poses of a COLMAP model and a folder of panoramas, into `output`.
+[[nodiscard]] absl::Status RunDenseJobOnColmap(const std::string& colmap_model,
+                                               const ScanRequest& images,
+                                               const std::string& output,
+                                               uint32_t workers,
+                                               const PipelineOptions& options);
+
+}  // namespace orbweave

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/print_surface.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "core/dense/evaluate_surface.h"
+#include "core/io/read_ply_points.h"
+
+namespace orbweave {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSampleSpacing_m = 0.05;
+
+absl::StatusOr<std::vector<Eigen::Vector3d>> ReadCloud(const std::string& folder,
+                                                       const Sim3& reference_from_model) {
+  std::vector<std::string> tiles;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / "tiles", none)) {
+    if (entry.path().extension() == ".ply") tiles.push_back(entry.path().string());
+  }
+  if (tiles.empty()) {
+    return absl::NotFoundError(folder +
+                               " holds no dense cloud; `orbweave dense` computes one first");
+  }
+  std::ranges::sort(tiles);
+  std::vector<Eigen::Vector3d> cloud;
+  for (const std::string& tile : tiles) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Eigen::Vector3d> points, ReadPlyPoints(tile));
+    for (const Eigen::Vector3d& point : points) cloud.push_back(reference_from_model * point);
+  }
+  return cloud;
+}
+
+}  // namespace
+
+absl::Status PrintSurface(const std::string& cloud_folder,
+                          const std::string& surface,
+                          const Sim3& reference_from_model,
+                          std::vector<Eigen::Vector3d> centres) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Eigen::Vector3d> truth, ReadPlyPoints(surface));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Eigen::Vector3d> cloud,
+                            ReadCloud(cloud_folder, reference_from_model));
+  const SurfaceRegion region{.centres = std::move(centres), .sample_spacing_m = kSampleSpacing_m};
+  const SurfaceEvaluation found = EvaluateSurface(cloud, truth, {}, region);
+  std::printf("  surface     %zu points against %zu samples, median %.4f m\n",
+              found.cloud_points,
+              found.truth_points,
+              found.median_error_m);
+  for (const SurfaceScore& score : found.scores) {
+    std::printf("              within %2.0f cm: precision %5.1f %%, recall %5.1f %%, F1 %5.1f %%\n",
+                100.0 * score.tolerance_m,
+                100.0 * score.precision,
+                100.0 * score.recall,
+                100.0 * score.f1);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace orbweave

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "cli/dense_report.h"
+#include "core/base/status.h"
+#include "core/pipeline/coordinator_api.h"
+
+namespace orbweave {
+
+/// Writes what a finished dense job leaves into `folder`, one tile after the other: tiles/X_Y.ply,
+/// cloud.las (in the UTM zone of the model's origin where it stands on earth), report.json. Tiles
+/// that an earlier run left and this one has not are removed. Codes of WriteFileAtomically.
+[[nodiscard]] absl::StatusOr<DenseReport> WriteDense(ClientApi& coordinator,
+                                                     const JobStatus& status,
+                                                     const std::string& folder);
+
+}  // namespace orbweave

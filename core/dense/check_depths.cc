@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/dense/check_depths.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dense/equiangular_raster.h"
+#include "core/dense/remove_speckles.h"
+#include "core/geometry/cube_face.h"
+
+namespace orbweave {
+namespace {
+
+constexpr float kSigmas = 3.0F;
+constexpr float kLeastTolerance = 0.01F;  // of the range
+constexpr float kMaxReprojection_px = 1.0F;
+/// Neighbours match the same pixels: their errors are not independent.
+constexpr float kSharedError = 1.5F;
+constexpr float kLeastSine = 0.07F;  // 4 degrees
+
+/// Pixel of the raster that a vector of the camera frame falls on, in single precision.
+class PixelLookup {
+ public:
+  explicit PixelLookup(int face_px) : raster_{face_px} {
+    for (int face = 0; face < kCubeFaces; ++face)
+      faces_[static_cast<size_t>(face)] = FaceFromCamera(face).cast<float>();
+  }
+
+  [[nodiscard]] size_t Find(const Eigen::Vector3f& v) const {
+    const int face = FaceOf(v.cast<double>());
+    const Eigen::Vector3f in_face = faces_[static_cast<size_t>(face)] * v;
+    return raster_.Index(face, Pixel(in_face.y() / in_face.z()), Pixel(in_face.x() / in_face.z()));
+  }
+
+ private:
+  /// Arc tangent for [-1, 1] within 1e-5 (Abramowitz and Stegun 4.4.49).
+  [[nodiscard]] int Pixel(float t) const {
+    const float s = t * t;
+    const float angle =
+        t *
+        (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
+    const auto half = 0.5F * static_cast<float>(raster_.face_px);
+    const auto pixel = static_cast<int>(half + angle * (half / 0.78539816F));
+    return std::clamp(pixel, 0, raster_.face_px - 1);
+  }
+
+  EquiangularRaster raster_;
+  std::array<Eigen::Matrix3f, kCubeFaces> faces_{};
+};
+
+struct Neighbour {
+  const DepthMap* map;
+  Eigen::Matrix3f rotation;
+  Eigen::Vector3f translation;
+  Eigen::Vector3f centre;  // in the reference's frame
+};
+
+/// What the neighbours say of one point.
+struct Votes {
+  int agreeing = 0;
+  int seen_through = 0;
+  float sine = 0.0F;  // of the largest parallax
+
+  float weight = 0.0F;      // sum of 1 / sigma^2
+  float weighted_m = 0.0F;  // and of range / sigma^2
+};
+
+class Checker {
+ public:
+  Checker(const DepthMap& own, const std::vector<NeighbourMap>& neighbours)
+      : own_(own), lookup_(own.face_px), pixel_rad_(1.5707963F / static_cast<float>(own.face_px)) {
+    for (const NeighbourMap& neighbour : neighbours) {
+      if (neighbour.map == nullptr || neighbour.map->face_px != own.face_px) continue;
+      const Rigid3& pose = neighbour.neighbour_from_reference;
+      neighbours_.push_back({neighbour.map,
+                             pose.rotation.toRotationMatrix().cast<float>(),
+                             pose.translation.cast<float>(),
+                             pose.Centre().cast<float>()});
+    }
+  }
+
+  [[nodiscard]] size_t NumNeighbours() const { return neighbours_.size(); }
+
+  [[nodiscard]] Votes Ask(size_t pixel, const Eigen::Vector3f& bearing) const {
+    const float range_m = own_.range_m[pixel];
+    const float own_variance = own_.sigma_m[pixel] * own_.sigma_m[pixel];
+    Votes votes{.weight = 1.0F / own_variance, .weighted_m = range_m / own_variance};
+    for (const Neighbour& neighbour : neighbours_)
+      Ask(neighbour, range_m, own_variance, bearing, votes);
+    return votes;
+  }
+
+ private:
+  void Ask(const Neighbour& neighbour,
+           float range_m,
+           float own_variance,
+           const Eigen::Vector3f& bearing,
+           Votes& votes) const {
+    const Eigen::Vector3f there = neighbour.rotation * (range_m * bearing) + neighbour.translation;
+    const size_t at = lookup_.Find(there);
+    const float its_range_m = neighbour.map->range_m[at];
+    if (!(its_range_m > 0.0F)) return;
+    const float distance_m = there.norm();
+    const float sigma_m = neighbour.map->sigma_m[at];
+    const float tolerance_m = std::max(kSigmas * std::sqrt(own_variance + sigma_m * sigma_m),
+                                       kLeastTolerance * distance_m);
+    const Eigen::Vector3f to_source = bearing * range_m - neighbour.centre;
+    const float sine = bearing.cross(to_source).norm() / distance_m;
+    const float surface_m = SurfaceAlong(neighbour, at, its_range_m, there / distance_m);
+    const float behind_m = surface_m - distance_m;
+    const float beside_px = std::abs(behind_m) * sine / (range_m * pixel_rad_);
+    if (std::abs(behind_m) < tolerance_m && beside_px < kMaxReprojection_px) {
+      ++votes.agreeing;
+      votes.sine = std::max(votes.sine, sine);
+      AddRange(neighbour, at, its_range_m, sigma_m, bearing, range_m, votes);
+    } else if (behind_m > std::max(2.0F * tolerance_m, 0.03F * distance_m) && beside_px > 2.0F) {
+      ++votes.seen_through;
+    }
+  }
+
+  /// Range at which a ray of the neighbour cuts the plane of its pixel.
+  [[nodiscard]] float SurfaceAlong(const Neighbour& neighbour,
+                                   size_t at,
+                                   float its_range_m,
+                                   const Eigen::Vector3f& ray) const {
+    const Eigen::Vector3f normal = DecodeNormal(neighbour.map->normals[at]);
+    const float along = normal.dot(ray);
+    const float here = normal.dot(bearings_->at(at));
+    const float ratio = here / along;
+    return ratio > 0.8F && ratio < 1.25F ? its_range_m * ratio : its_range_m;
+  }
+
+  /// The range at which the own ray cuts the neighbour's plane.
+  void AddRange(const Neighbour& neighbour,
+                size_t at,
+                float its_range_m,
+                float sigma_m,
+                const Eigen::Vector3f& bearing,
+                float range_m,
+                Votes& votes) const {
+    const Eigen::Vector3f normal = DecodeNormal(neighbour.map->normals[at]);
+    const float offset_m = its_range_m * normal.dot(bearings_->at(at));
+    const float slope = normal.dot(neighbour.rotation * bearing);
+    if (std::abs(slope) < 0.1F) return;
+    const float cut_m = (offset_m - normal.dot(neighbour.translation)) / slope;
+    if (std::abs(cut_m - range_m) > 0.03F * range_m) return;
+    const float along = normal.dot(bearings_->at(at)) / slope * sigma_m;
+    const float weight = 1.0F / std::max(along * along, 1e-8F);
+    votes.weight += weight;
+    votes.weighted_m += weight * cut_m;
+  }
+
+ public:
+  const std::vector<Eigen::Vector3f>* bearings_ = nullptr;
+
+ private:
+  const DepthMap& own_;
+  PixelLookup lookup_;
+  float pixel_rad_;
+  std::vector<Neighbour> neighbours_{};
+};
+
+std::vector<Eigen::Vector3f> BearingsOf(const EquiangularRaster& raster) {
+  std::vector<Eigen::Vector3f> bearings;
+  bearings.reserve(raster.NumPixels());
+  for (int face = 0; face < kCubeFaces; ++face) {
+    for (int row = 0; row < raster.face_px; ++row) {
+      for (int column = 0; column < raster.face_px; ++column) {
+        bearings.push_back(raster.BearingFromPixel(face, row + 0.5, column + 0.5).cast<float>());
+      }
+    }
+  }
+  return bearings;
+}
+
+}  // namespace
+
+DepthMap CheckDepths(const DepthMap& own,
+                     const std::vector<NeighbourMap>& neighbours,
+                     const DenseOptions& options) {
+  DepthMap checked = own;
+  if (own.face_px == 0) return checked;
+  const std::vector<Eigen::Vector3f> bearings = BearingsOf({own.face_px});
+  Checker checker(own, neighbours);
+  checker.bearings_ = &bearings;
+  for (size_t pixel = 0; pixel < own.size(); ++pixel) {
+    if (!(own.range_m[pixel] > 0.0F)) continue;
+    const Votes votes = checker.Ask(pixel, bearings[pixel]);
+    const int more = votes.sine < kLeastSine ? 1 : 0;
+    const int needed =
+        std::min(options.min_agreeing + more, static_cast<int>(checker.NumNeighbours()));
+    const bool hollow = votes.seen_through >= std::max(1, votes.agreeing);
+    if (votes.agreeing < needed || hollow) {
+      checked.range_m[pixel] = 0.0F;
+      continue;
+    }
+    checked.range_m[pixel] = votes.weighted_m / votes.weight;
+    checked.sigma_m[pixel] = kSharedError / std::sqrt(votes.weight);
+    checked.views[pixel] = static_cast<uint8_t>(votes.agreeing);
+    checked.flags[pixel] |= kDepthChecked;
+  }
+  RemoveSpeckles(options.min_speckle_px, checked);
+  return checked;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/dense/dense_options.h"
+#include "core/dense/depth_map.h"
+#include "core/geometry/rigid3.h"
+
+namespace orbweave {
+
+/// The map of another panorama, as EstimateDepths left it.
+struct NeighbourMap {
+  const DepthMap* map = nullptr;
+  Rigid3 neighbour_from_reference{};
+};
+
+/// Keeps of `own` what its neighbours found, too. A neighbour agrees with a point when the surface
+/// that it has there (its pixel's plane, cut by the point's ray) is within three sigmas of both, or
+/// 1 % of the range, and seen from here less than a pixel beside it. It sees through a point when
+/// its surface lies behind it by more than that. A point stays with `min_agreeing` agreeing
+/// neighbours (one more where no two rays meet at 4 degrees or more, at most as many as there are)
+/// unless as many see through it; surfaces of fewer than `min_speckle_px` connected pixels go.
+/// Ranges become the mean of own and agreeing ones, weighted by 1 / sigma^2; as neighbours match
+/// the same pixels, sigmas are 1.5 times what independent errors would leave. An empty map stays as
+/// it is; maps of another size count as absent.
+[[nodiscard]] DepthMap CheckDepths(const DepthMap& own,
+                                   const std::vector<NeighbourMap>& neighbours,
+                                   const DenseOptions& options);
+
+}  // namespace orbweave

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/fetch_raster.h"
+
+#include <utility>
+
+#include "core/base/status.h"
+
+namespace orbweave {
+
+absl::StatusOr<FetchedRaster> FetchRaster(const PanoramaFile& file,
+                                          bool mask_ignores_white,
+                                          int width_px,
+                                          BlobAccess& blobs) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string image, blobs.Get(file.content));
+  std::string mask;
+  if (!file.mask.IsZero()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(mask, blobs.Get(file.mask));
+  }
+  absl::StatusOr<DecodedRaster> raster =
+      DecodeRaster(image, mask, mask_ignores_white, file.camera, width_px);
+  FetchedRaster fetched;
+  if (raster.ok()) {
+    fetched.raster = *std::move(raster);
+  } else {
+    fetched.problem = std::string(raster.status().message());
+  }
+  return fetched;
+}
+
+PanoramaRaster ViewOf(const DecodedRaster& raster) {
+  return {.width_px = raster.camera.width_px,
+          .height_px = raster.camera.height_px,
+          .channels = 3,
+          .pixels = raster.rgb,
+          .ignored = raster.ignored};
+}
+
+}  // namespace orbweave

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "core/base/stage_context.h"
+#include "core/io/scan_image_folder.h"
+#include "core/pipeline/blob_depot.h"
+#include "core/pipeline/job_api.h"
+#include "stages/pipeline_options.h"
+
+namespace orbweave {
+
+/// Makes everything known that a dense job on the poses of a COLMAP model (EQUIRECTANGULAR or
+/// SPHERE cameras; points are not needed) and a folder of its panoramas reads. The job is not
+/// submitted. Images of the model that the folder lacks count as excluded. Codes of
+/// ReadColmapModel, ScanImageFolder and ModelFromColmap.
+[[nodiscard]] absl::StatusOr<JobSpec> PrepareDenseJob(BlobDepot& depot,
+                                                      const std::string& colmap_model,
+                                                      const ScanRequest& request,
+                                                      const PipelineOptions& options,
+                                                      const StageContext& context);
+
+}  // namespace orbweave

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The dense line as users run it: on a small rendered street, with real processes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "tests/jobs/corridor_job.h"
+
+namespace orbweave::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+CommandOutcome Orbweave(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), ORBWEAVE_BINARY);
+  return RunCommand(arguments);
+}
+
+/// All files of a cloud but for its report, which has times.
+std::map<std::string, std::string> FilesOf(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    if (entry.is_regular_file() && name != "report.json")
+      files[name] = ReadAll(entry.path().string());
+  }
+  return files;
+}
+
+nlohmann::json DenseReportOf(const std::string& folder) {
+  return nlohmann::json::parse(ReadAll(folder + "/report.json"));
+}
+
+class DenseTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const CommandOutcome street = Orbweave({"synth",
+                                            "street",
+                                            "--panoramas",
+                                            "8",
+                                            "--size",
+                                            "512x256",
+                                            "--output",
+                                            *folder_ / "street"});
+    ASSERT_EQ(street.exit_code, 0) << street.err;
+    const CommandOutcome run = Orbweave({"run",
+                                         *folder_ / "street/images",
+                                         "--gnss",
+                                         *folder_ / "street/gnss.csv",
+                                         "--masks",
+                                         *folder_ / "street/masks",
+                                         "--output",
+                                         *folder_ / "model",
+                                         "--dense",
+                                         "--workers",
+                                         "2"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static TemporaryFolder* folder_;
+};
+
+TemporaryFolder* DenseTest::folder_ = nullptr;
+
+TEST_F(DenseTest, LeavesOneCloudInTilesAndItsReport) {
+  const std::string cloud = *folder_ / "model/dense";
+  const nlohmann::json report = DenseReportOf(cloud);
+  EXPECT_GT(report["points"], 10000) << report.dump(1);
+  EXPECT_EQ(report["panoramas"], 8);
+  uint64_t points = 0;
+  for (const auto& tile : report["tiles"]) {
+    points += tile["points"].get<uint64_t>();
+    EXPECT_TRUE(fs::exists(fs::path(cloud) / tile["file"].get<std::string>()));
+  }
+  EXPECT_EQ(points, report["points"].get<uint64_t>());
+  const std::string las = ReadAll(cloud + "/cloud.las");
+  EXPECT_EQ(las.substr(0, 4), "LASF");
+  EXPECT_THAT(las.substr(0, 4000), HasSubstr("UTM zone"));
+}
+
+TEST_F(DenseTest, OneAndThreeWorkersWriteTheSameBytes) {
+  const auto before = FilesOf(*folder_ / "model/dense");
+  for (const std::string workers : {"1", "3"}) {
+    const std::string copy = *folder_ / ("copy" + workers);
+    const CommandOutcome dense = Orbweave({"dense",
+                                           "--colmap",
+                                           *folder_ / "model/sparse/0",
+                                           "--images",
+                                           *folder_ / "street/images",
+                                           "--masks",
+                                           *folder_ / "street/masks",
+                                           "--output",
+                                           copy,
+                                           "--workers",
+                                           workers});
+    ASSERT_EQ(dense.exit_code, 0) << dense.err;
+  }
+  auto one = FilesOf(*folder_ / "copy1");
+  auto three = FilesOf(*folder_ / "copy3");
+  const auto is_state = [](const auto& file) { return file.first.starts_with(".orbweave"); };
+  std::erase_if(one, is_state);
+  std::erase_if(three, is_state);
+  EXPECT_GT(one.size(), 2U);
+  EXPECT_TRUE(one == three);
+  // A second run computes nothing and changes nothing.
+  const CommandOutcome again = Orbweave({"dense", *folder_ / "model", "--workers", "1"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(FilesOf(*folder_ / "model/dense") == before);
+}
+
+TEST_F(DenseTest, GoesOnWithoutAPictureAndNamesIt) {
+  const std::string images = *folder_ / "some";
+  fs::create_directories(images);
+  for (int i = 1; i < 8; ++i) {
+    const std::string name = "street_000" + std::to_string(i) + ".jpg";
+    fs::copy_file(*folder_ / ("street/images/" + name), images + "/" + name);
+  }
+  const CommandOutcome dense = Orbweave({"dense",
+                                         "--colmap",
+                                         *folder_ / "model/sparse/0",
+                                         "--images",
+                                         images,
+                                         "--output",
+                                         *folder_ / "cloud_of_some"});
+  ASSERT_EQ(dense.exit_code, 0) << dense.err;
+  const nlohmann::json report = DenseReportOf(*folder_ / "cloud_of_some");
+  EXPECT_GT(report["points"], 5000);
+  EXPECT_THAT(report["without_depth"].dump(), HasSubstr("street_0000.jpg"));
+}
+
+TEST_F(DenseTest, SaysWhatIsWrongWithItsArguments) {
+  EXPECT_THAT(Orbweave({"dense"}).err, HasSubstr("--colmap"));
+  EXPECT_EQ(Orbweave({"dense", *folder_ / "street"}).exit_code, 2);
+  const std::string strangers = *folder_ / "strangers";
+  fs::create_directories(strangers);
+  fs::copy_file(*folder_ / "street/images/street_0003.jpg", strangers + "/somewhere.jpg");
+  const CommandOutcome other = Orbweave({"dense",
+                                         "--colmap",
+                                         *folder_ / "model/sparse/0",
+                                         "--images",
+                                         strangers,
+                                         "--output",
+                                         *folder_ / "none"});
+  EXPECT_EQ(other.exit_code, 2) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("somewhere.jpg"));
+}
+
+}  // namespace
+}  // namespace orbweave::testing
