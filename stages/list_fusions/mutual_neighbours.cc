@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
 namespace orbweave {
 namespace {
 
-constexpr double kReachOfSources = 1.5;
+constexpr double kReachInUnits = 6.0;
+constexpr double kSpacingsInReach = 6.5;  // a little less than a step of a street, see above
 
 using Eigen::Vector3d;
 
@@ -56,45 +58,53 @@ class CentreGrid {
   std::map<Cell, std::vector<size_t>> cells_;
 };
 
-/// 1.5 times the distance to the farthest source that has a map.
-std::vector<double> ReachesOfSources(const DensePlan& plan, const std::vector<Vector3d>& centres) {
-  std::map<ImageId, size_t> index;
-  for (size_t i = 0; i < plan.panoramas.size(); ++i) index[plan.panoramas[i].file.image] = i;
-  std::vector<double> reaches;
-  for (size_t i = 0; i < plan.panoramas.size(); ++i) {
-    double farthest = plan.panoramas[i].unit_m;
-    for (const ImageId source : plan.panoramas[i].sources) {
-      const auto found = index.find(source);
-      if (found == index.end()) continue;
-      farthest = std::max(farthest, (centres[found->second] - centres[i]).norm());
-    }
-    reaches.push_back(kReachOfSources * farthest);
+/// Who gives points: greedily, in the order of the plan.
+std::vector<bool> ChooseGivers(const CentreGrid& grid, const std::vector<double>& reaches) {
+  std::vector<bool> gives(reaches.size(), false);
+  for (size_t i = 0; i < reaches.size(); ++i) {
+    gives[i] = true;
+    grid.ForEachNear(i, [&](size_t other, double distance) {
+      if (other < i && gives[other] && distance * kSpacingsInReach < reaches[i]) gives[i] = false;
+    });
   }
-  return reaches;
+  return gives;
+}
+
+/// Half the distance to the neighbour that would be one too many.
+double ReachForSoMany(const CentreGrid& grid,
+                      size_t i,
+                      const std::vector<bool>& gives,
+                      size_t max_neighbours) {
+  std::vector<double> distances;
+  grid.ForEachNear(i, [&](size_t other, double distance) {
+    if (gives[other]) distances.push_back(distance);
+  });
+  if (distances.size() <= max_neighbours) return std::numeric_limits<double>::infinity();
+  std::ranges::sort(distances);
+  return 0.5 * distances[max_neighbours];
 }
 
 }  // namespace
 
 std::vector<Neighbourhood> MutualNeighbours(const DensePlan& plan, size_t max_neighbours) {
   std::vector<Vector3d> centres;
-  for (const DensePanorama& panorama : plan.panoramas)
+  std::vector<double> reaches;
+  for (const DensePanorama& panorama : plan.panoramas) {
     centres.push_back(panorama.cam_from_model.Centre());
-  std::vector<double> reaches = ReachesOfSources(plan, centres);
+    reaches.push_back(kReachInUnits * panorama.unit_m);
+  }
   if (reaches.empty()) return {};
   const CentreGrid grid(centres, 2.0 * std::ranges::max(reaches));
-  for (size_t i = 0; i < centres.size(); ++i) {
-    std::vector<double> distances;
-    grid.ForEachNear(i, [&](size_t, double distance) { distances.push_back(distance); });
-    std::ranges::sort(distances);
-    if (distances.size() > max_neighbours)
-      reaches[i] = std::min(reaches[i], 0.5 * distances[max_neighbours]);
-  }
+  const std::vector<bool> gives = ChooseGivers(grid, reaches);
+  for (size_t i = 0; i < centres.size(); ++i)
+    reaches[i] = std::min(reaches[i], ReachForSoMany(grid, i, gives, max_neighbours));
   std::vector<Neighbourhood> neighbourhoods(centres.size());
   for (size_t i = 0; i < centres.size(); ++i) {
     Neighbourhood& of_one = neighbourhoods[i];
+    of_one.gives_points = gives[i];
     of_one.reach_m = reaches[i];
     grid.ForEachNear(i, [&](size_t other, double distance) {
-      if (distance <= reaches[i] + reaches[other])
+      if (gives[other] && distance <= reaches[i] + reaches[other])
         of_one.neighbours.push_back(plan.panoramas[other].file.image);
     });
     std::ranges::sort(of_one.neighbours);

@@ -10,7 +10,7 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kMaxNeighbours = 24;  // depth maps in the memory of a task
+constexpr size_t kMaxNeighbours = 26;  // depth maps in the memory of a task
 
 }  // namespace
 
@@ -22,6 +22,7 @@ absl::Status ListFusionsStage::Run(StageTask<ListFusionsStage>& task) {
   for (size_t i = 0; i < plan.panoramas.size(); ++i)
     placed.at(plan.panoramas[i].file.image).reach_m = neighbourhoods[i].reach_m;
   for (size_t i = 0; i < plan.panoramas.size(); ++i) {
+    if (!neighbourhoods[i].gives_points) continue;
     const PanoramaFile& file = plan.panoramas[i].file;
     FuseRecipe recipe{
         .own = placed.at(file.image), .file = file, .mask_ignores_white = plan.mask_ignores_white};

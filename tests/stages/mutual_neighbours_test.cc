@@ -38,24 +38,43 @@ TEST(MutualNeighbours, AreAllWhoseReachesMeetAndNoOthers) {
       for (size_t j = 0; j < found.size(); ++j) {
         const bool is_neighbour =
             std::ranges::count(found[i].neighbours, plan.panoramas[j].file.image) > 0;
-        const bool meets = i != j && Distance(plan, i, j) <= found[i].reach_m + found[j].reach_m;
+        const bool meets = i != j && found[j].gives_points &&
+                           Distance(plan, i, j) <= found[i].reach_m + found[j].reach_m;
         EXPECT_EQ(is_neighbour, meets) << i << " " << j;
       }
     }
   }
 }
 
-TEST(MutualNeighbours, ReachOneAndAHalfTimesTheFarthestSource) {
-  DensePlan plan = Scattered(3, 0.0, 1);
-  for (size_t i = 0; i < 3; ++i) {
-    plan.panoramas[i].unit_m = 2.0;
-    plan.panoramas[i].cam_from_model =
-        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {2.0 * static_cast<double>(i), 0, 0});
+DensePlan Row(size_t count, double spacing_m, double unit_m) {
+  DensePlan plan = Scattered(count, 0.0, 1);
+  for (size_t i = 0; i < count; ++i) {
+    plan.panoramas[i].unit_m = unit_m;
+    plan.panoramas[i].cam_from_model = Rigid3::FromCentre(
+        Eigen::Quaterniond::Identity(), {spacing_m * static_cast<double>(i), 0.0, 0.0});
   }
-  plan.panoramas[0].sources = {ImageId(3), ImageId(6), ImageId(77)};
-  const std::vector<Neighbourhood> found = MutualNeighbours(plan, 24);
-  EXPECT_DOUBLE_EQ(found[0].reach_m, 6.0);
-  EXPECT_DOUBLE_EQ(found[1].reach_m, 3.0);
+  return plan;
+}
+
+TEST(MutualNeighbours, AllOfAStreetGivePointsAndReachToThreeHousesOnBothSides) {
+  const std::vector<Neighbourhood> found = MutualNeighbours(Row(60, 2.5, 2.5), 26);
+  for (const Neighbourhood& of_one : found) {
+    EXPECT_TRUE(of_one.gives_points);
+    EXPECT_DOUBLE_EQ(of_one.reach_m, 15.0);
+  }
+  EXPECT_EQ(found[30].neighbours.size(), 24U);
+}
+
+TEST(MutualNeighbours, SomeFramesOfAVideoGivePointsAndReachAsFar) {
+  const std::vector<Neighbourhood> found = MutualNeighbours(Row(400, 0.1, 1.2), 26);
+  size_t givers = 0;
+  for (size_t i = 0; i < found.size(); ++i) {
+    givers += found[i].gives_points ? 1 : 0;
+    EXPECT_DOUBLE_EQ(found[i].reach_m, 7.2) << i;
+    EXPECT_LE(found[i].neighbours.size(), 26U) << i;
+  }
+  EXPECT_GT(givers, 30U);
+  EXPECT_LT(givers, 45U);
 }
 
 TEST(MutualNeighbours, OfNobodyAreNone) { EXPECT_TRUE(MutualNeighbours({}, 24).empty()); }
