@@ -27,7 +27,7 @@ std::string FormatDense(const DenseReport& report, const std::string& folder) {
         "without depth: %s: %s\n", report.omitted[i].name, report.omitted[i].reason);
   if (report.omitted.size() > 5)
     text += absl::StrFormat("and %d more, in %s/report.json\n", report.omitted.size() - 5, folder);
-  return text + absl::StrFormat("%s/cloud.las, tiles/*.ply, tiles.json, report.json\n", folder);
+  return text + absl::StrFormat("%s/cloud.las, tiles/*.ply, report.json\n", folder);
 }
 
 std::string DenseReportJson(const DenseReport& report) {
