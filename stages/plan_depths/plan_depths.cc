@@ -60,6 +60,7 @@ DepthPlanner::DepthPlanner(const ImageManifest& manifest,
     const bool is_in_frame =
         world == 0 || (model.worlds[0].report.gnss.used && model.worlds[world].report.gnss.used);
     for (const auto& [id, image] : ModelImages(model.worlds[world])) {
+      if (id.value >= manifest.images.size()) continue;  // Plan refuses what names it
       if (image.loose) {
         reasons_[id] = "only a GNSS position places it, no observations";
       } else if (!is_in_frame) {
