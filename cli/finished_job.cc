@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "stages/codecs.h"
+#include "stages/conclude_adjustment/stage.h"
 #include "stages/plans.h"
 
 namespace orbweave {
@@ -31,8 +33,13 @@ absl::StatusOr<JobStatus> Settled(JobApi& coordinator, const Digest& id) {
   }
 }
 
-/// A dense job reads a model and leaves none.
-bool LeavesAModel(const JobStatus& job) { return job.spec.kind != DenseJob::kKind; }
+/// Whether jobs of its kind conclude a model; dense ones read one and leave none.
+bool LeavesAModel(const JobStatus& job) {
+  const absl::StatusOr<JobPlan> plan = FindJobPlan(job.spec.kind);
+  return plan.ok() &&
+         std::ranges::find(plan->stages, ConcludeAdjustmentStage::kFacts.name, &StageRule::stage) !=
+             plan->stages.end();
+}
 
 }  // namespace
 

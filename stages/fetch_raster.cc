@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "stages/get_optional.h"
 
 namespace orbweave {
 
@@ -13,10 +14,7 @@ absl::StatusOr<FetchedRaster> FetchRaster(const PanoramaFile& file,
                                           int width_px,
                                           BlobAccess& blobs) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string image, blobs.Get(file.content));
-  std::string mask;
-  if (!file.mask.IsZero()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(mask, blobs.Get(file.mask));
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string mask, GetOptional(file.mask, blobs));
   absl::StatusOr<DecodedRaster> raster =
       DecodeRaster(image, mask, mask_ignores_white, file.camera, width_px);
   FetchedRaster fetched;

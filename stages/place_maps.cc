@@ -35,4 +35,15 @@ absl::StatusOr<DepthMap> FetchMap(const PlacedMap& placed, BlobAccess& blobs) {
   return map;
 }
 
+absl::StatusOr<std::vector<DepthMap>> FetchMaps(const std::vector<PlacedMap>& placed,
+                                                BlobAccess& blobs,
+                                                const StageContext& context) {
+  std::vector<DepthMap> maps;
+  for (const PlacedMap& map : placed) {
+    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+    ORBWEAVE_ASSIGN_OR_RETURN(maps.emplace_back(), FetchMap(map, blobs));
+  }
+  return maps;
+}
+
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/artifacts/dense_records.h"
+#include "core/base/stage_context.h"
 #include "core/base/status.h"
 #include "core/dense/depth_map.h"
 #include "core/pipeline/blob_access.h"
@@ -26,5 +27,10 @@ enum class MapUnit { kOwn, kModel };
 
 /// The map in units of the model, without what lies beyond its reach where it has one.
 [[nodiscard]] absl::StatusOr<DepthMap> FetchMap(const PlacedMap& placed, BlobAccess& blobs);
+
+/// The same of several, in their order. Cancelled when asked to stop.
+[[nodiscard]] absl::StatusOr<std::vector<DepthMap>> FetchMaps(const std::vector<PlacedMap>& placed,
+                                                              BlobAccess& blobs,
+                                                              const StageContext& context);
 
 }  // namespace orbweave

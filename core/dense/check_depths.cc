@@ -50,6 +50,19 @@ class PixelLookup {
   std::array<Eigen::Matrix3f, kCubeFaces> faces_{};
 };
 
+std::vector<Eigen::Vector3f> BearingsOf(const EquiangularRaster& raster) {
+  std::vector<Eigen::Vector3f> bearings;
+  bearings.reserve(raster.NumPixels());
+  for (int face = 0; face < kCubeFaces; ++face) {
+    for (int row = 0; row < raster.face_px; ++row) {
+      for (int column = 0; column < raster.face_px; ++column) {
+        bearings.push_back(raster.BearingFromPixel(face, row + 0.5, column + 0.5).cast<float>());
+      }
+    }
+  }
+  return bearings;
+}
+
 struct Neighbour {
   const DepthMap* map;
   Eigen::Matrix3f rotation;
@@ -70,7 +83,10 @@ struct Votes {
 class Checker {
  public:
   Checker(const DepthMap& own, const std::vector<NeighbourMap>& neighbours)
-      : own_(own), lookup_(own.face_px), pixel_rad_(1.5707963F / static_cast<float>(own.face_px)) {
+      : own_(own),
+        bearings_(BearingsOf({own.face_px})),
+        lookup_(own.face_px),
+        pixel_rad_(1.5707963F / static_cast<float>(own.face_px)) {
     for (const NeighbourMap& neighbour : neighbours) {
       if (neighbour.map == nullptr || neighbour.map->face_px != own.face_px) continue;
       const Rigid3& pose = neighbour.neighbour_from_reference;
@@ -83,7 +99,8 @@ class Checker {
 
   [[nodiscard]] size_t NumNeighbours() const { return neighbours_.size(); }
 
-  [[nodiscard]] Votes Ask(size_t pixel, const Eigen::Vector3f& bearing) const {
+  [[nodiscard]] Votes Ask(size_t pixel) const {
+    const Eigen::Vector3f& bearing = bearings_[pixel];
     const float range_m = own_.range_m[pixel];
     const float own_variance = own_.sigma_m[pixel] * own_.sigma_m[pixel];
     Votes votes{.weight = 1.0F / own_variance, .weighted_m = range_m / own_variance};
@@ -108,72 +125,57 @@ class Checker {
                                        kLeastTolerance * distance_m);
     const Eigen::Vector3f to_source = bearing * range_m - neighbour.centre;
     const float sine = bearing.cross(to_source).norm() / distance_m;
-    const float surface_m = SurfaceAlong(neighbour, at, its_range_m, there / distance_m);
+    const Eigen::Vector3f normal = DecodeNormal(neighbour.map->normals[at]);
+    const float here = normal.dot(bearings_[at]);
+    const float surface_m = SurfaceAlong(normal, here, its_range_m, there / distance_m);
     const float behind_m = surface_m - distance_m;
     const float beside_px = std::abs(behind_m) * sine / (range_m * pixel_rad_);
     if (std::abs(behind_m) < tolerance_m && beside_px < kMaxReprojection_px) {
       ++votes.agreeing;
       votes.sine = std::max(votes.sine, sine);
-      AddRange(neighbour, at, its_range_m, sigma_m, bearing, range_m, votes);
+      AddRange(neighbour, normal, here, its_range_m, sigma_m, bearing, range_m, votes);
     } else if (behind_m > std::max(2.0F * tolerance_m, 0.03F * distance_m) && beside_px > 2.0F) {
       ++votes.seen_through;
     }
   }
 
-  /// Range at which a ray of the neighbour cuts the plane of its pixel.
-  [[nodiscard]] float SurfaceAlong(const Neighbour& neighbour,
-                                   size_t at,
-                                   float its_range_m,
-                                   const Eigen::Vector3f& ray) const {
-    const Eigen::Vector3f normal = DecodeNormal(neighbour.map->normals[at]);
+  /// Range at which a ray of the neighbour cuts the plane of its pixel. `here`: normal . bearing of
+  /// that pixel.
+  static float SurfaceAlong(const Eigen::Vector3f& normal,
+                            float here,
+                            float its_range_m,
+                            const Eigen::Vector3f& ray) {
     const float along = normal.dot(ray);
-    const float here = normal.dot(bearings_->at(at));
     const float ratio = here / along;
     return ratio > 0.8F && ratio < 1.25F ? its_range_m * ratio : its_range_m;
   }
 
   /// The range at which the own ray cuts the neighbour's plane.
-  void AddRange(const Neighbour& neighbour,
-                size_t at,
-                float its_range_m,
-                float sigma_m,
-                const Eigen::Vector3f& bearing,
-                float range_m,
-                Votes& votes) const {
-    const Eigen::Vector3f normal = DecodeNormal(neighbour.map->normals[at]);
-    const float offset_m = its_range_m * normal.dot(bearings_->at(at));
+  static void AddRange(const Neighbour& neighbour,
+                       const Eigen::Vector3f& normal,
+                       float here,
+                       float its_range_m,
+                       float sigma_m,
+                       const Eigen::Vector3f& bearing,
+                       float range_m,
+                       Votes& votes) {
+    const float offset_m = its_range_m * here;
     const float slope = normal.dot(neighbour.rotation * bearing);
     if (std::abs(slope) < 0.1F) return;
     const float cut_m = (offset_m - normal.dot(neighbour.translation)) / slope;
     if (std::abs(cut_m - range_m) > 0.03F * range_m) return;
-    const float along = normal.dot(bearings_->at(at)) / slope * sigma_m;
+    const float along = here / slope * sigma_m;
     const float weight = 1.0F / std::max(along * along, 1e-8F);
     votes.weight += weight;
     votes.weighted_m += weight * cut_m;
   }
 
- public:
-  const std::vector<Eigen::Vector3f>* bearings_ = nullptr;
-
- private:
   const DepthMap& own_;
+  std::vector<Eigen::Vector3f> bearings_;
   PixelLookup lookup_;
   float pixel_rad_;
   std::vector<Neighbour> neighbours_{};
 };
-
-std::vector<Eigen::Vector3f> BearingsOf(const EquiangularRaster& raster) {
-  std::vector<Eigen::Vector3f> bearings;
-  bearings.reserve(raster.NumPixels());
-  for (int face = 0; face < kCubeFaces; ++face) {
-    for (int row = 0; row < raster.face_px; ++row) {
-      for (int column = 0; column < raster.face_px; ++column) {
-        bearings.push_back(raster.BearingFromPixel(face, row + 0.5, column + 0.5).cast<float>());
-      }
-    }
-  }
-  return bearings;
-}
 
 }  // namespace
 
@@ -182,12 +184,10 @@ DepthMap CheckDepths(const DepthMap& own,
                      const DenseOptions& options) {
   DepthMap checked = own;
   if (own.face_px == 0) return checked;
-  const std::vector<Eigen::Vector3f> bearings = BearingsOf({own.face_px});
-  Checker checker(own, neighbours);
-  checker.bearings_ = &bearings;
+  const Checker checker(own, neighbours);
   for (size_t pixel = 0; pixel < own.size(); ++pixel) {
     if (!(own.range_m[pixel] > 0.0F)) continue;
-    const Votes votes = checker.Ask(pixel, bearings[pixel]);
+    const Votes votes = checker.Ask(pixel);
     const int more = votes.sine < kLeastSine ? 1 : 0;
     const int needed =
         std::min(options.min_agreeing + more, static_cast<int>(checker.NumNeighbours()));

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "core/base/random.h"
+
 namespace orbweave {
 
 /// Random numbers that are a function of a seed, a pixel and a draw, so that the order in which
@@ -29,12 +31,7 @@ class PixelRandom {
   float Signed() { return 2.0F * Uniform() - 1.0F; }
 
  private:
-  static uint64_t Mixed(uint64_t z) {
-    z += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
+  static uint64_t Mixed(uint64_t z) { return Random(z).Next(); }
 
   uint64_t state_;
   uint64_t bits_ = 0;

@@ -27,7 +27,7 @@ constexpr float kLeastCosine = 0.9F;  // between a pixel's normal and the plane'
 constexpr int kReach_px = 120;
 
 /// A pixel that matches well, in the camera frame.
-struct SurfacePoint {
+struct ReliablePoint {
   Eigen::Vector3f point;
   Eigen::Vector3f normal;
   uint32_t pixel;
@@ -41,13 +41,13 @@ struct FittedPlane {
 
 float ToleranceAt(float range_m) { return 0.012F + 0.004F * range_m; }
 
-bool LiesOn(const SurfacePoint& p, const FittedPlane& plane) {
+bool LiesOn(const ReliablePoint& p, const FittedPlane& plane) {
   return std::abs(plane.normal.dot(p.point) - plane.distance_m) < ToleranceAt(p.point.norm()) &&
          p.normal.dot(plane.normal) > kLeastCosine;
 }
 
-std::vector<SurfacePoint> ReliablePoints(const ReferenceRaster& raster, const PlaneField& field) {
-  std::vector<SurfacePoint> points;
+std::vector<ReliablePoint> ReliablePoints(const ReferenceRaster& raster, const PlaneField& field) {
+  std::vector<ReliablePoint> points;
   const EquiangularRaster pixels{raster.face_px};
   for (int face = 0; face < kCubeFaces; ++face) {
     const Eigen::Matrix3f camera_from_face = FaceFromCamera(face).transpose().cast<float>();
@@ -68,17 +68,17 @@ std::vector<SurfacePoint> ReliablePoints(const ReferenceRaster& raster, const Pl
   return points;
 }
 
-size_t CountOn(std::span<const SurfacePoint> points, const FittedPlane& plane) {
+size_t CountOn(std::span<const ReliablePoint> points, const FittedPlane& plane) {
   return static_cast<size_t>(
-      std::ranges::count_if(points, [&](const SurfacePoint& p) { return LiesOn(p, plane); }));
+      std::ranges::count_if(points, [&](const ReliablePoint& p) { return LiesOn(p, plane); }));
 }
 
 /// Least squares through the points on a plane, those far away counting less.
-FittedPlane Refit(std::span<const SurfacePoint> points, const FittedPlane& plane) {
+FittedPlane Refit(std::span<const ReliablePoint> points, const FittedPlane& plane) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   double weights = 0.0;
-  for (const SurfacePoint& p : points) {
+  for (const ReliablePoint& p : points) {
     if (!LiesOn(p, plane)) continue;
     const Eigen::Vector3d x = p.point.cast<double>();
     const double tolerance_m = ToleranceAt(p.point.norm());
@@ -96,11 +96,11 @@ FittedPlane Refit(std::span<const SurfacePoint> points, const FittedPlane& plane
 }
 
 /// The plane that most of the points lie on; a distance of 0 where they have none in common.
-FittedPlane BestPlane(std::span<const SurfacePoint> points, Random& random) {
+FittedPlane BestPlane(std::span<const ReliablePoint> points, Random& random) {
   FittedPlane best;
   size_t most = kLeastInliers;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const SurfacePoint& p = points[random.Index(static_cast<uint32_t>(points.size()))];
+    const ReliablePoint& p = points[random.Index(static_cast<uint32_t>(points.size()))];
     const FittedPlane plane{p.normal, p.normal.dot(p.point)};
     const size_t count = CountOn(points, plane);
     if (count <= most) continue;
@@ -110,8 +110,8 @@ FittedPlane BestPlane(std::span<const SurfacePoint> points, Random& random) {
   return best.distance_m > 0.0F ? Refit(points, Refit(points, best)) : best;
 }
 
-std::vector<SurfacePoint> Thinned(const std::vector<SurfacePoint>& points) {
-  std::vector<SurfacePoint> some;
+std::vector<ReliablePoint> Thinned(const std::vector<ReliablePoint>& points) {
+  std::vector<ReliablePoint> some;
   const size_t step = std::max<size_t>(1, points.size() / kSamples);
   for (size_t k = 0; k < points.size(); k += step) some.push_back(points[k]);
   return some;
@@ -119,7 +119,7 @@ std::vector<SurfacePoint> Thinned(const std::vector<SurfacePoint>& points) {
 
 /// Each plane is looked for among what the ones before left, so that few points on a plain road
 /// count beside the many on a wall.
-std::vector<FittedPlane> FindPlanes(std::vector<SurfacePoint> left, uint64_t seed) {
+std::vector<FittedPlane> FindPlanes(std::vector<ReliablePoint> left, uint64_t seed) {
   Random random(seed);
   std::vector<FittedPlane> planes;
   while (planes.size() < kMaxPlanes && left.size() > kLeastInliers) {
@@ -127,21 +127,21 @@ std::vector<FittedPlane> FindPlanes(std::vector<SurfacePoint> left, uint64_t see
     if (!(plane.distance_m > 0.1F)) break;
     planes.push_back(plane);
     const size_t before = left.size();
-    std::erase_if(left, [&](const SurfacePoint& p) { return LiesOn(p, plane); });
+    std::erase_if(left, [&](const ReliablePoint& p) { return LiesOn(p, plane); });
     if (left.size() == before) break;
   }
   return planes;
 }
 
 /// The plane of each pixel that matches well and lies on one.
-std::vector<uint8_t> LabelPoints(const std::vector<SurfacePoint>& points,
+std::vector<uint8_t> LabelPoints(const std::vector<ReliablePoint>& points,
                                  const std::vector<FittedPlane>& planes,
                                  size_t num_pixels,
                                  PlanarPrior& prior) {
   std::vector<uint8_t> labels(num_pixels, PlanarPrior::kNone);
   std::vector<double> squares(planes.size());
   std::vector<double> counts(planes.size(), 1.0);
-  for (const SurfacePoint& p : points) {
+  for (const ReliablePoint& p : points) {
     float least = 1e9F;
     for (size_t k = 0; k < planes.size(); ++k) {
       const float off_m = std::abs(planes[k].normal.dot(p.point) - planes[k].distance_m);
@@ -235,7 +235,7 @@ uint8_t Elect(const MetLabels& met, const std::vector<uint8_t>& is_level) {
 PlanarPrior FitPlanarPrior(const ReferenceRaster& raster, const PlaneField& field, uint64_t seed) {
   const EquiangularRaster pixels{raster.face_px};
   PlanarPrior prior{.face_px = raster.face_px};
-  const std::vector<SurfacePoint> points = ReliablePoints(raster, field);
+  const std::vector<ReliablePoint> points = ReliablePoints(raster, field);
   const std::vector<FittedPlane> planes = FindPlanes(points, seed);
   const std::vector<uint8_t> labels = LabelPoints(points, planes, pixels.NumPixels(), prior);
   std::vector<uint8_t> is_level;

@@ -8,14 +8,13 @@
 #include "core/base/status.h"
 #include "core/geometry/rotation.h"
 #include "core/io/byte_stream.h"
+#include "core/io/colmap_bytes.h"
 #include "core/io/colmap_model.h"
 
 namespace orbweave {
 namespace {
 
 uint32_t ColmapId(ImageId id) { return id.value + 1; }
-
-std::string BytesOf(uint64_t count) { return ByteWriter().Put<uint64_t>(count).Take(); }
 
 std::string CamerasBin(const std::vector<EquirectangularCamera>& cameras) {
   ByteWriter out;
@@ -54,8 +53,8 @@ ColmapModelWriter::ColmapModelWriter(const std::string& folder,
       cameras_path_(folder + "/cameras.bin"),
       images_file_(folder + "/images.bin"),
       points_file_(folder + "/points3D.bin") {
-  images_file_.Append(BytesOf(images.size()));
-  points_file_.Append(BytesOf(0));
+  images_file_.Append(ColmapCount(images.size()));
+  points_file_.Append(ColmapCount(0));
 }
 
 void ColmapModelWriter::AddPoint(const Track& track) {
@@ -79,12 +78,9 @@ void ColmapModelWriter::AddImage(ImageId id, const std::vector<Keypoint>& keypoi
     point_of_feature_.erase(seen);
   }
   const ImageRecord& record = manifest_.At(id);
-  const Rigid3& cam_from_world = images_.at(id).cam_from_world;
-  const Eigen::Quaterniond& q = cam_from_world.rotation;
-  const Eigen::Vector3d& t = cam_from_world.translation;
   ByteWriter out;
   out.Put<uint32_t>(ColmapId(id));
-  out.Put(q.w()).Put(q.x()).Put(q.y()).Put(q.z()).Put(t.x()).Put(t.y()).Put(t.z());
+  PutColmapPose(images_.at(id).cam_from_world, out);
   out.Put<uint32_t>(CameraIdOf(record.camera)).PutText(record.name).Put<char>('\0');
   out.Put<uint64_t>(keypoints.size());
   for (size_t i = 0; i < keypoints.size(); ++i) {
@@ -103,7 +99,7 @@ uint32_t ColmapModelWriter::CameraIdOf(const EquirectangularCamera& camera) {
 absl::Status ColmapModelWriter::Finish() {
   ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(cameras_path_, CamerasBin(cameras_)));
   ORBWEAVE_RETURN_IF_ERROR(images_file_.Commit());
-  return points_file_.CommitWithHead(BytesOf(num_points_));
+  return points_file_.CommitWithHead(ColmapCount(num_points_));
 }
 
 }  // namespace orbweave

@@ -17,10 +17,6 @@
 namespace orbweave {
 namespace {
 
-absl::Status Named(const ImageRecord& record, const absl::Status& status) {
-  return absl::Status(status.code(), absl::StrCat(record.name, ": ", status.message()));
-}
-
 absl::Status WriteBelow(const std::string& folder,
                         const std::string& name,
                         std::string_view bytes) {
@@ -106,7 +102,7 @@ absl::StatusOr<CubeExportCounts> CubeExport::Finish(const EncodedFileOf& panoram
   });
   CubeExportCounts counts;
   for (size_t i = 0; i < ids.size(); ++i) {
-    if (!written[i].ok()) return Named(manifest_.At(ids[i]), written[i].status());
+    if (!written[i].ok()) return Annotate(written[i].status(), manifest_.At(ids[i]).name);
     ++counts.panoramas;
     counts.without_pixels += *written[i] ? 0 : 1;
   }

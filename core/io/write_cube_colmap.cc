@@ -9,6 +9,7 @@
 #include "core/base/status.h"
 #include "core/geometry/rotation.h"
 #include "core/io/byte_stream.h"
+#include "core/io/colmap_bytes.h"
 
 namespace orbweave {
 namespace {
@@ -24,14 +25,6 @@ uint32_t CameraIdOf(uint32_t rig, int face) {
   return kCubeFaces * rig + static_cast<uint32_t>(face) + 1;
 }
 
-void PutPose(const Rigid3& pose, ByteWriter& out) {
-  const Eigen::Quaterniond& q = pose.rotation;
-  const Eigen::Vector3d& t = pose.translation;
-  out.Put(q.w()).Put(q.x()).Put(q.y()).Put(q.z()).Put(t.x()).Put(t.y()).Put(t.z());
-}
-
-std::string CountBytes(uint64_t count) { return ByteWriter().Put(count).Take(); }
-
 }  // namespace
 
 CubeColmapWriter::CubeColmapWriter(const std::string& folder,
@@ -44,7 +37,7 @@ CubeColmapWriter::CubeColmapWriter(const std::string& folder,
       layout_(layout),
       rigs_(CubeRigs(images, manifest, layout)),
       points_file_(folder + "/points3D.bin") {
-  points_file_.Append(CountBytes(0));
+  points_file_.Append(ColmapCount(0));
 }
 
 uint32_t CubeColmapWriter::RigOf(ImageId id) const {
@@ -101,7 +94,7 @@ std::string CubeColmapWriter::RigsBin() const {
     out.Put(kCameraSensor).Put(CameraIdOf(rig, 0));
     for (int face = 1; face < kCubeFaces; ++face) {
       out.Put(kCameraSensor).Put(CameraIdOf(rig, face)).Put<uint8_t>(1);
-      PutPose(FaceFromWorld(face, {}), out);
+      PutColmapPose(FaceFromWorld(face, {}), out);
     }
   }
   return out.Take();
@@ -113,7 +106,7 @@ std::string CubeColmapWriter::FramesBin() const {
   for (const auto& [id, image] : images_) {
     const uint32_t rig = RigOf(id);
     out.Put(FrameIdOf(id)).Put(rig + 1);
-    PutPose(image.cam_from_world, out);  // the front face's: that of the rig
+    PutColmapPose(image.cam_from_world, out);  // the front face's: that of the rig
     out.Put<uint32_t>(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) {
       out.Put(kCameraSensor).Put(CameraIdOf(rig, face));
@@ -125,7 +118,7 @@ std::string CubeColmapWriter::FramesBin() const {
 
 absl::Status CubeColmapWriter::WriteImages() const {
   AtomicFile file(folder_ + "/images.bin");
-  file.Append(CountBytes(kCubeFaces * images_.size()));
+  file.Append(ColmapCount(kCubeFaces * images_.size()));
   const Faces none{};
   for (const auto& [id, image] : images_) {
     const auto found = seen_.find(id);
@@ -134,7 +127,7 @@ absl::Status CubeColmapWriter::WriteImages() const {
       const std::vector<SeenPoint>& on_face = faces[static_cast<size_t>(face)];
       ByteWriter out;
       out.Put(ImageIdOf(id, face));
-      PutPose(FaceFromWorld(face, image.cam_from_world), out);
+      PutColmapPose(FaceFromWorld(face, image.cam_from_world), out);
       out.Put(CameraIdOf(RigOf(id), face));
       out.PutText(CubeImageName(manifest_.At(id), face)).Put<char>('\0');
       out.Put<uint64_t>(on_face.size());
@@ -152,7 +145,7 @@ absl::Status CubeColmapWriter::Finish() {
   ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(folder_ + "/rigs.bin", RigsBin()));
   ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically(folder_ + "/frames.bin", FramesBin()));
   ORBWEAVE_RETURN_IF_ERROR(WriteImages());
-  return points_file_.CommitWithHead(CountBytes(num_points_));
+  return points_file_.CommitWithHead(ColmapCount(num_points_));
 }
 
 }  // namespace orbweave

@@ -3,32 +3,24 @@
 
 #include "core/io/write_dense_ply.h"
 
+#include <string_view>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "core/io/byte_stream.h"
+#include "core/io/ply_head.h"
 
 namespace orbweave {
 namespace {
 
-/// As long for every count: a comment fills up what shorter numbers leave.
-std::string HeaderFor(uint64_t num_points) {
-  constexpr size_t kDigits = 20;
-  const std::string count = absl::StrCat(num_points);
-  return absl::StrCat("ply\nformat binary_little_endian 1.0\ncomment orbweave",
-                      std::string(kDigits - count.size(), '.'),
-                      "\nelement vertex ",
-                      count,
-                      "\nproperty double x\nproperty double y\nproperty double z\n"
-                      "property float nx\nproperty float ny\nproperty float nz\n"
-                      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-                      "property float sigma\nproperty uchar views\nend_header\n");
-}
+constexpr std::string_view kProperties =
+    "property float nx\nproperty float ny\nproperty float nz\n"
+    "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+    "property float sigma\nproperty uchar views\n";
 
 }  // namespace
 
 DensePlyWriter::DensePlyWriter(std::string path) : file_(std::move(path)) {
-  file_.Append(HeaderFor(0));
+  file_.Append(PlyHead(0, kProperties));
 }
 
 void DensePlyWriter::Add(std::span<const SurfacePoint> points) {
@@ -44,6 +36,8 @@ void DensePlyWriter::Add(std::span<const SurfacePoint> points) {
   num_points_ += points.size();
 }
 
-absl::Status DensePlyWriter::Finish() { return file_.CommitWithHead(HeaderFor(num_points_)); }
+absl::Status DensePlyWriter::Finish() {
+  return file_.CommitWithHead(PlyHead(num_points_, kProperties));
+}
 
 }  // namespace orbweave

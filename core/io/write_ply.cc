@@ -3,30 +3,23 @@
 
 #include "core/io/write_ply.h"
 
+#include <string_view>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "core/io/byte_stream.h"
+#include "core/io/ply_head.h"
 
 namespace orbweave {
 namespace {
 
-/// As long for every count: a comment fills up what shorter numbers leave.
-std::string HeaderFor(uint64_t num_points) {
-  constexpr size_t kDigits = 20;
-  const std::string count = absl::StrCat(num_points);
-  return absl::StrCat(
-      "ply\nformat binary_little_endian 1.0\ncomment orbweave",
-      std::string(kDigits - count.size(), '.'),
-      "\nelement vertex ",
-      count,
-      "\nproperty double x\nproperty double y\nproperty double z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n");
-}
+constexpr std::string_view kProperties =
+    "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
 }  // namespace
 
-PlyWriter::PlyWriter(std::string path) : file_(std::move(path)) { file_.Append(HeaderFor(0)); }
+PlyWriter::PlyWriter(std::string path) : file_(std::move(path)) {
+  file_.Append(PlyHead(0, kProperties));
+}
 
 void PlyWriter::Add(const Track& track) {
   ByteWriter out;
@@ -36,6 +29,6 @@ void PlyWriter::Add(const Track& track) {
   ++num_points_;
 }
 
-absl::Status PlyWriter::Finish() { return file_.CommitWithHead(HeaderFor(num_points_)); }
+absl::Status PlyWriter::Finish() { return file_.CommitWithHead(PlyHead(num_points_, kProperties)); }
 
 }  // namespace orbweave

@@ -16,11 +16,8 @@ absl::StatusOr<DepthMap> Check(const CheckRecipe& recipe, StageTask<CheckDepthsS
   ORBWEAVE_ASSIGN_OR_RETURN(DepthMap own, FetchMap(recipe.own, task.blobs()));
   if (own.size() == 0) return own;
   const Rigid3 model_from_own = recipe.own.cam_from_model.Inverse();
-  std::vector<DepthMap> maps;
-  for (const PlacedMap& source : recipe.sources) {
-    ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
-    ORBWEAVE_ASSIGN_OR_RETURN(maps.emplace_back(), FetchMap(source, task.blobs()));
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<DepthMap> maps,
+                            FetchMaps(recipe.sources, task.blobs(), task.context()));
   std::vector<NeighbourMap> neighbours;
   for (size_t i = 0; i < maps.size(); ++i) {
     neighbours.push_back(

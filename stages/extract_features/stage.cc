@@ -7,16 +7,9 @@
 #include "core/features/extract_features.h"
 #include "core/features/retrieve_images.h"
 #include "stages/codecs.h"
+#include "stages/get_optional.h"
 
 namespace orbweave {
-namespace {
-
-absl::StatusOr<std::string> GetOptional(const Digest& digest, BlobAccess& blobs) {
-  if (digest.IsZero()) return std::string();
-  return blobs.Get(digest);
-}
-
-}  // namespace
 
 absl::Status ExtractFeaturesStage::Run(StageTask<ExtractFeaturesStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ExtractRecipe recipe, task.Read(&ExtractFeaturesStage::image));

@@ -20,11 +20,8 @@ absl::StatusOr<FusedPanorama> Fuse(const FuseRecipe& recipe, StageTask<FusePanor
       const FetchedRaster image,
       FetchRaster(recipe.file, recipe.mask_ignores_white, 4 * own.face_px, task.blobs()));
   if (!image.problem.empty()) return FusedPanorama{.problem = image.problem};
-  std::vector<DepthMap> maps;
-  for (const PlacedMap& neighbour : recipe.neighbours) {
-    ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
-    ORBWEAVE_ASSIGN_OR_RETURN(maps.emplace_back(), FetchMap(neighbour, task.blobs()));
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<DepthMap> maps,
+                            FetchMaps(recipe.neighbours, task.blobs(), task.context()));
   std::vector<PosedDepthMap> neighbours;
   for (size_t i = 0; i < maps.size(); ++i) {
     const PlacedMap& placed = recipe.neighbours[i];
