@@ -110,6 +110,7 @@ class Bench {
       std::printf("panorama %zu\n", own);
       Judge("estimated", maps_[own], truth);
       Judge("checked", map, truth);
+      JudgeParts(map, truth);
       Draw("estimated_" + std::to_string(own), maps_[own], truth);
       Draw("checked_" + std::to_string(own), map, truth);
       for (size_t k = 0; k < truth.points.size(); ++k) {
@@ -347,6 +348,19 @@ class Bench {
     return least;
   }
 
+  /// Level surface is road, kerbs and roofs of cars; the rest walls and what stands before them.
+  void JudgeParts(const DepthMap& map, const Truth& truth) const {
+    Truth part = truth;
+    for (const bool level : {true, false}) {
+      for (size_t k = 0; k < part.counts.size(); ++k) {
+        const bool is_level = std::abs(truth.normals[k].z()) > 0.9F;
+        part.counts[k] = truth.counts[k] != 0 && is_level == level ? 1 : 0;
+        part.range_m[k] = is_level == level ? truth.range_m[k] : 1e6F;
+      }
+      Judge(level ? "  level" : "  other", map, part);
+    }
+  }
+
   void Judge(const char* what, const DepthMap& map, const Truth& truth) const {
     const EquiangularRaster raster{map.face_px};
     size_t counted = 0;
@@ -365,7 +379,9 @@ class Bench {
           const bool true_near = truth.range_m[k] > kNearest_m && truth.range_m[k] < kFarthest_m;
           if (truth.counts[k] == 0) {
             // An invented point counts against precision where it claims to be near.
-            if (true_near || map.range_m[k] > kFarthest_m || map.range_m[k] < kNearest_m) continue;
+            if (true_near || truth.range_m[k] > 1e5F || map.range_m[k] > kFarthest_m ||
+                map.range_m[k] < kNearest_m)
+              continue;
           }
           const double error = ErrorOf(truth, map, face, row, column);
           if (truth.counts[k] == 0) ++outside;

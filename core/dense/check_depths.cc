@@ -134,8 +134,9 @@ class Checker {
       ++votes.agreeing;
       votes.sine = std::max(votes.sine, sine);
       AddRange(neighbour, normal, here, its_range_m, sigma_m, bearing, range_m, votes);
-    } else if (behind_m > std::max(2.0F * tolerance_m, 0.03F * distance_m) && beside_px > 2.0F) {
-      ++votes.seen_through;
+    } else if (behind_m > std::max(2.0F * tolerance_m, 0.03F * distance_m) && beside_px > 2.0F &&
+               (neighbour.map->flags[at] & kDepthPriorOnly) == 0) {
+      ++votes.seen_through;  // what only a plane of the surroundings says was not seen
     }
   }
 

@@ -4,9 +4,11 @@
 #include "core/dense/estimate_depths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
+#include "core/dense/fit_planar_prior.h"
 #include "core/dense/interpolate_seeds.h"
 #include "core/dense/map_of_planes.h"
 #include "core/dense/patch_match.h"
@@ -49,25 +51,26 @@ Pyramid Half(const Pyramid& full) {
   return half;
 }
 
-NoiseByLevel NoiseOf(const GreyPanorama& reference, const DenseOptions& options) {
+std::array<NoiseByLevel, 3> NoiseOf(const std::array<const Pyramid*, 3>& scales,
+                                    const DenseOptions& options) {
   const auto least = static_cast<float>(options.noise_levels * options.noise_levels);
-  return EstimateNoise(reference, least, kMostNoise * least);
+  std::array<NoiseByLevel, 3> noise;
+  for (size_t k = 0; k < scales.size(); ++k)
+    noise[k] = EstimateNoise(scales[k]->reference, least, kMostNoise * least);
+  return noise;
 }
 
 /// What stays the same from scale to scale.
 struct Search {
   const DenseOptions& options;
   MatchFunction match;
-  NoiseByLevel noise{};  ///< of the whole image
+  std::array<NoiseByLevel, 3> noise{};  ///< after 0, 1, 2 halvings
   RangeLimits limits{};
   uint64_t seed = 0;
 
   [[nodiscard]] PatchMatchContext At(const MatchScale& scale, const BlockViews& views) const {
-    NoiseByLevel of_scale = noise;
-    const auto least = static_cast<float>(options.noise_levels * options.noise_levels);
-    for (float& variance : of_scale.variances)
-      variance = std::max(least, variance * scale.NoiseGain());
-    return {scale, views, options, match, of_scale, limits, seed};
+    const size_t halvings = static_cast<size_t>(scale.times_halved);
+    return {scale, views, options, match, noise[halvings], limits, seed};
   }
 };
 
@@ -136,7 +139,7 @@ PlaneField SearchHalf(const Search& search,
       RunRounds(search, scale, PlanRounds(search.options.middle_rounds, kMiddle, true), field);
   DropSky(search.At(scale, views), field);
   if (!search.options.planar_prior) return field;
-  prior = FitPlanarPrior(scale.raster, field, search.seed);
+  prior = FitPlanarPrior(search.At(scale, views), field);
   TryPrior(search.At(scale, views), prior, field);
   return field;
 }
@@ -155,14 +158,15 @@ DepthMap EstimateDepths(const DepthProblem& problem,
     full.sources.push_back(MakeGreyPanorama(source.image));
   }
   if (poses.empty()) return {.problem = "no other panorama sees the same place from elsewhere"};
+  const Pyramid half = Half(full);
+  const Pyramid quarter = Half(half);
   const Search search{
       options,
       MatchFunctionOf(kernel),
-      NoiseOf(full.reference, options),
+      NoiseOf({&full, &half, &quarter}, options),
       {static_cast<float>(problem.min_range_m), static_cast<float>(problem.max_range_m)},
       problem.seed};
-  const Pyramid half = Half(full);
-  PlaneField field = SearchQuarter(search, Half(half), poses, problem.seeds);
+  PlaneField field = SearchQuarter(search, quarter, poses, problem.seeds);
   PlanarPrior prior;
   field = SearchHalf(search, half, poses, DoubleField(field), prior);
   const MatchScale scale(full.reference, full.sources, poses, 0);

@@ -11,7 +11,9 @@ namespace orbweave {
 namespace {
 
 constexpr int kApron = PlaneField::kApron_px;
-constexpr float kPriorSigmas = 3.0F;
+constexpr float kPriorSigmas = 2.0F;  // of a plane's pixels, that one without a match may be off
+constexpr float kSameSigmas = 2.0F;   // between which two are one surface
+constexpr float kLeastSlant = 0.1F;   // cosine between a plane's normal and the ray
 
 DepthMap BlankMap(int face_px) {
   DepthMap map{.face_px = face_px};
@@ -45,41 +47,70 @@ class FaceWriter {
   }
 
   void Write(int row, int column, const Eigen::Vector3f& ray) {
-    const size_t at = field_.AtPixel(face_, row + kApron, column + kApron);
     const size_t pixel = EquiangularRaster{map_.face_px}.Index(face_, row, column);
-    const Eigen::Vector3f q(field_.x[at], field_.y[at], field_.z[at]);
-    if (field_.cost[at] < largest_cost_ && field_.sigma[at] < largest_sigma_) {
-      return Set(pixel, camera_from_face_ * q, ray, field_.sigma[at], 0);
-    }
-    if (prior_.labels.empty()) return;
-    const uint8_t label =
-        prior_.labels[EquiangularRaster{prior_.face_px}.Index(face_, row / 2, column / 2)];
-    if (label == PlanarPrior::kNone) return;
-    const Eigen::Vector3f& plane = prior_.planes[label];
-    const Eigen::Vector3f in_cam = camera_from_face_ * ray;
-    const float slant = plane.normalized().dot(in_cam.normalized());
-    if (slant < kLeastSlant) return;
-    const float range_m = in_cam.norm() / plane.dot(in_cam);
-    Set(pixel,
-        plane,
-        ray,
-        kPriorSigmas * prior_.scatter_m[label] / (slant * range_m),
-        kDepthPriorOnly);
+    const Found own = FoundByMatch(row, column, ray);
+    const Found prior = FoundByPrior(row, column, ray);
+    if (!prior.exists) return Set(pixel, own, 0);
+    if (!own.exists) return Set(pixel, prior, kDepthPriorOnly);
+    const float off = own.range_m / prior.range_m - 1.0F;
+    const float variance = own.sigma * own.sigma + prior.sigma * prior.sigma;
+    if (off * off < kSameSigmas * kSameSigmas * variance) return Set(pixel, Mean(own, prior), 0);
+    if (TextureAt(row, column) < kWeakTexture) return Set(pixel, prior, kDepthPriorOnly);
+    Set(pixel, own, 0);
   }
 
  private:
-  static constexpr float kLeastSlant = 0.1F;  // cosine between a plane's normal and the ray
+  /// A surface on a pixel's ray.
+  struct Found {
+    bool exists = false;
+    float range_m = 0.0F;
+    float sigma = 0.0F;  ///< as a share of the range
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  };
 
-  void Set(size_t pixel,
-           const Eigen::Vector3f& q,
-           const Eigen::Vector3f& ray,
-           float sigma,
-           uint8_t flags) {
-    const float range_m = ray.norm() / q.dot(camera_from_face_ * ray);
-    if (!(range_m >= limits_.min_m && range_m <= limits_.max_m)) return;
-    map_.range_m[pixel] = range_m;
-    map_.sigma_m[pixel] = range_m * sigma;
-    map_.normals[pixel] = EncodeNormal(-q.normalized());
+  Found FoundByMatch(int row, int column, const Eigen::Vector3f& ray) const {
+    const size_t at = field_.AtPixel(face_, row + kApron, column + kApron);
+    if (!(field_.cost[at] < largest_cost_) || !(field_.sigma[at] < largest_sigma_)) return {};
+    const Eigen::Vector3f q(field_.x[at], field_.y[at], field_.z[at]);
+    return {true, ray.norm() / q.dot(ray), field_.sigma[at], camera_from_face_ * q.normalized()};
+  }
+
+  Found FoundByPrior(int row, int column, const Eigen::Vector3f& ray) const {
+    if (prior_.labels.empty()) return {};
+    const EquiangularRaster raster{prior_.face_px};
+    const uint8_t label = prior_.labels[raster.Index(face_, row / 2, column / 2)];
+    if (label == PlanarPrior::kNone) return {};
+    const Eigen::Vector3f& plane = prior_.planes[label];
+    const Eigen::Vector3f in_cam = camera_from_face_ * ray;
+    const Eigen::Vector3f normal = plane.normalized();
+    const float slant = normal.dot(in_cam.normalized());
+    if (slant < kLeastSlant) return {};
+    const float range_m = in_cam.norm() / plane.dot(in_cam);
+    return {true, range_m, kPriorSigmas * prior_.scatter_m[label] / (slant * range_m), normal};
+  }
+
+  float TextureAt(int row, int column) const {
+    const int cells = prior_.face_px / 2;
+    return prior_.texture[static_cast<size_t>((face_ * cells + row / 4) * cells + column / 4)];
+  }
+
+  /// Of two that agree, each with the weight of its variance.
+  static Found Mean(const Found& a, const Found& b) {
+    const float weight_a = 1.0F / (a.sigma * a.sigma);
+    const float weight_b = 1.0F / (b.sigma * b.sigma);
+    const float weights = weight_a + weight_b;
+    return {true,
+            (weight_a * a.range_m + weight_b * b.range_m) / weights,
+            1.0F / std::sqrt(weights),
+            weight_a > weight_b ? a.normal : b.normal};
+  }
+
+  void Set(size_t pixel, const Found& found, uint8_t flags) {
+    if (!found.exists) return;
+    if (!(found.range_m >= limits_.min_m && found.range_m <= limits_.max_m)) return;
+    map_.range_m[pixel] = found.range_m;
+    map_.sigma_m[pixel] = found.range_m * found.sigma;
+    map_.normals[pixel] = EncodeNormal(-found.normal);
     map_.flags[pixel] = flags;
   }
 

@@ -5,20 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/dense/depth_sigma.h"
-#include "core/dense/equiangular_raster.h"
 
 namespace orbweave {
 namespace {
 
 constexpr int kApron = PlaneField::kApron_px;
 constexpr int kSamples = 3;
-constexpr float kNoCost = 2.0F;
-constexpr float kSkyMargin = 0.02F;
-constexpr float kPriorMargin = 0.4F;
-constexpr float kPriorTexture = 4.0F;  // scatter, in noise variances, that counts as half textured
 constexpr float kLeastFacing = 0.06F;  // cosine between normal and ray
 /// Weights of a pixel's costs, ascending: a source that an occluder hides counts little.
 constexpr std::array<float, kMaxViews> kCostWeights = {1.0F, 1.0F, 0.5F, 0.25F};
@@ -112,50 +106,6 @@ void PatchBatch::Refine() {
   }
 }
 
-void PatchBatch::TryPrior(const PlanarPrior& prior) {
-  const EquiangularRaster raster{prior.face_px};
-  const Eigen::Matrix3f face_from_camera = FaceFromCamera(place_.face).cast<float>();
-  bool any = false;
-  for (size_t k = 0; k < lanes_; ++k) {
-    const size_t pixel = raster.Index(
-        place_.face, place_.row - kApron, place_.column - kApron + 2 * static_cast<int>(k));
-    const uint8_t label = prior.labels[pixel];
-    if (label == PlanarPrior::kNone) {
-      Propose(k, Held(k));
-      continue;
-    }
-    any = true;
-    const Eigen::Vector3f q = face_from_camera * prior.planes[label];
-    Propose(k, {q.x(), q.y(), q.z()});
-  }
-  if (!any) return;
-  LaneFloats cost;
-  Score(tried_, cost);
-  for (size_t k = 0; k < lanes_; ++k) {
-    const float noise = kPriorTexture * noise_variance_ * patches_.weight_sum[k];
-    const float fade = noise / (noise + patches_.scatter[k]);
-    if (!(cost[k] < std::min(held_cost_[k], 1.0F) + kPriorMargin * fade)) continue;
-    Hold(k, cost[k]);
-  }
-}
-
-void PatchBatch::DropSky() {
-  for (size_t k = 0; k < kMatchLanes; ++k) {
-    const float inverse = 1e-5F / ray_[k];
-    tried_.x[k] = patches_.x[k] * inverse;
-    tried_.y[k] = patches_.y * inverse;
-    tried_.z[k] = inverse;
-  }
-  LaneFloats cost;
-  Score(tried_, cost);
-  for (size_t k = 0; k < lanes_; ++k) {
-    if (!(cost[k] < held_cost_[k] + kSkyMargin)) continue;
-    held_.x[k] = held_.y[k] = held_.z[k] = 0.0F;
-    held_cost_[k] = kNoCost;
-    field_.sigma[at_ + k] = std::numeric_limits<float>::infinity();
-  }
-}
-
 void PatchBatch::Store() {
   std::copy_n(held_.x.begin(), lanes_, &field_.x[at_]);
   std::copy_n(held_.y.begin(), lanes_, &field_.y[at_]);
@@ -241,11 +191,15 @@ RayPlane PatchBatch::Perturbed(size_t k, int slot, PixelRandom& random) const {
   return {q.x * factor, q.y * factor, q.z * factor};
 }
 
+bool PatchBatch::IsInSight(size_t k, float p0, float size) const {
+  return p0 * context_.limits.min_m < ray_[k] && p0 * context_.limits.max_m > ray_[k] &&
+         p0 > kLeastFacing * size * ray_[k];
+}
+
 void PatchBatch::Propose(size_t k, const RayPlane& q) {
   const float p0 = q.InverseDepth(patches_.x[k], patches_.y);
   const float size = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  const bool fits = p0 * context_.limits.min_m < ray_[k] && p0 * context_.limits.max_m > ray_[k] &&
-                    p0 > kLeastFacing * size * ray_[k];
+  const bool fits = IsInSight(k, p0, size);
   tried_.x[k] = fits ? q.x : held_.x[k];
   tried_.y[k] = fits ? q.y : held_.y[k];
   tried_.z[k] = fits ? q.z : held_.z[k];
@@ -272,7 +226,7 @@ void PatchBatch::Score(const PlaneLanes& planes, LaneFloats& cost) {
     if (view < count) {
       Match(planes, view, costs_[view]);
     } else {
-      costs_[view].fill(kNoCost);
+      costs_[view].fill(kNoPlaneCost);
     }
   }
   Combine(count, cost);
@@ -306,7 +260,7 @@ void PatchBatch::Accept() {
     Match(tried_, view, costs_[view]);
   if (count > 2 && !MayImprove()) return;
   for (size_t view = 2; view < count; ++view) Match(tried_, view, costs_[view]);
-  for (size_t view = count; view < kMaxViews; ++view) costs_[view].fill(kNoCost);
+  for (size_t view = count; view < kMaxViews; ++view) costs_[view].fill(kNoPlaneCost);
   LaneFloats cost;
   Combine(count, cost);
   for (size_t k = 0; k < lanes_; ++k) {

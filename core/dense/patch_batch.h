@@ -16,6 +16,9 @@ namespace orbweave {
 /// Groups of pixels around one, from each of which the cheapest plane is tried.
 inline constexpr size_t kMatchRegions = 8;
 
+/// Cost of a pixel that has no plane.
+inline constexpr float kNoPlaneCost = 2.0F;
+
 /// The pixels of one colour in a row of a block, and what they hold.
 class PatchBatch {
  public:
@@ -32,7 +35,19 @@ class PatchBatch {
   /// To the minimum of the costs along the ray.
   void Refine();
 
+  /// Leaves pixels of weak texture that may lie on a plane of the prior to it, without one of their
+  /// own.
   void TryPrior(const PlanarPrior& prior);
+
+  /// Of a plane q.x = 1 in the frame of the face, at all pixels; 1 where it cannot be.
+  void ScorePlane(const Eigen::Vector3f& plane, LaneFloats& cost);
+
+  [[nodiscard]] size_t NumLanes() const { return lanes_; }
+
+  /// Variance of a patch in variances of noise.
+  [[nodiscard]] float TextureOf(size_t k) const {
+    return patches_.scatter[k] / (noise_variance_ * patches_.weight_sum[k]);
+  }
 
   /// Takes the planes of pixels that look no worse at infinity.
   void DropSky();
@@ -58,6 +73,9 @@ class PatchBatch {
 
   RayPlane Perturbed(size_t k, int slot, PixelRandom& random) const;
 
+  /// Whether a plane |q| = `size` of inverse depth p0 is in range and not seen from its edge.
+  [[nodiscard]] bool IsInSight(size_t k, float p0, float size) const;
+
   /// A plane to try, unless it is out of range or seen from its edge.
   void Propose(size_t k, const RayPlane& q);
 
@@ -75,6 +93,11 @@ class PatchBatch {
   void Accept();
 
   void Hold(size_t k, float cost);
+
+  void Drop(size_t k);
+
+  /// Of the raster, without aprons.
+  [[nodiscard]] size_t PixelOf(size_t k) const;
 
   /// The cheapest pixel of each region around each lane, in order of cost.
   void FindRegions();

@@ -20,7 +20,8 @@ void RunRound(const PatchMatchContext& context, const PatchMatchRound& round, Pl
 void DropSky(const PatchMatchContext& context, PlaneField& field);
 
 /// Gives pixels the plane that the prior has for them where it costs less than what they hold, or,
-/// the less texture they have, not much more.
+/// the less texture they have, not much more; those of weak texture hold none then and leave it to
+/// the prior.
 void TryPrior(const PatchMatchContext& context, const PlanarPrior& prior, PlaneField& field);
 
 }  // namespace orbweave

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/dense/find_planes.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <span>
+
+#include "core/base/random.h"
+#include "core/dense/equiangular_raster.h"
+#include "core/geometry/cube_face.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kApron = PlaneField::kApron_px;
+constexpr float kReliableCost = 0.35F;
+constexpr float kReliableSigma = 0.03F;
+constexpr size_t kSamples = 6000;
+constexpr int kTrials = 200;
+constexpr size_t kMaxPlanes = 24;
+constexpr size_t kLeastInliers = 60;
+constexpr float kLeastCosine = 0.9F;    // between a pixel's normal and the plane's
+constexpr float kSameCosine = 0.9976F;  // between planes that may be one: 4 degrees
+
+float ToleranceAt(float range_m) { return 0.012F + 0.006F * range_m; }
+
+size_t CountOn(std::span<const ReliablePoint> points, const FittedPlane& plane) {
+  return static_cast<size_t>(
+      std::ranges::count_if(points, [&](const ReliablePoint& p) { return LiesOn(p, plane); }));
+}
+
+/// Sums for a plane through points by least squares, those far away counting less.
+class PlaneSums {
+ public:
+  void Add(const Eigen::Vector3f& point) {
+    const Eigen::Vector3d x = point.cast<double>();
+    const double tolerance_m = ToleranceAt(point.norm());
+    const double weight = 1.0 / (tolerance_m * tolerance_m);
+    weights_ += weight;
+    sum_ += weight * x;
+    squares_ += weight * x * x.transpose();
+    ++count_;
+  }
+
+  void Add(const PlaneSums& other) {
+    weights_ += other.weights_;
+    sum_ += other.sum_;
+    squares_ += other.squares_;
+    count_ += other.count_;
+  }
+
+  [[nodiscard]] size_t Count() const { return count_; }
+  [[nodiscard]] Eigen::Vector3f Mean() const { return (sum_ / weights_).cast<float>(); }
+
+  /// The plane, with a normal on the side of `towards`.
+  [[nodiscard]] FittedPlane Fit(const Eigen::Vector3f& towards) const {
+    const Eigen::Vector3d mean = sum_ / weights_;
+    const Eigen::Matrix3d spread = squares_ / weights_ - mean * mean.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+    Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    if (normal.dot(towards.cast<double>()) < 0.0) normal = -normal;
+    const double scatter_m = std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+    return {
+        normal.cast<float>(), static_cast<float>(normal.dot(mean)), static_cast<float>(scatter_m)};
+  }
+
+ private:
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
+  double weights_ = 0.0;
+  size_t count_ = 0;
+};
+
+/// Through the points on a plane.
+FittedPlane Refit(std::span<const ReliablePoint> points, const FittedPlane& plane) {
+  PlaneSums sums;
+  for (const ReliablePoint& p : points) {
+    if (LiesOn(p, plane)) sums.Add(p.point);
+  }
+  return sums.Fit(plane.normal);
+}
+
+/// The plane that most of the points lie on; a distance of 0 where they have none in common.
+FittedPlane BestPlane(std::span<const ReliablePoint> points, Random& random) {
+  FittedPlane best;
+  size_t most = kLeastInliers;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const ReliablePoint& p = points[random.Index(static_cast<uint32_t>(points.size()))];
+    const FittedPlane plane{p.normal, p.normal.dot(p.point)};
+    const size_t count = CountOn(points, plane);
+    if (count <= most) continue;
+    most = count;
+    best = plane;
+  }
+  return best.distance_m > 0.0F ? Refit(points, Refit(points, best)) : best;
+}
+
+std::vector<ReliablePoint> Thinned(const std::vector<ReliablePoint>& points) {
+  std::vector<ReliablePoint> some;
+  const size_t step = std::max<size_t>(1, points.size() / kSamples);
+  for (size_t k = 0; k < points.size(); k += step) some.push_back(points[k]);
+  return some;
+}
+
+/// Each plane is looked for among what the ones before left, so that few points on a plain road
+/// count beside the many on a wall.
+std::vector<FittedPlane> FindLayers(std::vector<ReliablePoint> left, uint64_t seed) {
+  Random random(seed);
+  std::vector<FittedPlane> planes;
+  while (planes.size() < kMaxPlanes && left.size() > kLeastInliers) {
+    const FittedPlane plane = BestPlane(Thinned(left), random);
+    if (!(plane.distance_m > 0.1F)) break;
+    planes.push_back(plane);
+    const size_t before = left.size();
+    std::erase_if(left, [&](const ReliablePoint& p) { return LiesOn(p, plane); });
+    if (left.size() == before) break;
+  }
+  return planes;
+}
+
+/// Whether a layer may be a part of a plane with more points: turned and moved no more than the
+/// errors of its points explain.
+bool IsLayerOf(const FittedPlane& layer, const PlaneSums& sums, const FittedPlane& plane) {
+  const Eigen::Vector3f mean = sums.Mean();
+  return layer.normal.dot(plane.normal) > kSameCosine &&
+         std::abs(plane.normal.dot(mean) - plane.distance_m) < 2.0F * ToleranceAt(mean.norm());
+}
+
+std::vector<PlaneSums> SumsOf(const std::vector<ReliablePoint>& points,
+                              const std::vector<FittedPlane>& planes) {
+  std::vector<PlaneSums> sums(planes.size());
+  for (const ReliablePoint& p : points) {
+    if (const size_t plane = NearestPlane(p, planes); plane < planes.size())
+      sums[plane].Add(p.point);
+  }
+  return sums;
+}
+
+std::vector<FittedPlane> JoinLayers(const std::vector<ReliablePoint>& points,
+                                    const std::vector<FittedPlane>& layers) {
+  const std::vector<PlaneSums> sums = SumsOf(points, layers);
+  std::vector<size_t> order(layers.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(
+      order, std::ranges::greater{}, [&](size_t k) { return sums[k].Count(); });
+  std::vector<FittedPlane> planes;
+  std::vector<PlaneSums> joined;
+  for (const size_t layer : order) {
+    if (sums[layer].Count() < kLeastInliers) continue;
+    size_t to = 0;
+    while (to < planes.size() && !IsLayerOf(layers[layer], sums[layer], planes[to])) ++to;
+    if (to == planes.size()) {
+      planes.push_back(layers[layer]);
+      joined.emplace_back();
+    }
+    joined[to].Add(sums[layer]);
+  }
+  for (size_t k = 0; k < planes.size(); ++k) planes[k] = joined[k].Fit(planes[k].normal);
+  return planes;
+}
+
+}  // namespace
+
+bool LiesOn(const ReliablePoint& p, const FittedPlane& plane) {
+  return std::abs(plane.normal.dot(p.point) - plane.distance_m) < ToleranceAt(p.point.norm()) &&
+         p.normal.dot(plane.normal) > kLeastCosine;
+}
+
+std::vector<ReliablePoint> ReliablePoints(const ReferenceRaster& raster, const PlaneField& field) {
+  std::vector<ReliablePoint> points;
+  const EquiangularRaster pixels{raster.face_px};
+  for (int face = 0; face < kCubeFaces; ++face) {
+    const Eigen::Matrix3f camera_from_face = FaceFromCamera(face).transpose().cast<float>();
+    for (int row = 0; row < raster.face_px; ++row) {
+      for (int column = 0; column < raster.face_px; ++column) {
+        const size_t at = field.AtPixel(face, row + kApron, column + kApron);
+        if (!(field.cost[at] < kReliableCost) || !(field.sigma[at] < kReliableSigma)) continue;
+        const Eigen::Vector3f q(field.x[at], field.y[at], field.z[at]);
+        const Eigen::Vector3f ray(raster.tangents[static_cast<size_t>(column + kApron)],
+                                  raster.tangents[static_cast<size_t>(row + kApron)],
+                                  1.0F);
+        points.push_back({camera_from_face * (ray / q.dot(ray)),
+                          camera_from_face * q.normalized(),
+                          static_cast<uint32_t>(pixels.Index(face, row, column))});
+      }
+    }
+  }
+  return points;
+}
+
+size_t NearestPlane(const ReliablePoint& point, const std::vector<FittedPlane>& planes) {
+  size_t nearest = planes.size();
+  float least = 1e9F;
+  for (size_t k = 0; k < planes.size(); ++k) {
+    const float off_m = std::abs(planes[k].normal.dot(point.point) - planes[k].distance_m);
+    if (off_m >= least || !LiesOn(point, planes[k])) continue;
+    least = off_m;
+    nearest = k;
+  }
+  return nearest;
+}
+
+std::vector<FittedPlane> FindPlanes(const std::vector<ReliablePoint>& points, uint64_t seed) {
+  return JoinLayers(points, FindLayers(points, seed));
+}
+
+}  // namespace orbweave

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/dense/fit_planar_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/dense/equiangular_raster.h"
+#include "tests/core/dense/box_world.h"
+
+namespace orbweave {
+namespace {
+
+constexpr int kFace_px = 64;
+constexpr int kApron = PlaneField::kApron_px;
+
+/// The true planes of the box; nothing matches where `is_blank`.
+template <typename IsBlank>
+PlaneField FieldOfBox(IsBlank&& is_blank) {
+  const EquiangularRaster raster{kFace_px};
+  PlaneField field(kFace_px);
+  for (int face = 0; face < kCubeFaces; ++face) {
+    for (int row = 0; row < kFace_px; ++row) {
+      for (int column = 0; column < kFace_px; ++column) {
+        const size_t at = field.AtPixel(face, row + kApron, column + kApron);
+        const Eigen::Vector3d bearing = raster.BearingFromPixel(face, row + 0.5, column + 0.5);
+        const Eigen::Vector3d point =
+            testing::RangeInBox(Eigen::Vector3d::Zero(), bearing) * bearing;
+        const Eigen::Vector3d normal = testing::NormalInBox(point);
+        const Eigen::Vector3f q = (FaceFromCamera(face) * normal / normal.dot(point)).cast<float>();
+        field.x[at] = q.x();
+        field.y[at] = q.y();
+        field.z[at] = q.z();
+        if (is_blank(face, row, column)) continue;
+        field.cost[at] = 0.1F;
+        field.sigma[at] = 0.005F;
+      }
+    }
+  }
+  return field;
+}
+
+ReferenceRaster RasterOfBox() {
+  return MakeReferenceRaster(MakeGreyPanorama(
+      testing::RenderBox(4 * kFace_px,
+                         Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {0, 0, 0}))
+          .Raster()));
+}
+
+/// Nothing that is seen speaks for any plane.
+PlaneEvidence NoEvidence(size_t num_planes) {
+  const size_t cells = kFace_px / 2;
+  PlaneEvidence evidence{.cells = kFace_px / 2};
+  evidence.texture.resize(kCubeFaces * cells * cells);
+  evidence.correlation.assign(num_planes, std::vector<float>(evidence.texture.size()));
+  return evidence;
+}
+
+PlanarPrior PriorOf(const PlaneField& field) {
+  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
+  const std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  return LayOnPlanes(kFace_px, points, planes, NoEvidence(planes.size()));
+}
+
+size_t CellOf(int face, int row, int column) {
+  return static_cast<size_t>((face * kFace_px / 2 + row / 2) * (kFace_px / 2) + column / 2);
+}
+
+TEST(FindPlanes, JoinsTheLayersThatErrorsCutAPlaneInto) {
+  std::vector<ReliablePoint> points;
+  Random random(5);
+  for (int k = 0; k < 4000; ++k) {
+    const Eigen::Vector3f on(static_cast<float>(random.Uniform(-8, 8)),
+                             static_cast<float>(random.Uniform(-6, 3)),
+                             12.0F + 0.08F * static_cast<float>(random.Normal()));
+    points.push_back({on, Eigen::Vector3f::UnitZ(), static_cast<uint32_t>(k)});
+  }
+  const std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  ASSERT_EQ(planes.size(), 1U);
+  EXPECT_NEAR(planes[0].distance_m, 12.0F, 0.01F);
+  EXPECT_NEAR(planes[0].scatter_m, 0.08F, 0.02F);
+}
+
+TEST(FindPlanes, KeepsKerbAndRoadApart) {
+  std::vector<ReliablePoint> points;
+  Random random(6);
+  for (int k = 0; k < 4000; ++k) {
+    const auto across_m = static_cast<float>(random.Uniform(-5, 5));
+    const float height_m = across_m > 2.0F ? 2.38F : 2.5F;
+    points.push_back({{across_m, height_m, static_cast<float>(random.Uniform(-6, 6))},
+                      Eigen::Vector3f::UnitY(),
+                      static_cast<uint32_t>(k)});
+  }
+  const std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  ASSERT_EQ(planes.size(), 2U);
+  EXPECT_NEAR(planes[0].distance_m, 2.5F, 1e-3F);
+  EXPECT_NEAR(planes[1].distance_m, 2.38F, 1e-3F);
+}
+
+TEST(LayOnPlanes, GivesPixelsThePlaneThatTheirSurroundingsSpeakFor) {
+  const auto is_blank = [](int face, int, int) { return face == 0; };
+  const PlaneField field = FieldOfBox(is_blank);
+  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
+  std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  const auto front = static_cast<uint8_t>(planes.size());
+  planes.push_back({Eigen::Vector3f::UnitZ(), static_cast<float>(testing::kBoxHalf_m.z()), 0.01F});
+  PlaneEvidence evidence = NoEvidence(planes.size());
+  evidence.correlation[front][CellOf(0, 10, 32)] = 0.3F;
+  evidence.correlation[front][CellOf(0, 12, 40)] = 0.3F;
+  evidence.correlation[0][CellOf(0, 12, 40)] = 0.29F;  // nearly as much
+  const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
+  const EquiangularRaster raster{kFace_px};
+  EXPECT_EQ(prior.labels[raster.Index(0, 10, 32)], front);
+  EXPECT_NE(prior.labels[raster.Index(0, 12, 40)], front);
+}
+
+TEST(LayOnPlanes, SeesNothingThroughTheGround) {
+  const PlaneField field = FieldOfBox([](int face, int, int) { return face == 0; });
+  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
+  std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  const auto far = static_cast<uint8_t>(planes.size());
+  planes.push_back({Eigen::Vector3f::UnitZ(), 60.0F, 0.01F});
+  PlaneEvidence evidence = NoEvidence(planes.size());
+  std::ranges::fill(evidence.correlation[far], 0.5F);
+  const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
+  const EquiangularRaster raster{kFace_px};
+  EXPECT_EQ(prior.labels[raster.Index(0, 20, 32)], far);
+  EXPECT_NE(prior.labels[raster.Index(0, 60, 32)], far);
+}
+
+TEST(LayOnPlanes, FindsTheSixWallsOfABox) {
+  const PlanarPrior prior = PriorOf(FieldOfBox([](int, int, int) { return false; }));
+  ASSERT_EQ(prior.planes.size(), 6U);
+  for (const Eigen::Vector3f& plane : prior.planes) {
+    const Eigen::Vector3f normal = plane.normalized();
+    Eigen::Index axis = 0;
+    EXPECT_NEAR(normal.cwiseAbs().maxCoeff(&axis), 1.0F, 1e-4F);
+    EXPECT_NEAR(1.0F / plane.norm(), testing::kBoxHalf_m[axis], 1e-3F);
+  }
+  for (const float scatter_m : prior.scatter_m) EXPECT_LT(scatter_m, 1e-3F);
+}
+
+TEST(LayOnPlanes, LaysBlankPatchesOnTheWallAroundThem) {
+  const auto is_blank = [](int face, int row, int column) {
+    return face == 5 && row > 20 && row < 44 && column > 20 && column < 44;
+  };
+  const PlanarPrior prior = PriorOf(FieldOfBox(is_blank));
+  const uint8_t label = prior.labels[EquiangularRaster{kFace_px}.Index(5, 32, 32)];
+  ASSERT_NE(label, PlanarPrior::kNone);
+  EXPECT_NEAR(prior.planes[label].y(), 1.0 / testing::kBoxHalf_m.y(), 1e-3);
+}
+
+TEST(LayOnPlanes, LeavesASkyBetweenWallsOpen) {
+  const auto is_blank = [](int face, int row, int column) {
+    return face == 4 || (face == 0 && row < 25 && column > 20 && column < 44);
+  };
+  const PlanarPrior prior = PriorOf(FieldOfBox(is_blank));
+  EXPECT_EQ(prior.labels[EquiangularRaster{kFace_px}.Index(0, 10, 32)], PlanarPrior::kNone);
+  EXPECT_EQ(prior.labels[EquiangularRaster{kFace_px}.Index(4, 32, 32)], PlanarPrior::kNone);
+}
+
+TEST(LayOnPlanes, HasNoPlanesWhereNothingMatches) {
+  const PlanarPrior prior = PriorOf(FieldOfBox([](int, int, int) { return true; }));
+  EXPECT_TRUE(prior.planes.empty());
+  for (const uint8_t label : prior.labels) EXPECT_EQ(label, PlanarPrior::kNone);
+}
+
+}  // namespace
+}  // namespace orbweave
