@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kApron = PlaneField::kApron_px;
 constexpr int kReach_px = 120;
+constexpr uint8_t kSky = 254;             // a label until the others are given
 constexpr float kLeastEvidence = 0.12F;   // correlation
 constexpr float kEvidenceMargin = 0.03F;  // before the next plane
 
@@ -49,6 +50,8 @@ class Sight {
     }
   }
 
+  [[nodiscard]] bool MayBeSky() const { return ground_m_ == 0.0F; }
+
   /// No farther than the lowest of the level planes; streets have several, a kerb apart.
   [[nodiscard]] bool MayEndOn(size_t plane) const {
     return ground_m_ == 0.0F || RangeOf(plane) < kBeneath * ground_m_;
@@ -68,12 +71,14 @@ class Sight {
   float ground_m_ = 0.0F;
 };
 
-/// The plane that what is seen around a cell speaks for, and for no other one nearly as much.
+/// What is seen around a cell speaks for one plane, and for no other one nearly as much; or for the
+/// sky where that is not beneath the ground.
 uint8_t SpokenFor(const PlaneEvidence& evidence, const Sight& sight, size_t cell) {
+  const size_t sky = evidence.correlation.size() - 1;
   uint8_t best = PlanarPrior::kNone;
   float most = kLeastEvidence;
   float second = 0.0F;
-  for (size_t plane = 0; plane < evidence.correlation.size(); ++plane) {
+  for (size_t plane = 0; plane < sky; ++plane) {
     const float correlation = evidence.correlation[plane][cell];
     if (!sight.MayEndOn(plane)) continue;
     if (correlation > most) {
@@ -84,6 +89,7 @@ uint8_t SpokenFor(const PlaneEvidence& evidence, const Sight& sight, size_t cell
       second = std::max(second, correlation);
     }
   }
+  if (sight.MayBeSky() && evidence.correlation[sky][cell] > most - kEvidenceMargin) return kSky;
   return most > second + kEvidenceMargin ? best : PlanarPrior::kNone;
 }
 
@@ -154,14 +160,13 @@ class LabelLooker {
 /// have several a kerb apart, need a second one of any height; others must be met twice, once
 /// above.
 uint8_t Elect(const MetLabels& met, const Sight& sight) {
-  const auto level = std::ranges::count_if(met.labels, [&](uint8_t label) {
-    return label != PlanarPrior::kNone && sight.IsLevel(label);
-  });
+  const auto level = std::ranges::count_if(
+      met.labels, [&](uint8_t label) { return label < kSky && sight.IsLevel(label); });
   uint8_t best = PlanarPrior::kNone;
   std::pair<int, int> best_rank;
   for (size_t k = 0; k < met.labels.size(); ++k) {
     const uint8_t label = met.labels[k];
-    if (label == PlanarPrior::kNone || !sight.MayEndOn(label)) continue;
+    if (label >= kSky || !sight.MayEndOn(label)) continue;
     const auto count = static_cast<int>(std::ranges::count(met.labels, label));
     const bool may_be =
         sight.IsLevel(label) ? level >= 2 : count >= 2 && met.labels[kAbove] == label;
@@ -195,6 +200,7 @@ PlanarPrior LayOnPlanes(int face_px,
   const LabelLooker looker(labels, pixels);
   prior.labels = labels;
   ForEachPixel(pixels, [&](size_t pixel, size_t, const Eigen::Vector3f& bearing) {
+    if (labels[pixel] == kSky) prior.labels[pixel] = PlanarPrior::kNone;
     if (labels[pixel] != PlanarPrior::kNone) return;
     sight.Look(bearing);
     prior.labels[pixel] = Elect(looker.Met(pixel), sight);

@@ -13,11 +13,12 @@
 namespace orbweave {
 
 /// Pixels that match well on a plane keep it. Another may lie on the plane that what is seen around
-/// it speaks for. Failing that it looks along its row and column, to both sides, for the nearest
-/// that lie on a plane: it may lie on the plane that it meets most often, of several on the
-/// nearest; on one that stands upright only if it meets it twice, once above (so that the sky
-/// between two houses stays sky), on a level one if it meets two (streets have some a kerb apart).
-/// None may lie beneath the ground, the lowest of the level planes.
+/// it speaks for, or be sky where that speaks for the sky. Failing that it looks along its row and
+/// column, to both sides, for the nearest that lie on a plane: it may lie on the plane that it
+/// meets most often, of several on the nearest; on one that stands upright only if it meets it
+/// twice, once above (so that the sky between two houses stays sky), on a level one if it meets two
+/// (streets have some a kerb apart). None may lie beneath the ground, the lowest of the level
+/// planes.
 [[nodiscard]] PlanarPrior LayOnPlanes(int face_px,
                                       const std::vector<ReliablePoint>& points,
                                       const std::vector<FittedPlane>& planes,

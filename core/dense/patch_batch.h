@@ -42,6 +42,9 @@ class PatchBatch {
   /// Of a plane q.x = 1 in the frame of the face, at all pixels; 1 where it cannot be.
   void ScorePlane(const Eigen::Vector3f& plane, LaneFloats& cost);
 
+  /// Of what is infinitely far away.
+  void ScoreSky(LaneFloats& cost);
+
   [[nodiscard]] size_t NumLanes() const { return lanes_; }
 
   /// Variance of a patch in variances of noise.

@@ -66,15 +66,19 @@ void PatchBatch::ScorePlane(const Eigen::Vector3f& plane, LaneFloats& cost) {
   }
 }
 
-void PatchBatch::DropSky() {
+void PatchBatch::ScoreSky(LaneFloats& cost) {
   for (size_t k = 0; k < kMatchLanes; ++k) {
     const float inverse = 1.0F / (kInfinity_m * ray_[k]);
     tried_.x[k] = patches_.x[k] * inverse;
     tried_.y[k] = patches_.y * inverse;
     tried_.z[k] = inverse;
   }
-  LaneFloats cost;
   Score(tried_, cost);
+}
+
+void PatchBatch::DropSky() {
+  LaneFloats cost;
+  ScoreSky(cost);
   for (size_t k = 0; k < lanes_; ++k) {
     if (cost[k] < held_cost_[k] + kSkyMargin) Drop(k);
   }

@@ -56,7 +56,7 @@ PlaneEvidence MatchPlanes(const PatchMatchContext& context,
   const int cells = field.FacePx() / 2;
   const auto count = static_cast<size_t>(kCubeFaces * cells * cells);
   PlaneEvidence evidence{.cells = cells, .texture = std::vector<float>(count)};
-  evidence.correlation.assign(planes.size(), std::vector<float>(count));
+  evidence.correlation.assign(planes.size() + 1, std::vector<float>(count));
   const PatchMatchRound none{.views_changed = false};
   PatchBatch batch(context, none, field);
   LaneFloats cost;
@@ -71,11 +71,16 @@ PlaneEvidence MatchPlanes(const PatchMatchContext& context,
         if (!batch.Load(place, 0, views, true)) continue;
         const auto at = static_cast<size_t>((face * cells + row) * cells + column);
         for (size_t k = 0; k < batch.NumLanes(); ++k) evidence.texture[at + k] = batch.TextureOf(k);
-        for (size_t plane = 0; plane < planes.size(); ++plane) {
-          batch.ScorePlane(face_from_camera * planes[plane], cost);
+        const auto note = [&](size_t plane) {
           for (size_t k = 0; k < batch.NumLanes(); ++k)
             evidence.correlation[plane][at + k] = 1.0F - cost[k];
+        };
+        for (size_t plane = 0; plane < planes.size(); ++plane) {
+          batch.ScorePlane(face_from_camera * planes[plane], cost);
+          note(plane);
         }
+        batch.ScoreSky(cost);
+        note(planes.size());
       }
     }
   }

@@ -9,12 +9,12 @@
 
 namespace orbweave {
 
-/// How well planes explain what is seen around each cell of 2 x 2 pixels of a raster: entry
-/// (face * cells + row) * cells + column of every vector, cells = face_px / 2.
+/// How well planes, and the sky, explain what is seen around each cell of 2 x 2 pixels of a raster:
+/// entry (face * cells + row) * cells + column of every vector, cells = face_px / 2.
 struct PlaneEvidence {
   int cells = 0;
   std::vector<float> texture{};                   ///< variance of its patch, in variances of noise
-  std::vector<std::vector<float>> correlation{};  ///< by plane, -1 ... 1
+  std::vector<std::vector<float>> correlation{};  ///< by plane, 0 ... 1; last, of the sky
 };
 
 /// One patch of weak texture says little about a plane; the patches within kEvidenceReach cells say

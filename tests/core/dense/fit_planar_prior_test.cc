@@ -57,7 +57,7 @@ PlaneEvidence NoEvidence(size_t num_planes) {
   const size_t cells = kFace_px / 2;
   PlaneEvidence evidence{.cells = kFace_px / 2};
   evidence.texture.resize(kCubeFaces * cells * cells);
-  evidence.correlation.assign(num_planes, std::vector<float>(evidence.texture.size()));
+  evidence.correlation.assign(num_planes + 1, std::vector<float>(evidence.texture.size()));
   return evidence;
 }
 
@@ -117,6 +117,24 @@ TEST(LayOnPlanes, GivesPixelsThePlaneThatTheirSurroundingsSpeakFor) {
   const EquiangularRaster raster{kFace_px};
   EXPECT_EQ(prior.labels[raster.Index(0, 10, 32)], front);
   EXPECT_NE(prior.labels[raster.Index(0, 12, 40)], front);
+}
+
+TEST(LayOnPlanes, LeavesTheSkyToItself) {
+  const PlaneField field = FieldOfBox([](int face, int, int) { return face == 0; });
+  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
+  std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  const auto front = static_cast<uint8_t>(planes.size());
+  planes.push_back({Eigen::Vector3f::UnitZ(), 4.0F, 0.01F});
+  PlaneEvidence evidence = NoEvidence(planes.size());
+  std::ranges::fill(evidence.correlation[front], 0.5F);
+  const auto label_of = [&](int row, float sky) {
+    std::ranges::fill(evidence.correlation.back(), sky);
+    const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
+    return prior.labels[EquiangularRaster{kFace_px}.Index(0, row, 32)];
+  };
+  EXPECT_EQ(label_of(20, 0.3F), front);
+  EXPECT_EQ(label_of(20, 0.6F), PlanarPrior::kNone);
+  EXPECT_EQ(label_of(36, 0.6F), front);  // below the horizon there is none
 }
 
 TEST(LayOnPlanes, SeesNothingThroughTheGround) {
