@@ -116,6 +116,40 @@ TEST_F(DenseTest, OneAndThreeWorkersWriteTheSameBytes) {
   EXPECT_TRUE(FilesOf(*folder_ / "model/dense") == before);
 }
 
+TEST_F(DenseTest, KilledAgainAndAgainItGoesOnToTheSameBytes) {
+  const auto command_to = [](const std::string& output) {
+    return std::vector<std::string>{ORBWEAVE_BINARY,
+                                    "dense",
+                                    "--colmap",
+                                    *folder_ / "model/sparse/0",
+                                    "--images",
+                                    *folder_ / "street/images",
+                                    "--output",
+                                    output,
+                                    "--workers",
+                                    "2"};
+  };
+  const std::string expected = *folder_ / "undisturbed";
+  ASSERT_EQ(RunCommand(command_to(expected)).exit_code, 0);
+  const std::string output = *folder_ / "killed";
+  int kills = 0;
+  for (const size_t finished : {2, 8, 15, 22}) {  // views, depths, checks, fusions
+    Command run(command_to(output));
+    ASSERT_TRUE(WaitUntil([&] { return FinishedTasks(output) >= finished; }, 60)) << run.ErrSoFar();
+    run.Signal(SIGKILL);
+    kills += run.Wait().exit_code == 128 + SIGKILL ? 1 : 0;
+  }
+  EXPECT_GE(kills, 3);
+  const CommandOutcome end = RunCommand(command_to(output));
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  auto undisturbed = FilesOf(expected);
+  auto killed = FilesOf(output);
+  const auto is_state = [](const auto& file) { return file.first.starts_with(".orbweave"); };
+  std::erase_if(undisturbed, is_state);
+  std::erase_if(killed, is_state);
+  EXPECT_TRUE(undisturbed == killed);
+}
+
 TEST_F(DenseTest, GoesOnWithoutAPictureAndNamesIt) {
   const std::string images = *folder_ / "some";
   fs::create_directories(images);
