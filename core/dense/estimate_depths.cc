@@ -51,12 +51,17 @@ Pyramid Half(const Pyramid& full) {
   return half;
 }
 
+/// Of each scale: halving leaves no more noise than there was; what else its own estimate shows is
+/// texture.
 std::array<NoiseByLevel, 3> NoiseOf(const std::array<const Pyramid*, 3>& scales,
                                     const DenseOptions& options) {
   const auto least = static_cast<float>(options.noise_levels * options.noise_levels);
   std::array<NoiseByLevel, 3> noise;
-  for (size_t k = 0; k < scales.size(); ++k)
+  for (size_t k = 0; k < scales.size(); ++k) {
     noise[k] = EstimateNoise(scales[k]->reference, least, kMostNoise * least);
+    for (size_t bin = 0; bin < noise[k].variances.size(); ++bin)
+      noise[k].variances[bin] = std::min(noise[k].variances[bin], noise[0].variances[bin]);
+  }
   return noise;
 }
 

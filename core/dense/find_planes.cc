@@ -131,6 +131,12 @@ bool IsLayerOf(const FittedPlane& layer, const PlaneSums& sums, const FittedPlan
          std::abs(plane.normal.dot(mean) - plane.distance_m) < 2.0F * ToleranceAt(mean.norm());
 }
 
+/// Whether a plane is level and below the camera, or upright, within 12 degrees, as roads and walls
+/// are. What lies otherwise is mostly cut out of the crown of a tree.
+bool IsOfStreets(const FittedPlane& plane) {
+  return plane.normal.y() > 0.978F || std::abs(plane.normal.y()) < 0.208F;
+}
+
 std::vector<PlaneSums> SumsOf(const std::vector<ReliablePoint>& points,
                               const std::vector<FittedPlane>& planes) {
   std::vector<PlaneSums> sums(planes.size());
@@ -151,7 +157,7 @@ std::vector<FittedPlane> JoinLayers(const std::vector<ReliablePoint>& points,
   std::vector<FittedPlane> planes;
   std::vector<PlaneSums> joined;
   for (const size_t layer : order) {
-    if (sums[layer].Count() < kLeastInliers) continue;
+    if (sums[layer].Count() < kLeastInliers || !IsOfStreets(layers[layer])) continue;
     size_t to = 0;
     while (to < planes.size() && !IsLayerOf(layers[layer], sums[layer], planes[to])) ++to;
     if (to == planes.size()) {
@@ -166,9 +172,12 @@ std::vector<FittedPlane> JoinLayers(const std::vector<ReliablePoint>& points,
 
 }  // namespace
 
+float TolerancesOff(const ReliablePoint& p, const FittedPlane& plane) {
+  return std::abs(plane.normal.dot(p.point) - plane.distance_m) / ToleranceAt(p.point.norm());
+}
+
 bool LiesOn(const ReliablePoint& p, const FittedPlane& plane) {
-  return std::abs(plane.normal.dot(p.point) - plane.distance_m) < ToleranceAt(p.point.norm()) &&
-         p.normal.dot(plane.normal) > kLeastCosine;
+  return TolerancesOff(p, plane) < 1.0F && p.normal.dot(plane.normal) > kLeastCosine;
 }
 
 std::vector<ReliablePoint> ReliablePoints(const ReferenceRaster& raster, const PlaneField& field) {

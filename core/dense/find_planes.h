@@ -35,12 +35,17 @@ struct FittedPlane {
 /// Within 12 mm and 0.6 % of the range, with a normal within 26 degrees.
 [[nodiscard]] bool LiesOn(const ReliablePoint& point, const FittedPlane& plane);
 
+/// Distance of a point from a plane in tolerances of LiesOn.
+[[nodiscard]] float TolerancesOff(const ReliablePoint& point, const FittedPlane& plane);
+
 /// The plane that a point lies on, of several the nearest; else planes.size().
 [[nodiscard]] size_t NearestPlane(const ReliablePoint& point,
                                   const std::vector<FittedPlane>& planes);
 
 /// Sequential RANSAC (Fischler, Bolles 1981) over the points, each of which proposes its own plane.
-/// What errors of points far away cut into layers is one plane again.
+/// What errors of points far away cut into layers is one plane again. Only planes as roads and
+/// walls have them, within 12 degrees: level and below the camera, or upright. `y` of the camera
+/// frame points down.
 [[nodiscard]] std::vector<FittedPlane> FindPlanes(const std::vector<ReliablePoint>& points,
                                                   uint64_t seed);
 

@@ -10,12 +10,15 @@
 #include "core/dense/equiangular_raster.h"
 #include "core/dense/find_planes.h"
 #include "core/dense/plane_evidence.h"
+#include "core/dense/rough_places.h"
 #include "core/geometry/cube_face.h"
 
 namespace orbweave {
 namespace {
 
 constexpr int kApron = PlaneField::kApron_px;
+using RoughPlaces = std::vector<std::vector<uint8_t>>;
+
 constexpr int kReach_px = 120;
 constexpr uint8_t kSky = 254;             // a label until the others are given
 constexpr float kLeastEvidence = 0.12F;   // correlation
@@ -73,7 +76,10 @@ class Sight {
 
 /// What is seen around a cell speaks for one plane, and for no other one nearly as much; or for the
 /// sky where that is not beneath the ground.
-uint8_t SpokenFor(const PlaneEvidence& evidence, const Sight& sight, size_t cell) {
+uint8_t SpokenFor(const PlaneEvidence& evidence,
+                  const RoughPlaces& rough,
+                  const Sight& sight,
+                  size_t cell) {
   const size_t sky = evidence.correlation.size() - 1;
   uint8_t best = PlanarPrior::kNone;
   float most = kLeastEvidence;
@@ -90,6 +96,7 @@ uint8_t SpokenFor(const PlaneEvidence& evidence, const Sight& sight, size_t cell
     }
   }
   if (sight.MayBeSky() && evidence.correlation[sky][cell] > most - kEvidenceMargin) return kSky;
+  if (best != PlanarPrior::kNone && rough[best][cell] != 0) return PlanarPrior::kNone;
   return most > second + kEvidenceMargin ? best : PlanarPrior::kNone;
 }
 
@@ -191,19 +198,25 @@ PlanarPrior LayOnPlanes(int face_px,
     prior.scatter_m.push_back(plane.scatter_m);
   }
   std::vector<uint8_t> labels = LabelPoints(points, planes, pixels.NumPixels());
+  const RoughPlaces rough = FindRoughPlaces(face_px, points, planes);
   Sight sight(planes);
   ForEachPixel(pixels, [&](size_t pixel, size_t cell, const Eigen::Vector3f& bearing) {
-    if (labels[pixel] != PlanarPrior::kNone) return;
+    uint8_t& label = labels[pixel];
+    if (label != PlanarPrior::kNone) {
+      if (rough[label][cell] != 0) label = PlanarPrior::kNone;
+      return;
+    }
     sight.Look(bearing);
-    labels[pixel] = SpokenFor(evidence, sight, cell);
+    label = SpokenFor(evidence, rough, sight, cell);
   });
   const LabelLooker looker(labels, pixels);
   prior.labels = labels;
-  ForEachPixel(pixels, [&](size_t pixel, size_t, const Eigen::Vector3f& bearing) {
+  ForEachPixel(pixels, [&](size_t pixel, size_t cell, const Eigen::Vector3f& bearing) {
     if (labels[pixel] == kSky) prior.labels[pixel] = PlanarPrior::kNone;
     if (labels[pixel] != PlanarPrior::kNone) return;
     sight.Look(bearing);
-    prior.labels[pixel] = Elect(looker.Met(pixel), sight);
+    const uint8_t label = Elect(looker.Met(pixel), sight);
+    if (label != PlanarPrior::kNone && rough[label][cell] == 0) prior.labels[pixel] = label;
   });
   prior.texture = std::move(evidence.texture);
   return prior;

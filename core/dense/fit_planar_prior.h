@@ -12,7 +12,8 @@
 
 namespace orbweave {
 
-/// Pixels that match well on a plane keep it. Another may lie on the plane that what is seen around
+/// Pixels that match well on a plane keep it, but where it is rough (FindRoughPlaces) none has it.
+/// Another may lie on the plane that what is seen around
 /// it speaks for, or be sky where that speaks for the sky. Failing that it looks along its row and
 /// column, to both sides, for the nearest that lie on a plane: it may lie on the plane that it
 /// meets most often, of several on the nearest; on one that stands upright only if it meets it

@@ -24,11 +24,6 @@ struct MatchScale {
   MatchScale(const MatchScale&) = delete;
   MatchScale& operator=(const MatchScale&) = delete;
 
-  /// What halving and resampling leave of an image's noise variance.
-  [[nodiscard]] float NoiseGain() const {
-    return 0.5F / static_cast<float>(1 << (2 * times_halved));
-  }
-
   int times_halved;
   ReferenceRaster raster;
   std::vector<SourceFaces> sources{};

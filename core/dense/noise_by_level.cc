@@ -11,7 +11,6 @@ namespace orbweave {
 namespace {
 
 constexpr size_t kLeastResponses = 500;
-constexpr int kStep_px = 2;
 /// Lower quartile of |x| for x of variance 36, the filter's gain.
 constexpr float kQuartile = 0.3186F * 6.0F;
 
@@ -23,11 +22,10 @@ NoiseByLevel EstimateNoise(const GreyPanorama& panorama, float least, float most
   for (int row = panorama.height_px / 4; row < 3 * panorama.height_px / 4; row += 2) {
     for (int column = 0; column < panorama.width_px; column += 2) {
       const uint8_t* const b = panorama.At(row, column);
-      const uint8_t* const a = b - kStep_px * stride;
-      const uint8_t* const c = b + kStep_px * stride;
-      const int corners = a[-kStep_px] + a[kStep_px] + c[-kStep_px] + c[kStep_px];
-      const int sides = a[0] + c[0] + b[-kStep_px] + b[kStep_px];
-      const int response = corners - 2 * sides + 4 * b[0];
+      const uint8_t* const a = b - stride;
+      const uint8_t* const c = b + stride;
+      const int response =
+          a[-1] + a[1] + c[-1] + c[1] - 2 * (a[0] + c[0] + b[-1] + b[1]) + 4 * b[0];
       if (*b == 0 || *b == 255) continue;  // clipped: no noise to be seen
       responses[*b / NoiseByLevel::kLevelsPerBin].push_back(std::abs(response));
     }

@@ -20,8 +20,7 @@ struct NoiseByLevel {
 };
 
 /// From the responses of the filter [1 -2 1]' [1 -2 1], which sees no gradients (Immerkaer: Fast
-/// noise variance estimation, CVIU 1996), between 45 degrees above and below the horizon. Its taps
-/// are two pixels apart: what cameras and JPEG leave of noise has neighbours that are alike. The
+/// noise variance estimation, CVIU 1996), between 45 degrees above and below the horizon. Their
 /// lower quartile is taken, since texture makes the others larger. Between `least` and `most`.
 [[nodiscard]] NoiseByLevel EstimateNoise(const GreyPanorama& panorama, float least, float most);
 

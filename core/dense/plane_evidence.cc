@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/dense/patch_batch.h"
+#include "core/dense/square_sums.h"
 
 namespace orbweave {
 namespace {
@@ -13,41 +14,6 @@ namespace {
 constexpr int kApron = PlaneField::kApron_px;
 /// Weight of a patch without texture, which correlates with nothing.
 constexpr float kLeastWeight = 0.05F;
-
-/// Sums over squares of cells of one face, cut at its edges.
-class SquareSums {
- public:
-  explicit SquareSums(int cells)
-      : cells_(cells), sums_(static_cast<size_t>((cells + 1) * (cells + 1))) {}
-
-  template <typename ValueOf>
-  void Fill(ValueOf&& value_of) {
-    for (int row = 0; row < cells_; ++row) {
-      double line = 0.0;
-      for (int column = 0; column < cells_; ++column) {
-        line += value_of(row * cells_ + column);
-        sums_[At(row + 1, column + 1)] = sums_[At(row, column + 1)] + line;
-      }
-    }
-  }
-
-  [[nodiscard]] float Around(int row, int column) const {
-    const int top = std::max(0, row - kEvidenceReach);
-    const int left = std::max(0, column - kEvidenceReach);
-    const int bottom = std::min(cells_, row + kEvidenceReach + 1);
-    const int right = std::min(cells_, column + kEvidenceReach + 1);
-    return static_cast<float>(sums_[At(bottom, right)] - sums_[At(top, right)] -
-                              sums_[At(bottom, left)] + sums_[At(top, left)]);
-  }
-
- private:
-  [[nodiscard]] size_t At(int row, int column) const {
-    return static_cast<size_t>(row * (cells_ + 1) + column);
-  }
-
-  int cells_;
-  std::vector<double> sums_;
-};
 
 /// Correlations of single patches.
 PlaneEvidence MatchPlanes(const PatchMatchContext& context,
@@ -106,8 +72,8 @@ PlaneEvidence GatherEvidence(const PatchMatchContext& context,
       products.Fill([&](int k) { return weight_of(k) * correlation[k]; });
       for (int row = 0; row < cells; ++row) {
         for (int column = 0; column < cells; ++column) {
-          correlation[row * cells + column] =
-              products.Around(row, column) / weights.Around(row, column);
+          correlation[row * cells + column] = products.Around(row, column, kEvidenceReach) /
+                                              weights.Around(row, column, kEvidenceReach);
         }
       }
     }

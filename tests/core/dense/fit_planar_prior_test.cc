@@ -11,6 +11,7 @@
 
 #include "core/base/random.h"
 #include "core/dense/equiangular_raster.h"
+#include "core/dense/rough_places.h"
 #include "tests/core/dense/box_world.h"
 
 namespace orbweave {
@@ -102,6 +103,42 @@ TEST(FindPlanes, KeepsKerbAndRoadApart) {
   EXPECT_NEAR(planes[1].distance_m, 2.38F, 1e-3F);
 }
 
+TEST(FindPlanes, TakesNoPlaneOutOfASlope) {
+  std::vector<ReliablePoint> points;
+  Random random(7);
+  const Eigen::Vector3f normal = Eigen::Vector3f(0.0F, -0.5F, 0.8F).normalized();
+  for (int k = 0; k < 4000; ++k) {
+    const auto x = static_cast<float>(random.Uniform(-4, 4));
+    const auto y = static_cast<float>(random.Uniform(-4, 4));
+    points.push_back(
+        {{x, y, (8.0F - normal.y() * y) / normal.z()}, normal, static_cast<uint32_t>(k)});
+  }
+  EXPECT_TRUE(FindPlanes(points, 1).empty());
+}
+
+TEST(FindRoughPlaces, TellsAWallFromASlabOfACrown) {
+  constexpr int kCells = kFace_px / 2;
+  const EquiangularRaster raster{kFace_px};
+  const FittedPlane wall{Eigen::Vector3f::UnitZ(), 8.0F, 0.01F};
+  Random random(8);
+  std::vector<ReliablePoint> points;
+  for (int row = 0; row < kFace_px; ++row) {
+    for (int column = 0; column < kFace_px; ++column) {
+      const Eigen::Vector3f ray = raster.BearingFromPixel(0, row + 0.5, column + 0.5).cast<float>();
+      const bool crown = column >= kFace_px / 2;
+      const auto z_m = static_cast<float>(8.0 + (crown ? random.Uniform(-0.3, 0.3) : 0.0));
+      points.push_back({ray * (z_m / ray.z()),
+                        Eigen::Vector3f::UnitZ(),
+                        static_cast<uint32_t>(raster.Index(0, row, column))});
+    }
+  }
+  const auto rough = FindRoughPlaces(kFace_px, points, {wall});
+  ASSERT_EQ(rough.size(), 1U);
+  EXPECT_EQ(rough[0][CellOf(0, kFace_px / 2, 12)], 0);
+  EXPECT_EQ(rough[0][CellOf(0, kFace_px / 2, kFace_px - 12)], 1);
+  EXPECT_EQ(rough[0].size(), static_cast<size_t>(kCubeFaces * kCells * kCells));
+}
+
 TEST(LayOnPlanes, GivesPixelsThePlaneThatTheirSurroundingsSpeakFor) {
   const auto is_blank = [](int face, int, int) { return face == 0; };
   const PlaneField field = FieldOfBox(is_blank);
@@ -151,9 +188,9 @@ TEST(LayOnPlanes, SeesNothingThroughTheGround) {
   EXPECT_NE(prior.labels[raster.Index(0, 60, 32)], far);
 }
 
-TEST(LayOnPlanes, FindsTheSixWallsOfABox) {
+TEST(LayOnPlanes, FindsTheFloorAndTheFourWallsOfABox) {
   const PlanarPrior prior = PriorOf(FieldOfBox([](int, int, int) { return false; }));
-  ASSERT_EQ(prior.planes.size(), 6U);
+  ASSERT_EQ(prior.planes.size(), 5U);  // streets have no ceiling
   for (const Eigen::Vector3f& plane : prior.planes) {
     const Eigen::Vector3f normal = plane.normalized();
     Eigen::Index axis = 0;
