@@ -16,9 +16,6 @@
 namespace orbweave {
 namespace {
 
-constexpr int kApron = PlaneField::kApron_px;
-using RoughPlaces = std::vector<std::vector<uint8_t>>;
-
 constexpr int kReach_px = 120;
 constexpr uint8_t kSky = 254;             // a label until the others are given
 constexpr float kLeastEvidence = 0.12F;   // correlation

@@ -41,11 +41,11 @@ Counts CountAbout(int face_px, const std::vector<ReliablePoint>& points, const F
 
 }  // namespace
 
-std::vector<std::vector<uint8_t>> FindRoughPlaces(int face_px,
-                                                  const std::vector<ReliablePoint>& points,
-                                                  const std::vector<FittedPlane>& planes) {
+RoughPlaces FindRoughPlaces(int face_px,
+                            const std::vector<ReliablePoint>& points,
+                            const std::vector<FittedPlane>& planes) {
   const int cells = face_px / 2;
-  std::vector<std::vector<uint8_t>> rough;
+  RoughPlaces rough;
   SquareSums on(cells);
   SquareSums beside(cells);
   for (const FittedPlane& plane : planes) {
