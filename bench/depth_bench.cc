@@ -348,20 +348,20 @@ class Bench {
     return least;
   }
 
-  /// Level surface is road, kerbs and roofs of cars; the rest walls and what stands before them.
-  void JudgeParts(const DepthMap& map, const Truth& truth) const {
-    Truth part = truth;
-    for (const bool level : {true, false}) {
-      for (size_t k = 0; k < part.counts.size(); ++k) {
-        const bool is_level = std::abs(truth.normals[k].z()) > 0.9F;
-        part.counts[k] = truth.counts[k] != 0 && is_level == level ? 1 : 0;
-        part.range_m[k] = is_level == level ? truth.range_m[k] : 1e6F;
-      }
-      Judge(level ? "  level" : "  other", map, part);
-    }
+  void Judge(const char* what, const DepthMap& map, const Truth& truth) const {
+    Judge(what, map, truth, [](size_t) { return true; });
   }
 
-  void Judge(const char* what, const DepthMap& map, const Truth& truth) const {
+  /// Level surface is road, kerbs and roofs of cars; the rest walls and what stands before them.
+  void JudgeParts(const DepthMap& map, const Truth& truth) const {
+    const auto is_level = [&](size_t k) { return std::abs(truth.normals[k].z()) > 0.9F; };
+    Judge("  level", map, truth, is_level);
+    Judge("  other", map, truth, [&](size_t k) { return !is_level(k); });
+  }
+
+  /// Of the pixels for which `belongs(k)`.
+  template <typename Belongs>
+  void Judge(const char* what, const DepthMap& map, const Truth& truth, Belongs&& belongs) const {
     const EquiangularRaster raster{map.face_px};
     size_t counted = 0;
     size_t found = 0;
@@ -374,14 +374,13 @@ class Bench {
       for (int row = 1; row < map.face_px; row += 4) {
         for (int column = 1; column < map.face_px; column += 4) {
           const size_t k = raster.Index(face, row, column);
+          if (!belongs(k)) continue;
           counted += truth.counts[k];
           if (!(map.range_m[k] > 0.0F)) continue;
           const bool true_near = truth.range_m[k] > kNearest_m && truth.range_m[k] < kFarthest_m;
           if (truth.counts[k] == 0) {
             // An invented point counts against precision where it claims to be near.
-            if (true_near || truth.range_m[k] > 1e5F || map.range_m[k] > kFarthest_m ||
-                map.range_m[k] < kNearest_m)
-              continue;
+            if (true_near || map.range_m[k] > kFarthest_m || map.range_m[k] < kNearest_m) continue;
           }
           const double error = ErrorOf(truth, map, face, row, column);
           if (truth.counts[k] == 0) ++outside;

@@ -72,6 +72,25 @@ size_t CellOf(int face, int row, int column) {
   return static_cast<size_t>((face * kFace_px / 2 + row / 2) * (kFace_px / 2) + column / 2);
 }
 
+/// The box with a blank front, where a plane `front_m` away may be.
+struct BlankFront {
+  explicit BlankFront(double front_m) {
+    planes.push_back({Eigen::Vector3f::UnitZ(), static_cast<float>(front_m), 0.01F});
+    evidence = NoEvidence(planes.size());
+  }
+
+  [[nodiscard]] uint8_t LabelAt(int row, int column) const {
+    const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
+    return prior.labels[EquiangularRaster{kFace_px}.Index(0, row, column)];
+  }
+
+  std::vector<ReliablePoint> points =
+      ReliablePoints(RasterOfBox(), FieldOfBox([](int face, int, int) { return face == 0; }));
+  std::vector<FittedPlane> planes = FindPlanes(points, 1);
+  uint8_t front = static_cast<uint8_t>(planes.size());
+  PlaneEvidence evidence{};
+};
+
 TEST(FindPlanes, JoinsTheLayersThatErrorsCutAPlaneInto) {
   std::vector<ReliablePoint> points;
   Random random(5);
@@ -140,52 +159,31 @@ TEST(FindRoughPlaces, TellsAWallFromASlabOfACrown) {
 }
 
 TEST(LayOnPlanes, GivesPixelsThePlaneThatTheirSurroundingsSpeakFor) {
-  const auto is_blank = [](int face, int, int) { return face == 0; };
-  const PlaneField field = FieldOfBox(is_blank);
-  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
-  std::vector<FittedPlane> planes = FindPlanes(points, 1);
-  const auto front = static_cast<uint8_t>(planes.size());
-  planes.push_back({Eigen::Vector3f::UnitZ(), static_cast<float>(testing::kBoxHalf_m.z()), 0.01F});
-  PlaneEvidence evidence = NoEvidence(planes.size());
-  evidence.correlation[front][CellOf(0, 10, 32)] = 0.3F;
-  evidence.correlation[front][CellOf(0, 12, 40)] = 0.3F;
-  evidence.correlation[0][CellOf(0, 12, 40)] = 0.29F;  // nearly as much
-  const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
-  const EquiangularRaster raster{kFace_px};
-  EXPECT_EQ(prior.labels[raster.Index(0, 10, 32)], front);
-  EXPECT_NE(prior.labels[raster.Index(0, 12, 40)], front);
+  BlankFront box(testing::kBoxHalf_m.z());
+  box.evidence.correlation[box.front][CellOf(0, 10, 32)] = 0.3F;
+  box.evidence.correlation[box.front][CellOf(0, 12, 40)] = 0.3F;
+  box.evidence.correlation[0][CellOf(0, 12, 40)] = 0.29F;  // nearly as much
+  EXPECT_EQ(box.LabelAt(10, 32), box.front);
+  EXPECT_NE(box.LabelAt(12, 40), box.front);
 }
 
 TEST(LayOnPlanes, LeavesTheSkyToItself) {
-  const PlaneField field = FieldOfBox([](int face, int, int) { return face == 0; });
-  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
-  std::vector<FittedPlane> planes = FindPlanes(points, 1);
-  const auto front = static_cast<uint8_t>(planes.size());
-  planes.push_back({Eigen::Vector3f::UnitZ(), 4.0F, 0.01F});
-  PlaneEvidence evidence = NoEvidence(planes.size());
-  std::ranges::fill(evidence.correlation[front], 0.5F);
+  BlankFront box(4.0);
+  std::ranges::fill(box.evidence.correlation[box.front], 0.5F);
   const auto label_of = [&](int row, float sky) {
-    std::ranges::fill(evidence.correlation.back(), sky);
-    const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
-    return prior.labels[EquiangularRaster{kFace_px}.Index(0, row, 32)];
+    std::ranges::fill(box.evidence.correlation.back(), sky);
+    return box.LabelAt(row, 32);
   };
-  EXPECT_EQ(label_of(20, 0.3F), front);
+  EXPECT_EQ(label_of(20, 0.3F), box.front);
   EXPECT_EQ(label_of(20, 0.6F), PlanarPrior::kNone);
-  EXPECT_EQ(label_of(36, 0.6F), front);  // below the horizon there is none
+  EXPECT_EQ(label_of(36, 0.6F), box.front);  // below the horizon there is none
 }
 
 TEST(LayOnPlanes, SeesNothingThroughTheGround) {
-  const PlaneField field = FieldOfBox([](int face, int, int) { return face == 0; });
-  const std::vector<ReliablePoint> points = ReliablePoints(RasterOfBox(), field);
-  std::vector<FittedPlane> planes = FindPlanes(points, 1);
-  const auto far = static_cast<uint8_t>(planes.size());
-  planes.push_back({Eigen::Vector3f::UnitZ(), 60.0F, 0.01F});
-  PlaneEvidence evidence = NoEvidence(planes.size());
-  std::ranges::fill(evidence.correlation[far], 0.5F);
-  const PlanarPrior prior = LayOnPlanes(kFace_px, points, planes, evidence);
-  const EquiangularRaster raster{kFace_px};
-  EXPECT_EQ(prior.labels[raster.Index(0, 20, 32)], far);
-  EXPECT_NE(prior.labels[raster.Index(0, 60, 32)], far);
+  BlankFront box(60.0);
+  std::ranges::fill(box.evidence.correlation[box.front], 0.5F);
+  EXPECT_EQ(box.LabelAt(20, 32), box.front);
+  EXPECT_NE(box.LabelAt(60, 32), box.front);
 }
 
 TEST(LayOnPlanes, FindsTheFloorAndTheFourWallsOfABox) {
