@@ -81,6 +81,8 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
                              double now_s) {
   const std::optional<uint32_t> stage = StageToPlan();
   ORBWEAVE_CHECK(stage.has_value() && tasks.size() == found.size());
+  if (const absl::Status loop = loops_.Enter(plan_, *stage, tasks); !loop.ok())
+    return JobFails(std::string(loop.message()), now_s);
   const auto number = static_cast<uint32_t>(runs_.size());
   num_tasks_ += tasks.size();
   StageRun& run = runs_.emplace_back(StageRun{.stage = *stage});

@@ -15,6 +15,7 @@
 #include "coordinator/stage_run.h"
 #include "core/pipeline/job_api.h"
 #include "core/pipeline/job_plan.h"
+#include "core/pipeline/loop_guard.h"
 
 namespace orbweave {
 
@@ -84,7 +85,8 @@ class JobMachine {
 
   /// Attempts that failed before a restart: they count when the stage of their task begins.
   void Remember(const std::vector<FailedAttempt>& failures);
-  /// The planned stage has these tasks; those with a result in `found` are done already.
+  /// The planned stage has these tasks; those with a result in `found` are done already. The job
+  /// fails when they are a round of a loop that would never end (LoopGuard).
   void StageBegins(std::vector<TaskSpec> tasks,
                    std::vector<std::optional<TaskResult>> found,
                    double now_s);
@@ -128,6 +130,7 @@ class JobMachine {
 
   JobSpec spec_;
   JobPlan plan_;
+  LoopGuard loops_{};
   RetryPolicy policy_;
   double submitted_s_;
   double ended_s_ = 0.0;

@@ -67,10 +67,11 @@ class PlanBuilder {
   }
 
   /// The stages from `First` to the last one added are a loop, which usually runs `usual_runs`
-  /// times. See StageRule::back_to.
+  /// times and never more than `max_rounds`. See StageRule::back_to.
   template <typename First>
-  void RepeatFrom(double usual_runs) {
+  void RepeatFrom(double usual_runs, uint32_t max_rounds) {
     plan_.stages.back().back_to = std::string(First::kFacts.name);
+    plan_.stages.back().max_rounds = max_rounds;
     const auto first =
         std::ranges::find(plan_.stages, plan_.stages.back().back_to, &StageRule::stage);
     ORBWEAVE_CHECK(first != plan_.stages.end());

@@ -40,6 +40,10 @@ namespace {
 
 /// Rounds that the global adjustment in subproblems usually takes.
 constexpr double kUsualRounds = 26.0;
+/// What the largest options may ask for: 11 phases of 1,000 steps, each of two rounds and one more.
+constexpr uint32_t kMostRounds = 11 * (2 * 1000 + 1) + 1;
+/// The same of reviews, each a round, and the first.
+constexpr uint32_t kMostReviews = 11;
 
 /// What a model is made from.
 struct VerifiedImages {
@@ -80,7 +84,7 @@ void AddModelStages(const VerifiedImages& images, PlanBuilder& plan) {
   plan.Add(ReviewSeamsStage{.divided = partition.divided,
                             .alignment = aligned.alignment,
                             .before = RoundBefore(OutputsOf<ReviewSeamsStage>().review)});
-  plan.RepeatFrom<PartitionViewGraphStage>(1.0);
+  plan.RepeatFrom<PartitionViewGraphStage>(1.0, kMostReviews);
 
   const auto joined = plan.Add(JoinSubmodelsStage{.manifest = images.manifest,
                                                   .divided = partition.divided,
@@ -94,7 +98,7 @@ void AddModelStages(const VerifiedImages& images, PlanBuilder& plan) {
                            .before = RoundBefore(OutputsOf<SteerAdjustmentStage>().progress),
                            .replies = RoundBefore(OutputsOf<AdjustBlockStage>().reply)});
   plan.Add(AdjustBlockStage{.request = steered.requests});
-  plan.RepeatFrom<SteerAdjustmentStage>(kUsualRounds);
+  plan.RepeatFrom<SteerAdjustmentStage>(kUsualRounds, kMostRounds);
 
   plan.Add(ConcludeAdjustmentStage{.manifest = images.manifest,
                                    .worlds = joined.worlds,

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/pipeline/loop_guard.h"
 #include "core/pipeline/plan_stage.h"
 #include "stages/plans.h"
 #include "stages/registry.h"
@@ -34,12 +35,14 @@ absl::StatusOr<std::vector<TaskOutcome>> RunPlan(const JobPlan& plan,
                                                  const StageLookup& stages,
                                                  BlobAccess& blobs,
                                                  const StageContext& context) {
+  LoopGuard loops;
   std::vector<std::vector<TaskResult>> results(plan.stages.size());
   std::vector<std::vector<TaskOutcome>> outcomes(plan.stages.size());
   for (uint32_t s = 0; s < plan.stages.size(); s = StageAfter(plan, s, results[s])) {
     ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> listed,
                               ReadListedRecipes(plan, s, job, blobs));
     ORBWEAVE_ASSIGN_OR_RETURN(const StagePlan stage, PlanStage(plan, s, job, results, listed));
+    ORBWEAVE_RETURN_IF_ERROR(loops.Enter(plan, s, stage.tasks));
     for (const std::string& collection : stage.collections)
       ORBWEAVE_RETURN_IF_ERROR(blobs.Put(collection).status());
     results[s].clear();

@@ -48,9 +48,10 @@ struct StageRule {
   /// The last stage of a loop: the job goes back to this stage after it as long as it has parts or,
   /// where it always has one, as long as that leaves a recipe.
   std::string back_to{};
-  StageNeeds needs{};       ///< of one task
-  double weight = 1.0;      ///< what a run usually costs beside those of the plan's other stages
-  double usual_runs = 1.0;  ///< how often it usually runs: more than once in a long loop
+  uint32_t max_rounds = 1000;  ///< of that loop; a job that asks for more fails (LoopGuard)
+  StageNeeds needs{};          ///< of one task
+  double weight = 1.0;         ///< what a run usually costs beside those of the plan's other stages
+  double usual_runs = 1.0;     ///< how often it usually runs: more than once in a long loop
 
   /// One part whatever the stages before left.
   [[nodiscard]] bool HasOnePart() const { return parts_from.empty() && !parts_listed_in; }

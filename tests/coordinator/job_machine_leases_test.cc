@@ -26,7 +26,7 @@ JobMachine SecondRound() {
     machine.TaskDone(LeaseNext(machine, worker, 100.0), {}, 101.0);
   Begin(machine, "review", 1);
   machine.TaskDone(LeaseNext(machine, "w1", 101.0), {.recipes = {DigestOf("more")}}, 102.0);
-  Begin(machine, "work", 4);
+  Begin(machine, "work", 4, 100.0, 1);
   return machine;
 }
 

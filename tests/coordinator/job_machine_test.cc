@@ -49,7 +49,7 @@ TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   Begin(machine, "start", 0);
   for (uint32_t round = 0; round < 3; ++round) {
     ASSERT_EQ(machine.StageToPlan(), 1U);
-    Begin(machine, "decide", 1);
+    Begin(machine, "decide", 1, 100.0, round);
     machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cost = {.cpu_s = 1.0}}, 101.0);
     ASSERT_EQ(machine.StageToPlan(), 2U);
     Begin(machine, "work", 2);
@@ -60,7 +60,7 @@ TEST(JobMachine, RepeatsTheStagesOfALoopUntilOneHasNoTasks) {
   }
   EXPECT_EQ(machine.results()[2].size(), 2U);
   EXPECT_EQ(machine.results()[2][1].outputs[0], DigestOf("20")) << "of the last round";
-  Begin(machine, "decide", 1);
+  Begin(machine, "decide", 1, 100.0, 3);
   machine.TaskDone(LeaseNext(machine, "w", 100.0), {.cost = {.cpu_s = 1.0}}, 101.0);
   Begin(machine, "work", 0);
   EXPECT_EQ(machine.StageToPlan(), 3U);
@@ -87,16 +87,47 @@ TEST(JobMachine, RepeatsALoopWhoseEndHasOnePartAsLongAsThatLeavesARecipe) {
   JobMachine machine({.kind = "line"}, plan, {}, 100.0);
   for (uint32_t round = 0; round < 2; ++round) {
     ASSERT_EQ(machine.StageToPlan(), 0U);
-    Begin(machine, "work", 1);
+    Begin(machine, "work", 1, 100.0, round);
     machine.TaskDone(LeaseNext(machine, "w", 100.0), {}, 101.0);
     ASSERT_EQ(machine.StageToPlan(), 1U);
     Begin(machine, "review", 1);
     machine.TaskDone(LeaseNext(machine, "w", 100.0), {.recipes = {DigestOf("more")}}, 101.0);
   }
-  machine.StageBegins(Tasks("work", 1), {TaskResult{}}, 102.0);
+  machine.StageBegins(Tasks("work", 1, 2), {TaskResult{}}, 102.0);
   machine.StageBegins(Tasks("review", 1), {TaskResult{}}, 102.0);
   EXPECT_EQ(machine.StageToPlan(), 2U) << "found results count like computed ones";
   EXPECT_EQ(machine.Status(102.0).stages[0].tasks_total, 3U);
+}
+
+TEST(JobMachine, FailsWhenARoundOfALoopIsAnEarlierOneAgain) {
+  JobPlan plan = LinePlan({"work", "review"});
+  plan.stages[1].back_to = "work";
+  JobMachine machine({.kind = "line"}, plan, {}, 100.0);
+  const std::optional<TaskResult> once_more = TaskResult{.recipes = {DigestOf("more")}};
+  for (const uint32_t round : {0U, 1U}) {
+    machine.StageBegins(Tasks("work", 1, round), {TaskResult{}}, 101.0);
+    machine.StageBegins(Tasks("review", 1), {once_more}, 101.0);
+    ASSERT_EQ(machine.state(), JobState::kRunning);
+  }
+  machine.StageBegins(Tasks("work", 1, 0), {TaskResult{}}, 102.0);
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_NE(machine.error().find("from work to review"), std::string::npos) << machine.error();
+}
+
+TEST(JobMachine, FailsAfterAsManyRoundsAsItsPlanAllows) {
+  JobPlan plan = LinePlan({"work", "review"});
+  plan.stages[1].back_to = "work";
+  plan.stages[1].max_rounds = 3;
+  JobMachine machine({.kind = "line"}, plan, {}, 100.0);
+  const std::optional<TaskResult> once_more = TaskResult{.recipes = {DigestOf("more")}};
+  for (uint32_t round = 0; round < 3; ++round) {
+    machine.StageBegins(Tasks("work", 1, round), {TaskResult{}}, 101.0);
+    machine.StageBegins(Tasks("review", 1), {once_more}, 101.0);
+    ASSERT_EQ(machine.state(), JobState::kRunning);
+  }
+  Begin(machine, "work", 1, 102.0, 3);
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_NE(machine.error().find("after 3 rounds"), std::string::npos) << machine.error();
 }
 
 TEST(JobMachine, DoesNotGiveOutWhatWasFound) {

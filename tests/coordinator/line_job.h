@@ -24,11 +24,13 @@ inline JobMachine MachineFor(const std::vector<std::string>& stages) {
           100.0};
 }
 
-/// `count` tasks of a stage, told apart by their input.
-inline std::vector<TaskSpec> Tasks(const std::string& stage, uint32_t count) {
+/// `count` tasks of a stage, told apart by their input; those of another round are others.
+inline std::vector<TaskSpec> Tasks(const std::string& stage, uint32_t count, uint32_t round = 0) {
   std::vector<TaskSpec> tasks;
   for (uint32_t part = 0; part < count; ++part) {
-    tasks.push_back({.stage = stage, .inputs = {DigestOf(std::to_string(part))}, .part = part});
+    tasks.push_back({.stage = stage,
+                     .inputs = {DigestOf(std::to_string(part)), DigestOf(std::to_string(round))},
+                     .part = part});
   }
   return tasks;
 }
@@ -36,8 +38,10 @@ inline std::vector<TaskSpec> Tasks(const std::string& stage, uint32_t count) {
 inline void Begin(JobMachine& machine,
                   const std::string& stage,
                   uint32_t count,
-                  double now_s = 100.0) {
-  machine.StageBegins(Tasks(stage, count), std::vector<std::optional<TaskResult>>(count), now_s);
+                  double now_s = 100.0,
+                  uint32_t round = 0) {
+  machine.StageBegins(
+      Tasks(stage, count, round), std::vector<std::optional<TaskResult>>(count), now_s);
 }
 
 /// Leases what comes next to `worker`.

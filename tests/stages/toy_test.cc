@@ -46,7 +46,7 @@ JobPlan ToyCountPlan() {
   const auto scaled = plan.Add(ToyScaleStage{.number = counted.numbers});
   plan.Add(
       ToySumStage{.scaled = scaled.scaled, .before = RoundBefore(OutputsOf<ToySumStage>().sum)});
-  plan.RepeatFrom<ToyCountStage>(2.0);
+  plan.RepeatFrom<ToyCountStage>(2.0, 10);
   return std::move(plan).Finish();
 }
 
