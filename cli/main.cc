@@ -71,5 +71,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? orbweave::kExitOk : orbweave::kExitUsage;
   }
-  return selected.run();
+  try {
+    return selected.run();
+  } catch (const std::exception& error) {  // what bytes of others may bring about, not files alone
+    return orbweave::ReportStatus(
+        absl::InternalError(std::string("stopped by a fault of this program: ") + error.what()));
+  }
 }

@@ -11,7 +11,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<MethodRight, 22> kRights = {{
+constexpr std::array<MethodRight, 23> kRights = {{
     {.method = "/orbweave.v1.Coordinator/Join", .worker = true},
     {.method = "/orbweave.v1.Coordinator/LeaseTask", .worker = true},
     {.method = "/orbweave.v1.Coordinator/Heartbeat", .worker = true},
@@ -39,6 +39,8 @@ constexpr std::array<MethodRight, 22> kRights = {{
 
     {.method = "/orbweave.v1.Enrollment/Enroll", .stranger = true},
     {.method = "/orbweave.v1.Enrollment/Renew", .worker = true},
+
+    {.method = "/grpc.health.v1.Health/Check", .worker = true, .client = true},
 }};
 
 bool IsAllowed(const MethodRight& right, Role role) {

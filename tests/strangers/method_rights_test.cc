@@ -14,6 +14,7 @@
 #include "orbweave/v1/coordinator.pb.h"
 #include "orbweave/v1/enrollment.pb.h"
 #include "security/secret_file.h"
+#include "tests/support/grpc_health.h"
 #include "tests/support/tls_server.h"
 #include "worker/grpc_channel.h"
 
@@ -67,15 +68,19 @@ bool IsRefusal(const grpc::Status& status) {
          status.error_message().find("may not call") != std::string::npos;
 }
 
+constexpr char kHealth[] = "/grpc.health.v1.Health/Check";
+
 TEST(MethodRights, HaveARowForEveryMethodAndNoOther) {
-  EXPECT_EQ(MethodsOfTheTable(), MethodsOfTheServices());
+  std::set<std::string> methods = MethodsOfTheServices();
+  methods.insert(kHealth);  // gRPC's own service
+  EXPECT_EQ(MethodsOfTheTable(), methods);
   EXPECT_EQ(MethodRights().size(), MethodsOfTheTable().size()) << "one row each";
 }
 
 TEST(MethodRights, GiveWorkersNoJobsAndClientsNoTasks) {
   for (const MethodRight& right : MethodRights()) {
     const bool is_blob = right.method.ends_with("Blob") || right.method.ends_with("Blobs");
-    EXPECT_EQ(right.worker && right.client, is_blob) << right.method;
+    EXPECT_EQ(right.worker && right.client, is_blob || right.method == kHealth) << right.method;
   }
 }
 
@@ -109,6 +114,14 @@ TEST(MethodRights, AreWhatTheServerDoes) {
       EXPECT_NE(said.error_code(), grpc::StatusCode::UNAVAILABLE) << role << " " << right.method;
     }
     EXPECT_TRUE(IsRefusal(Call(channel, "/orbweave.v1.Coordinator/NoSuchMethod")));
+  }
+}
+
+TEST(MethodRights, LetEveryMemberAskForHealth) {
+  const TlsServer server;
+  for (const char* name : {"node", "client", "admin"}) {
+    const auto channel = OpenChannel(server.address(), server.keys() + "/" + name);
+    EXPECT_EQ(testing::AskHealth(channel), testing::Health::kServing) << name;
   }
 }
 
