@@ -29,6 +29,7 @@
 #include "core/dense/equiangular_raster.h"
 #include "core/dense/estimate_depths.h"
 #include "core/dense/evaluate_surface.h"
+#include "core/dense/fuse_pixels.h"
 #include "core/dense/match_scale.h"
 #include "core/geometry/cube_face.h"
 #include "core/synthetic/make_street.h"
@@ -92,6 +93,8 @@ class Bench {
     std::vector<Eigen::Vector3d> cloud;
     std::vector<Eigen::Vector3d> surface;
     double check_s = 0.0;
+    std::vector<Truth> truths(shots_.size());
+    std::vector<DepthMap> checked;
     for (size_t own = 0; own < shots_.size(); ++own) {
       std::vector<NeighbourMap> neighbours;
       for (const size_t other : SourcesOf(own)) {
@@ -99,13 +102,14 @@ class Bench {
             {&maps_[other], shots_[other].cam_from_street * shots_[own].cam_from_street.Inverse()});
       }
       const double before_s = CpuSeconds();
-      const DepthMap map = CheckDepths(maps_[own], neighbours, arguments_.dense);
+      const DepthMap& map =
+          checked.emplace_back(CheckDepths(maps_[own], neighbours, arguments_.dense));
       check_s += CpuSeconds() - before_s;
       Append(map, own, cloud);
       const bool judged =
           own >= FirstJudged() && own < FirstJudged() + static_cast<size_t>(arguments_.judged);
       if (!judged) continue;
-      const Truth truth = TruthOf(own);
+      const Truth& truth = truths[own] = TruthOf(own);
       pose_ = &shots_[own].cam_from_street;
       std::printf("panorama %zu\n", own);
       Judge("estimated", maps_[own], truth);
@@ -117,6 +121,7 @@ class Bench {
         if (truth.counts[k] != 0) surface.push_back(truth.points[k].cast<double>());
       }
     }
+    JudgeFused(checked, truths);
     const SurfaceEvaluation evaluation = EvaluateSurface(cloud, surface);
     std::printf("checked in %.2f CPU s each; recall of the cloud",
                 check_s / static_cast<double>(shots_.size()));
@@ -346,6 +351,56 @@ class Bench {
       }
     }
     return least;
+  }
+
+  /// Points of the cloud that judged panoramas give, each on the ray of its own pixel.
+  void JudgeFused(const std::vector<DepthMap>& maps, const std::vector<Truth>& truths) const {
+    std::vector<PosedDepthMap> posed;
+    for (size_t i = 0; i < maps.size(); ++i)
+      posed.push_back({ImageId(static_cast<uint32_t>(i)), &maps[i], shots_[i].cam_from_street});
+    std::vector<double> errors;
+    size_t one = 0;
+    size_t two = 0;
+    for (size_t own = 0; own < maps.size(); ++own) {
+      const Truth& truth = truths[own];
+      if (truth.points.empty()) continue;
+      std::vector<PosedDepthMap> neighbours = posed;
+      neighbours.erase(neighbours.begin() + static_cast<ptrdiff_t>(own));
+      const EquiangularRaster raster{maps[own].face_px};
+      for (const SurfacePoint& point :
+           FusePixels(posed[own], shots_[own].Raster(), neighbours).points) {
+        const Eigen::Vector3d in_cam = shots_[own].cam_from_street * point.position_in_world;
+        const double range_m = in_cam.norm();
+        const EquiangularRaster::Place place = raster.PixelFromBearing(in_cam);
+        const size_t k = raster.Index(place);
+        const bool true_near = truth.range_m[k] > kNearest_m && truth.range_m[k] < kFarthest_m;
+        if (!true_near && (range_m > kFarthest_m || range_m < kNearest_m)) continue;
+        errors.push_back(ErrorAt(truth,
+                                 maps[own],
+                                 place.face,
+                                 static_cast<int>(place.row),
+                                 static_cast<int>(place.column),
+                                 point.position_in_world.cast<float>()));
+        const double along = std::abs(range_m - static_cast<double>(truth.range_m[k]));
+        one += along < point.sigma_m ? 1 : 0;
+        two += along < 2.0 * point.sigma_m ? 1 : 0;
+      }
+    }
+    const auto share = [&](auto count) {
+      return 100.0 * static_cast<double>(count) / static_cast<double>(errors.size());
+    };
+    const auto within = [&](double tolerance) {
+      return share(std::ranges::count_if(errors, [&](double e) { return e < tolerance; }));
+    };
+    if (errors.empty()) return;
+    std::printf(
+        "fused: %zu points, precision %5.1f %5.1f %5.1f, within one sigma %4.1f two %4.1f\n",
+        errors.size(),
+        within(0.02),
+        within(0.05),
+        within(0.10),
+        share(one),
+        share(two));
   }
 
   void Judge(const char* what, const DepthMap& map, const Truth& truth) const {

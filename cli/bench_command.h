@@ -6,8 +6,7 @@
 
 namespace orbweave {
 
-/// `orbweave bench scaling`: runs jobs of several sizes on several numbers of workers, and predicts
-/// from their tasks what more workers would do.
+/// `orbweave bench`: what this program takes, and what more workers would do.
 void AddBenchCommand(CLI::App& app, SelectedCommand& selected);
 
 }  // namespace orbweave

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cli/bench_command.h"
+#include "cli/bench_scaling.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -91,7 +91,9 @@ absl::Status BenchScaling(const BenchArguments& arguments) {
   return Write(report, output);
 }
 
-void AddScaling(CLI::App& bench, SelectedCommand& selected) {
+}  // namespace
+
+void AddBenchScaling(CLI::App& bench, SelectedCommand& selected) {
   CLI::App* command =
       bench.add_subcommand("scaling", "What more workers and larger jobs do to the time");
   const auto arguments = std::make_shared<BenchArguments>();
@@ -146,14 +148,6 @@ void AddScaling(CLI::App& bench, SelectedCommand& selected) {
     if (job->count() + output->count() == 0) throw CLI::RequiredError("--output (or --job)");
     selected.run = [arguments] { return ReportStatus(BenchScaling(*arguments)); };
   });
-}
-
-}  // namespace
-
-void AddBenchCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("bench", "Measure this program");
-  command->require_subcommand(1);
-  AddScaling(*command, selected);
 }
 
 }  // namespace orbweave

@@ -75,8 +75,9 @@ absl::Status RunDenseJobOnColmap(const std::string& colmap_model,
                                  const std::string& output,
                                  uint32_t workers,
                                  const PipelineOptions& options) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ColmapModel model, ReadColmapModel(colmap_model));
   return RunInto(output, output, workers, [&](BlobDepot& depot, const StageContext& context) {
-    return PrepareDenseJob(depot, colmap_model, images, options, context);
+    return PrepareDenseJob(depot, model, images, options, context);
   });
 }
 

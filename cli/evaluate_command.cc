@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/exit_code.h"
-#include "cli/print_surface.h"
+#include "cli/surface_text.h"
 #include "core/estimators/compare_poses.h"
 #include "core/estimators/compare_with_claims.h"
 #include "core/io/camera_sigmas.h"
@@ -97,10 +97,12 @@ absl::Status Evaluate(const EvaluateArguments& arguments) {
   if (!arguments.surface.empty()) {
     std::vector<Eigen::Vector3d> centres;
     for (const Rigid3& camera : reference) centres.push_back(camera.Centre());
-    ORBWEAVE_RETURN_IF_ERROR(PrintSurface(arguments.output + "/dense",
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string found,
+                              SurfaceText(arguments.output + "/dense",
                                           arguments.surface,
                                           errors->reference_from_model,
                                           std::move(centres)));
+    std::fputs(found.c_str(), stdout);
   }
   return is_model ? absl::OkStatus() : PrintClaims(arguments.output, model, truth);
 }

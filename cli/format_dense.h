@@ -4,14 +4,11 @@
 
 #include <string>
 
-#include "cli/dense_report.h"
+#include "core/report/dense_report.h"
 
 namespace orbweave {
 
 /// A dense cloud on a terminal.
 [[nodiscard]] std::string FormatDense(const DenseReport& report, const std::string& folder);
-
-/// The same for machines.
-[[nodiscard]] std::string DenseReportJson(const DenseReport& report);
 
 }  // namespace orbweave

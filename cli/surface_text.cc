@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cli/print_surface.h"
+#include "cli/surface_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "core/base/quantile.h"
 #include "core/dense/evaluate_surface.h"
 #include "core/io/read_ply_points.h"
@@ -56,16 +56,16 @@ double SpacingOf(const std::vector<Eigen::Vector3d>& truth) {
 
 }  // namespace
 
-absl::Status PrintSurface(const std::string& cloud_folder,
-                          const std::string& surface,
-                          const Sim3& reference_from_model,
-                          std::vector<Eigen::Vector3d> centres) {
+absl::StatusOr<std::string> SurfaceText(const std::string& cloud_folder,
+                                        const std::string& surface,
+                                        const Sim3& reference_from_model,
+                                        std::vector<Eigen::Vector3d> centres) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Eigen::Vector3d> truth, ReadPlyPoints(surface));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Eigen::Vector3d> cloud,
                             ReadCloud(cloud_folder, reference_from_model));
   const SurfaceRegion region{.centres = std::move(centres), .sample_spacing_m = kSampleSpacing_m};
   const SurfaceEvaluation found = EvaluateSurface(cloud, truth, {}, region);
-  std::printf(
+  std::string text = absl::StrFormat(
       "  surface     %zu points against %zu samples, median %.4f m; samples are %.2f m "
       "apart, and no precision is told within less\n",
       found.cloud_points,
@@ -73,13 +73,15 @@ absl::Status PrintSurface(const std::string& cloud_folder,
       found.median_error_m,
       SpacingOf(truth));
   for (const SurfaceScore& score : found.scores) {
-    std::printf("              within %2.0f cm: precision %5.1f %%, recall %5.1f %%, F1 %5.1f %%\n",
-                100.0 * score.tolerance_m,
-                100.0 * score.precision,
-                100.0 * score.recall,
-                100.0 * score.f1);
+    absl::StrAppendFormat(
+        &text,
+        "              within %2.0f cm: precision %5.1f %%, recall %5.1f %%, F1 %5.1f %%\n",
+        100.0 * score.tolerance_m,
+        100.0 * score.precision,
+        100.0 * score.recall,
+        100.0 * score.f1);
   }
-  return absl::OkStatus();
+  return text;
 }
 
 }  // namespace orbweave

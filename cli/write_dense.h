@@ -4,15 +4,16 @@
 
 #include <string>
 
-#include "cli/dense_report.h"
 #include "core/base/status.h"
 #include "core/pipeline/coordinator_api.h"
+#include "core/report/dense_report.h"
 
 namespace orbweave {
 
 /// Writes what a finished dense job leaves into `folder`, one tile after the other: tiles/X_Y.ply,
-/// cloud.las (in the UTM zone of the model's origin where it stands on earth), report.json. Tiles
-/// that an earlier run left and this one has not are removed. Codes of WriteFileAtomically.
+/// cloud.las (in the UTM zone of the model's origin where it stands on earth), from_above.png,
+/// report.json and report.html. What an earlier run left and this one has not is removed. Codes of
+/// WriteFileAtomically.
 [[nodiscard]] absl::StatusOr<DenseReport> WriteDense(ClientApi& coordinator,
                                                      const JobStatus& status,
                                                      const std::string& folder);

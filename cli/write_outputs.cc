@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/fetch_results.h"
+#include "cli/report_stages.h"
 #include "cli/write_models.h"
 #include "core/io/cameras_csv.h"
 #include "core/io/file.h"
@@ -26,14 +27,7 @@ void FillRun(const JobStatus& status, JobReport& report) {
   report.title = status.spec.label;
   report.options_text = status.spec.options_text;
   report.elapsed_s = status.elapsed_s;
-  for (const StageStatus& stage : status.stages) {
-    report.stages.push_back({.name = stage.stage,
-                             .wall_s = stage.wall_s,
-                             .cpu_s = stage.cpu_s,
-                             .tasks_computed = stage.tasks_done - stage.tasks_reused,
-                             .tasks_reused = stage.tasks_reused,
-                             .retries = stage.retries});
-  }
+  report.stages = ReportStages(status);
   for (const WorkerStatus& worker : status.workers) {
     report.workers.push_back({worker.name, worker.slots, worker.tasks_done});
   }

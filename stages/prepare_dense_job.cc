@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/status.h"
-#include "core/io/colmap_model.h"
 #include "core/io/printable_text.h"
 #include "stages/codecs.h"
 #include "stages/ingest_images/ingest_images.h"
@@ -19,11 +18,10 @@
 namespace orbweave {
 
 absl::StatusOr<JobSpec> PrepareDenseJob(BlobDepot& depot,
-                                        const std::string& colmap_model,
+                                        const ColmapModel& model,
                                         const ScanRequest& request,
                                         const PipelineOptions& options,
                                         const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const ColmapModel model, ReadColmapModel(colmap_model));
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImageFolder(request, context));
   ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest, IngestImages(sources, options.ingest, context));
   ORBWEAVE_ASSIGN_OR_RETURN(ImportedModel imported, ModelFromColmap(model, manifest));

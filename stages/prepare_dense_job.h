@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/stage_context.h"
+#include "core/io/colmap_model.h"
 #include "core/io/scan_image_folder.h"
 #include "core/pipeline/blob_depot.h"
 #include "core/pipeline/job_api.h"
@@ -12,12 +13,11 @@
 
 namespace orbweave {
 
-/// Makes everything known that a dense job on the poses of a COLMAP model (EQUIRECTANGULAR or
-/// SPHERE cameras; points are not needed) and a folder of its panoramas reads. The job is not
-/// submitted. Images of the model that the folder lacks count as excluded. Codes of
-/// ReadColmapModel, ScanImageFolder and ModelFromColmap.
+/// Makes everything known that a dense job on the poses of a model (its points are not needed)
+/// and a folder of its panoramas reads. The job is not submitted. Images of the model that the
+/// folder lacks count as excluded. Codes of ScanImageFolder and ModelFromColmap.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareDenseJob(BlobDepot& depot,
-                                                      const std::string& colmap_model,
+                                                      const ColmapModel& model,
                                                       const ScanRequest& request,
                                                       const PipelineOptions& options,
                                                       const StageContext& context);

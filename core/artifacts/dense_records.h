@@ -119,12 +119,14 @@ struct TileRuns {
 
 struct TileRecipe {
   TileCell cell{};
+  uint32_t piece = 0;            ///< of the cell, where one alone would hold too many points
   std::vector<Digest> points{};  ///< SurfacePoints, by panorama
 };
 
 /// A tile of the dense cloud, its points in the order of GroupByTile.
 struct DenseTile {
   TileCell cell{};
+  uint32_t piece = 0;
   SurfacePoints points{};
 };
 

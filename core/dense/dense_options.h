@@ -13,7 +13,7 @@ struct DenseOptions {
   int middle_rounds = 2;
   int fine_rounds = 2;
   double noise_levels = 0.8;
-  double min_zncc = 0.3;
+  double min_zncc = 0.5;
   double max_sigma = 0.05;
   bool planar_prior = true;
   int min_agreeing = 1;

@@ -13,6 +13,7 @@
 #include "core/dense/map_of_planes.h"
 #include "core/dense/patch_match.h"
 #include "core/dense/random_field.h"
+#include "core/dense/trim_edges.h"
 
 namespace orbweave {
 namespace {
@@ -177,7 +178,9 @@ DepthMap EstimateDepths(const DepthProblem& problem,
   const MatchScale scale(full.reference, full.sources, poses, 0);
   field = DoubleField(field);
   RunRounds(search, scale, PlanRounds(options.fine_rounds, kFine, false), field);
-  return MapOfPlanes(scale.raster, field, prior, search.limits, options);
+  DepthMap map = MapOfPlanes(scale.raster, field, prior, search.limits, options);
+  TrimEdges(scale.raster, field, map);
+  return map;
 }
 
 DepthMap EstimateDepths(const DepthProblem& problem, const DenseOptions& options) {

@@ -11,7 +11,7 @@ namespace orbweave {
 namespace {
 
 constexpr int kApron = PlaneField::kApron_px;
-constexpr float kPriorSigmas = 2.0F;  // of a plane's pixels, that one without a match may be off
+constexpr float kPriorSigmas = 1.4F;  // of a plane's pixels, that one without a match may be off
 constexpr float kSameSigmas = 2.0F;   // between which two are one surface
 constexpr float kLeastSlant = 0.1F;   // cosine between a plane's normal and the ray
 

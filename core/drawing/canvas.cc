@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+
+#include "core/drawing/encode_picture.h"
 
 namespace orbweave {
 namespace {
@@ -131,14 +132,8 @@ void Canvas::Blend(double opacity, const std::function<void(Canvas&)>& draw) {
   cv::addWeighted(layer.pixels_, opacity, pixels_, 1.0 - opacity, 0.0, pixels_);
 }
 
-absl::StatusOr<std::string> Canvas::Png() const {
-  std::vector<uchar> bytes;
-  try {
-    if (cv::imencode(".png", pixels_, bytes)) return std::string(bytes.begin(), bytes.end());
-  } catch (const cv::Exception& error) {
-    return absl::InternalError("cannot encode the picture: " + error.err);
-  }
-  return absl::InternalError("cannot encode the picture");
-}
+absl::StatusOr<std::string> Canvas::Png() const { return EncodePng(pixels_); }
+
+absl::StatusOr<std::string> Canvas::Jpeg(int quality) const { return EncodeJpeg(pixels_, quality); }
 
 }  // namespace orbweave

@@ -38,8 +38,9 @@ class Canvas {
   /// What `draw` draws, `opacity` of it, over what was there.
   void Blend(double opacity, const std::function<void(Canvas&)>& draw);
 
-  /// The bytes of a PNG file.
+  /// The bytes of a PNG file, and of a JPEG one.
   [[nodiscard]] absl::StatusOr<std::string> Png() const;
+  [[nodiscard]] absl::StatusOr<std::string> Jpeg(int quality) const;
 
  private:
   explicit Canvas(cv::Mat pixels) : pixels_(std::move(pixels)) {}

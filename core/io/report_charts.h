@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "core/io/job_report.h"
@@ -16,7 +17,7 @@ namespace orbweave {
 /// Tracks seen by each image in order, coloured by cluster; groups of images share a bar when there
 /// are many. Two drawings, one of them for narrow pages.
 [[nodiscard]] std::string TracksPerImageSvg(const JobReport& report);
-/// Rows of wall and CPU time per stage as an HTML table with bars.
-[[nodiscard]] std::string StageTimesHtml(const JobReport& report);
+/// Wall and CPU time of each stage, as a section of the page; empty without stages.
+[[nodiscard]] std::string TimesHtml(double elapsed_s, std::span<const ReportStage> stages);
 
 }  // namespace orbweave

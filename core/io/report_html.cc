@@ -134,29 +134,6 @@ std::string Charts(const JobReport& report) {
                           TracksPerImageSvg(report));
 }
 
-std::string Times(const JobReport& report) {
-  if (report.stages.empty()) return "";
-  double cpu_s = 0.0;
-  uint64_t reused = 0;
-  for (const ReportStage& stage : report.stages) {
-    cpu_s += stage.cpu_s;
-    reused += stage.tasks_reused;
-  }
-  const std::string subtitle =
-      absl::StrCat(DurationText(report.elapsed_s),
-                   " in all, ",
-                   DurationText(cpu_s),
-                   " of CPU; ",
-                   CountText(reused),
-                   reused == 1 ? " task was found finished." : " tasks were found finished.");
-  return Section(
-      "Time",
-      subtitle,
-      StageTimesHtml(report) +
-          "<div class=\"key only-wide\"><span><i class=\"wall\"></i>wall clock</span><span><i "
-          "class=\"cpu\"></i>CPU</span></div>");
-}
-
 std::string Seams(const JobReport& report) {
   const std::string table = SeamsHtml(report);
   if (table.empty()) return "";
@@ -214,7 +191,7 @@ std::string ReportHtml(const JobReport& report) {
           ClustersHtml(report),
           Seams(report),
           Adjustment(report),
-          Times(report),
+          TimesHtml(report.elapsed_s, report.stages),
           WorkersHtml(report),
           Options(report),
           "<footer>Residuals are angles times width over 2π. All numbers of this page are in "

@@ -93,6 +93,10 @@ td.text{overflow-wrap:anywhere}
 p.warn{margin:0 0 4px}
 ul{margin:0;padding-left:20px}
 li{overflow-wrap:anywhere}
+figure{margin:0}
+figure img,img.shot{display:block;width:100%;border-radius:8px}
+figcaption{color:var(--soft);font-size:13px;margin:4px 0 12px;overflow-wrap:anywhere}
+img.shot{background:var(--bg)}
 details ul{margin-top:4px}
 summary{cursor:pointer;font-weight:650}
 pre{font:12.5px/1.5 ui-monospace,"SF Mono",Menlo,Consolas,monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:12px 0 0;color:var(--soft)}

@@ -50,9 +50,7 @@ std::string ClustersHtml(const JobReport& report) {
           rows + "</tbody></table>");
 }
 
-std::string LeftOutHtml(const JobReport& report) {
-  const std::vector<Exclusion>& images = report.not_registered;
-  if (images.empty()) return "";
+std::string ReasonsTable(const std::vector<Exclusion>& images) {
   std::vector<std::string> reasons;
   for (const Exclusion& image : images) reasons.push_back(image.reason);
   const std::vector<MessageGroup> groups = GroupByKind(reasons);
@@ -76,15 +74,21 @@ std::string LeftOutHtml(const JobReport& report) {
                     CountText(groups.size() - kMaxRows),
                     " more reasons, all in report.json</td></tr>");
   }
-  return Section(
-      "Left out",
-      absl::StrCat(CountText(images.size()),
-                   images.size() == 1 ? " image is" : " images are",
-                   " not registered; all of them are in report.json and, where they "
-                   "take part, in cameras.csv."),
-      "<table><thead><tr><th class=\"slim\">images</th><th class=\"text\">reason</th></tr></thead>"
-      "<tbody>" +
-          rows + "</tbody></table>");
+  return "<table><thead><tr><th class=\"slim\">images</th><th "
+         "class=\"text\">reason</th></tr></thead>"
+         "<tbody>" +
+         rows + "</tbody></table>";
+}
+
+std::string LeftOutHtml(const JobReport& report) {
+  const std::vector<Exclusion>& images = report.not_registered;
+  if (images.empty()) return "";
+  return Section("Left out",
+                 absl::StrCat(CountText(images.size()),
+                              images.size() == 1 ? " image is" : " images are",
+                              " not registered; all of them are in report.json and, where they "
+                              "take part, in cameras.csv."),
+                 ReasonsTable(images));
 }
 
 std::string WarningsHtml(const JobReport& report) {

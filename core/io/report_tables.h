@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/io/job_report.h"
 
@@ -13,6 +14,8 @@ namespace orbweave {
 /// their count.
 [[nodiscard]] std::string ClustersHtml(const JobReport& report);
 [[nodiscard]] std::string LeftOutHtml(const JobReport& report);
+/// Images by the reason why they are left out.
+[[nodiscard]] std::string ReasonsTable(const std::vector<Exclusion>& images);
 [[nodiscard]] std::string WarningsHtml(const JobReport& report);
 [[nodiscard]] std::string WorkersHtml(const JobReport& report);
 

@@ -66,13 +66,17 @@ std::string UtmFrame::Wkt() const {
       "\"]]");
 }
 
+Eigen::Vector3d UtmFrame::FromEnu(const Eigen::Vector3d& position) const {
+  return FromGeodetic(GeodeticFromEnu(position, origin_));
+}
+
 std::vector<SurfacePoint> UtmFrame::FromEnu(std::span<const SurfacePoint> points) const {
   const Eigen::Matrix3f turn =
       Eigen::AngleAxisf(static_cast<float>(convergence_rad_), Eigen::Vector3f::UnitZ())
           .toRotationMatrix();
   std::vector<SurfacePoint> converted(points.begin(), points.end());
   for (SurfacePoint& point : converted) {
-    point.position_in_world = FromGeodetic(GeodeticFromEnu(point.position_in_world, origin_));
+    point.position_in_world = FromEnu(point.position_in_world);
     point.normal_in_world = turn * point.normal_in_world;
   }
   return converted;

@@ -22,6 +22,8 @@ class UtmFrame {
   [[nodiscard]] Eigen::Vector3d Origin() const;
   /// Well-known text (WKT 1) of zone and datum.
   [[nodiscard]] std::string Wkt() const;
+  /// A position of the east-north-up frame.
+  [[nodiscard]] Eigen::Vector3d FromEnu(const Eigen::Vector3d& position) const;
   /// Points of the east-north-up frame; normals are turned by the convergence of meridians.
   [[nodiscard]] std::vector<SurfacePoint> FromEnu(std::span<const SurfacePoint> points) const;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/dense/tile_grid.h"
+#include "core/io/job_report.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {
@@ -20,20 +21,46 @@ struct TileReport {
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
 };
 
+/// The checked depth map of a panorama.
+struct DepthMapReport {
+  std::string image{};
+  double coverage = 0.0;  ///< share of the sphere that has a depth
+};
+
 /// A dense cloud in numbers.
 struct DenseReport {
-  static constexpr size_t kSigmaBins = 8;  ///< below 1, 2, 4, ... 64 mm, and above
-  static constexpr size_t kViewBins = 9;   ///< borne out by 0 ... 7 panoramas, and by 8 or more
+  /// Upper ends of all bins but the last; where lengths are no metres, thousandths of their unit.
+  static constexpr std::array<int, 7> kSigmaBounds_mm = {1, 2, 4, 8, 16, 32, 64};
+  static constexpr size_t kSigmaBins = kSigmaBounds_mm.size() + 1;
+  static constexpr size_t kViewBins = 9;  ///< borne out by 0 ... 7 panoramas, and by 8 or more
 
+  std::string title{};
+  std::string version{};
+  bool is_metric = true;  ///< lengths are metres, not units of a free frame
   uint64_t num_points = 0;
-  uint32_t panoramas = 0;  ///< that have depth
-  double coverage = 0.0;   ///< mean share of the sphere that has a depth that was checked
+  std::vector<DepthMapReport> maps{};  ///< of all panoramas that took part, in the job's order
   std::array<uint64_t, kSigmaBins> by_sigma{};
   std::array<uint64_t, kViewBins> by_views{};
-  std::vector<TileReport> tiles{};   ///< ascending by cell
+  std::vector<TileReport>
+      tiles{};  ///< ascending by cell; more than one of a cell with very many points
   std::vector<Exclusion> omitted{};  ///< panoramas without depth, by name, and why
   double elapsed_s = 0.0;
-  double cpu_s = 0.0;
+  std::vector<ReportStage> stages{};
+
+  /// Mean over all maps; 0 without any.
+  [[nodiscard]] double Coverage() const;
+  [[nodiscard]] double Cpu_s() const;
+};
+
+/// What is shown beside the numbers.
+struct DensePictures {
+  std::string from_above_png{};  ///< empty: there is no point
+  double pixel = 0.0;            ///< its pixel's edge
+  struct Depth {
+    std::string image{};
+    std::string jpeg{};
+  };
+  std::vector<Depth> depths{};
 };
 
 }  // namespace orbweave

@@ -172,6 +172,7 @@ absl::StatusOr<std::string> EncodeDenseTile(const DenseTile& tile) {
   v1::DenseTile proto;
   proto.set_x(tile.cell.x);
   proto.set_y(tile.cell.y);
+  proto.set_piece(tile.piece);
   ToProto(tile.points, proto.mutable_points());
   return codec::Serialize(proto, "dense tile");
 }
@@ -179,7 +180,7 @@ absl::StatusOr<std::string> EncodeDenseTile(const DenseTile& tile) {
 absl::StatusOr<DenseTile> DecodeDenseTile(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::DenseTile proto,
                             codec::Parse<v1::DenseTile>(bytes, "dense tile"));
-  DenseTile tile{.cell = {proto.x(), proto.y()}};
+  DenseTile tile{.cell = {proto.x(), proto.y()}, .piece = proto.piece()};
   ORBWEAVE_ASSIGN_OR_RETURN(tile.points, FromProto(proto.points()));
   return tile;
 }

@@ -308,6 +308,7 @@ absl::StatusOr<std::string> EncodeTileRecipe(const TileRecipe& recipe) {
   v1::TileRecipe proto;
   proto.set_x(recipe.cell.x);
   proto.set_y(recipe.cell.y);
+  proto.set_piece(recipe.piece);
   for (const Digest& points : recipe.points) proto.add_points(codec::PackDigest(points));
   return codec::Serialize(proto, "tile recipe");
 }
@@ -315,7 +316,7 @@ absl::StatusOr<std::string> EncodeTileRecipe(const TileRecipe& recipe) {
 absl::StatusOr<TileRecipe> DecodeTileRecipe(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::TileRecipe proto,
                             codec::Parse<v1::TileRecipe>(bytes, "tile recipe"));
-  TileRecipe recipe{.cell = {proto.x(), proto.y()}};
+  TileRecipe recipe{.cell = {proto.x(), proto.y()}, .piece = proto.piece()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.points, DigestsFromProto(proto.points()));
   return recipe;
 }

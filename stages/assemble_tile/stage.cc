@@ -12,7 +12,7 @@ namespace orbweave {
 
 absl::Status AssembleTileStage::Run(StageTask<AssembleTileStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const TileRecipe recipe, task.Read(&AssembleTileStage::recipe));
-  DenseTile tile{.cell = recipe.cell};
+  DenseTile tile{.cell = recipe.cell, .piece = recipe.piece};
   for (const Digest& digest : recipe.points) {
     ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
     ORBWEAVE_ASSIGN_OR_RETURN(const SurfacePoints points, task.Fetch<SurfacePoints>(digest));

@@ -2,29 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/list_tiles/stage.h"
 
-#include <map>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "stages/codecs.h"
 #include "stages/dense_codecs.h"
+#include "stages/list_tiles/plan_tiles.h"
 
 namespace orbweave {
 
 absl::Status ListTilesStage::Run(StageTask<ListTilesStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> runs, task.Read(&ListTilesStage::runs));
-  std::map<TileCell, TileRecipe> tiles;
+  TilePlanner planner(static_cast<uint64_t>(task.options<FuseOptions>().max_tile_points));
   for (const Digest& digest : runs) {
     ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
     ORBWEAVE_ASSIGN_OR_RETURN(const TileRuns of_panorama, task.Fetch<TileRuns>(digest));
-    for (const PointsOfCell& run : of_panorama.runs) {
-      TileRecipe& tile = tiles[run.cell];
-      tile.cell = run.cell;
-      tile.points.push_back(run.points);
-    }
+    planner.Add(of_panorama);
   }
-  for (const auto& [cell, recipe] : tiles)
-    ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::tiles, recipe));
-  task.Report(nlohmann::json{{"tiles", tiles.size()}}.dump());
+  const std::vector<TileRecipe> recipes = planner.Recipes();
+  ORBWEAVE_RETURN_IF_ERROR(task.LeaveAll(&Outputs::tiles, recipes));
+  task.Report(nlohmann::json{{"tiles", recipes.size()}}.dump());
   return absl::OkStatus();
 }
 

@@ -3,14 +3,16 @@
 #pragma once
 
 #include "core/artifacts/dense_records.h"
+#include "core/dense/fuse_pixels.h"
 #include "stages/stage.h"
 
 namespace orbweave {
 
-/// What each panorama has in which tile -> the tiles.
+/// What each panorama has in which tile -> the tiles. A tile of more than max_tile_points is cut
+/// into pieces, each of whole panoramas, so that what assembles one needs no more memory than that.
 struct ListTilesStage {
   static constexpr StageFacts kFacts{.name = "list_tiles", .version = "1", .weight = 0.1};
-  using Options = OptionSections<>;
+  using Options = OptionSections<FuseOptions>;
 
   EachPart<TileRuns> runs;
 
@@ -21,7 +23,7 @@ struct ListTilesStage {
 
   struct Outputs {
     using Stage = ListTilesStage;
-    Parts<TileRecipe> tiles{};  ///< ascending by cell
+    Parts<TileRecipe> tiles{};  ///< ascending by cell and piece
 
     template <typename Visitor>
     static void VisitPorts(Visitor&& visit) {

@@ -22,14 +22,13 @@ CommandOutcome Orbweave(std::vector<std::string> arguments) {
   return RunCommand(arguments);
 }
 
-/// All files of a cloud but for its report, which has times, and the job's own.
+/// All files of a cloud but for its reports, which have times, and the job's own.
 std::map<std::string, std::string> FilesOf(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
-    const bool is_state = name.starts_with(".orbweave");
-    if (entry.is_regular_file() && name != "report.json" && !is_state)
-      files[name] = ReadAll(entry.path().string());
+    const bool is_left_out = name.starts_with(".orbweave") || name.starts_with("report.");
+    if (entry.is_regular_file() && !is_left_out) files[name] = ReadAll(entry.path().string());
   }
   return files;
 }
@@ -85,6 +84,31 @@ TEST_F(DenseTest, LeavesOneCloudInTilesAndItsReport) {
   const std::string las = ReadAll(cloud + "/cloud.las");
   EXPECT_EQ(las.substr(0, 4), "LASF");
   EXPECT_THAT(las.substr(0, 4000), HasSubstr("UTM zone"));
+}
+
+TEST_F(DenseTest, LeavesPicturesOfTheCloudAndOfDepthMaps) {
+  const std::string cloud = *folder_ / "model/dense";
+  EXPECT_EQ(ReadAll(cloud + "/from_above.png").substr(1, 3), "PNG");
+  EXPECT_FALSE(ReadAll(cloud + "/from_above.pgw").empty());
+  EXPECT_THAT(ReadAll(cloud + "/from_above.png.aux.xml"), HasSubstr("UTM zone"));
+  const std::string page = ReadAll(cloud + "/report.html");
+  EXPECT_THAT(page, HasSubstr("street_0000.jpg"));
+  EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
+}
+
+TEST_F(DenseTest, CutsTilesIntoPiecesWithTheSamePoints) {
+  const std::string copy = *folder_ / "pieces";
+  fs::copy(*folder_ / "model", copy, fs::copy_options::recursive);
+  const CommandOutcome dense =
+      Orbweave({"dense", copy, "--set", "fusion.max_tile_points=5000", "--workers", "2"});
+  ASSERT_EQ(dense.exit_code, 0) << dense.err;
+  const nlohmann::json whole = DenseReportOf(*folder_ / "model/dense");
+  const nlohmann::json cut = DenseReportOf(copy + "/dense");
+  EXPECT_EQ(cut["points"], whole["points"]);
+  EXPECT_EQ(cut["points_by_sigma"], whole["points_by_sigma"]);
+  EXPECT_GT(cut["tiles"].size(), whole["tiles"].size());
+  EXPECT_EQ(ReadAll(copy + "/dense/from_above.png"),
+            ReadAll(*folder_ / "model/dense/from_above.png"));
 }
 
 TEST_F(DenseTest, OneAndThreeWorkersWriteTheSameBytes) {
@@ -162,6 +186,28 @@ TEST_F(DenseTest, GoesOnWithoutAPictureAndNamesIt) {
   const nlohmann::json report = DenseReportOf(*folder_ / "cloud_of_some");
   EXPECT_GT(report["points"], 5000);
   EXPECT_THAT(report["without_depth"].dump(), HasSubstr("street_0000.jpg"));
+}
+
+TEST_F(DenseTest, BenchTellsTimesAndThatCloudsAreTheSame) {
+  const std::string output = *folder_ / "bench";
+  const CommandOutcome bench = Orbweave({"bench",
+                                         "dense",
+                                         "--panoramas",
+                                         "4",
+                                         "--width",
+                                         "512",
+                                         "--workers",
+                                         "1,2",
+                                         "--output",
+                                         output});
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  EXPECT_THAT(bench.out, HasSubstr("| estimate_depths | 4 |"));
+  EXPECT_THAT(bench.out, HasSubstr("within  5 cm"));
+  const auto json = nlohmann::json::parse(ReadAll(output + "/dense.json"));
+  ASSERT_EQ(json["runs"].size(), 2U);
+  EXPECT_EQ(json["runs"][0]["cloud"], json["runs"][1]["cloud"]);
+  EXPECT_GT(json["runs"][0]["points"], 1000);
+  EXPECT_FALSE(fs::exists(output + "/.scratch"));
 }
 
 TEST_F(DenseTest, SaysWhatIsWrongWithItsArguments) {

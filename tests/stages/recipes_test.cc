@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "stages/list_seams/plan_seams.h"
+#include "stages/list_tiles/plan_tiles.h"
 #include "stages/partition_view_graph/plan_clusters.h"
 #include "stages/select_image_pairs/plan_matching.h"
 
@@ -51,6 +52,39 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
   EXPECT_EQ(recipes[1].matches, std::vector<Digest>{DigestOf("second")});
   ASSERT_EQ(recipes[1].fixes.size(), 1U);
   EXPECT_EQ(recipes[1].fixes[0].image, ImageId(2));
+}
+
+TileRuns PointsIn(const std::string& panorama, std::vector<std::pair<TileCell, uint64_t>> counts) {
+  TileRuns runs;
+  for (const auto& [cell, count] : counts)
+    runs.runs.push_back({.cell = cell, .count = count, .points = DigestOf(panorama)});
+  return runs;
+}
+
+TEST(TilePlanner, CutsATileOfTooManyPointsBetweenPanoramas) {
+  TilePlanner planner(100);
+  planner.Add(PointsIn("a", {{{0, 0}, 60}, {{1, 0}, 10}}));
+  planner.Add(PointsIn("b", {{{0, 0}, 40}}));
+  planner.Add(PointsIn("c", {{{-1, 0}, 500}, {{0, 0}, 1}}));
+  planner.Add(PointsIn("d", {{{-1, 0}, 1}, {{0, 0}, 99}}));
+  const std::vector<TileRecipe> recipes = planner.Recipes();
+  ASSERT_EQ(recipes.size(), 5U);
+  EXPECT_EQ(recipes[0].cell, (TileCell{-1, 0}));
+  EXPECT_EQ(recipes[0].points, std::vector<Digest>{DigestOf("c")});  // more, but one panorama's
+  EXPECT_EQ(recipes[1].cell, (TileCell{-1, 0}));
+  EXPECT_EQ(recipes[1].piece, 1U);
+  EXPECT_EQ(recipes[2].points, (std::vector<Digest>{DigestOf("a"), DigestOf("b")}));
+  EXPECT_EQ(recipes[3].points, (std::vector<Digest>{DigestOf("c"), DigestOf("d")}));
+  EXPECT_EQ(recipes[3].piece, 1U);
+  EXPECT_EQ(recipes[4].cell, (TileCell{1, 0}));
+  EXPECT_EQ(recipes[4].piece, 0U);
+}
+
+TEST(TilePlanner, IsNotMisledByCountsThatNobodyCanHave) {
+  TilePlanner planner(100);
+  planner.Add(PointsIn("a", {{{0, 0}, ~uint64_t{0}}}));
+  planner.Add(PointsIn("b", {{{0, 0}, ~uint64_t{0}}}));
+  EXPECT_EQ(planner.Recipes().size(), 2U);
 }
 
 TEST(PlanSeams, GivesEachClusterItsRimAndThoseOfLaterNeighbours) {

@@ -107,9 +107,11 @@ inline TileRuns SomeTileRuns() {
 }
 
 inline TileRecipe SomeTileRecipe() {
-  return {.cell = {-3, 4}, .points = {DigestOf("points"), DigestOf("more")}};
+  return {.cell = {-3, 4}, .piece = 2, .points = {DigestOf("points"), DigestOf("more")}};
 }
 
-inline DenseTile SomeDenseTile() { return {.cell = {-3, 4}, .points = SomeSurfacePoints()}; }
+inline DenseTile SomeDenseTile() {
+  return {.cell = {-3, 4}, .piece = 1, .points = SomeSurfacePoints()};
+}
 
 }  // namespace orbweave::testing

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/bench_command.h"
+
+#include "cli/bench_dense.h"
+#include "cli/bench_scaling.h"
+
+namespace orbweave {
+
+void AddBenchCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("bench", "Measure this program");
+  command->require_subcommand(1);
+  AddBenchScaling(*command, selected);
+  AddBenchDense(*command, selected);
+}
+
+}  // namespace orbweave
