@@ -133,6 +133,11 @@ absl::Status BenchDense(const DenseBenchArguments& arguments) {
   const std::string scratch = arguments.output + "/.scratch";
   const std::string cloud = scratch + "/cloud";
   std::string street = arguments.given_street;
+  if (std::filesystem::weakly_canonical(street).string().starts_with(
+          std::filesystem::weakly_canonical(scratch).string())) {
+    return absl::InvalidArgumentError(street + " lies where this command works and tidies up; " +
+                                      "move it, or name another --output");
+  }
   std::filesystem::remove_all(scratch);
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(scratch));
   if (street.empty()) {

@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-size_t SigmaBin(float sigma_m) {
-  const auto& bounds = DenseReport::kSigmaBounds_mm;
-  const auto above = std::ranges::upper_bound(bounds, 1000.0 * static_cast<double>(sigma_m));
+size_t SigmaBin(double sigma) {
+  const auto& bounds = DenseReport::kSigmaBounds;
+  const auto above = std::ranges::upper_bound(bounds, 1000.0 * sigma);
   return static_cast<size_t>(std::distance(bounds.begin(), above));
 }
 
@@ -38,7 +38,7 @@ TileReport Describe(const DenseTile& tile, std::string file) {
 void Count(const DenseTile& tile, DenseReport& report) {
   report.num_points += tile.points.size();
   for (const SurfacePoint& point : tile.points) {
-    ++report.by_sigma[SigmaBin(point.sigma_m)];
+    ++report.by_sigma[SigmaBin(point.sigma_m / report.sigma_unit)];
     ++report.by_views[std::min<size_t>(point.views, DenseReport::kViewBins - 1)];
   }
 }

@@ -14,8 +14,9 @@
 
 namespace orbweave {
 
-/// Writes a dense cloud into a folder, one tile after the other: tiles/X_Y.ply and cloud.las, in
-/// the UTM zone of `origin` where there is one; counts into a report, and looks at it from above.
+/// Writes a dense cloud into a folder, one tile after the other: tiles/X_Y.ply (X_Y_N.ply for piece
+/// N of a tile of very many points) and cloud.las, in the UTM zone of `origin` where there is one;
+/// counts into a report, and looks at it from above.
 class CloudWriter {
  public:
   /// `view`: which has seen nothing so far.
@@ -23,7 +24,7 @@ class CloudWriter {
               const std::optional<GeodeticPosition>& origin,
               TopView view);
 
-  /// Tiles ascending by cell. Codes of WriteFileAtomically.
+  /// Tiles ascending by cell and piece. Codes of WriteFileAtomically.
   [[nodiscard]] absl::Status Add(const DenseTile& tile, DenseReport& report);
   /// cloud.las takes its place; tiles of an earlier run that `report` does not name are removed.
   [[nodiscard]] absl::Status Finish(const DenseReport& report);

@@ -3,13 +3,14 @@
 #include "cli/dense_pictures.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/drawing/draw_depth_map.h"
 #include "core/drawing/draw_top_view.h"
 #include "core/io/file.h"
 #include "core/io/place_picture.h"
-#include "core/io/printable_text.h"
 #include "stages/check_depths/stage.h"
 #include "stages/dense_codecs.h"
 
@@ -25,16 +26,8 @@ Eigen::Vector3d MeanUp(const DensePlan& plan) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const DensePanorama& panorama : plan.panoramas)
     sum -= panorama.cam_from_model.rotation.conjugate() * Eigen::Vector3d::UnitY();
-  const double agreement = sum.norm() / static_cast<double>(plan.panoramas.size());
-  return agreement > 0.5 ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::UnitZ();
-}
-
-double MedianUnit(const DensePlan& plan) {
-  std::vector<double> units;
-  for (const DensePanorama& panorama : plan.panoramas) units.push_back(panorama.unit_m);
-  const auto middle = units.begin() + static_cast<ptrdiff_t>(units.size() / 2);
-  std::ranges::nth_element(units, middle);
-  return *middle;
+  const bool agree = sum.norm() > 0.5 * static_cast<double>(plan.panoramas.size());
+  return agree ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::UnitZ();
 }
 
 /// What an earlier run may have left.
@@ -58,10 +51,15 @@ std::vector<size_t> Choose(const DenseReport& report) {
 
 }  // namespace
 
+double MedianStep(const DensePlan& plan) {
+  std::vector<double> steps;
+  for (const DensePanorama& panorama : plan.panoramas) steps.push_back(panorama.unit_m);
+  return steps.empty() ? 1.0 : Quantile(std::move(steps), 0.5);
+}
+
 TopView ViewOfCloud(const DensePlan& plan, bool is_on_earth) {
-  if (plan.panoramas.empty()) return {Eigen::Vector3d::UnitZ(), 1.0, kMaxSide_px};
   return {is_on_earth ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : MeanUp(plan),
-          MedianUnit(plan) / kPixelsPerBaseline,
+          MedianStep(plan) / kPixelsPerBaseline,
           kMaxSide_px};
 }
 
@@ -98,14 +96,16 @@ absl::StatusOr<std::vector<DensePictures::Depth>> DrawDepthMaps(JobReader& job,
                                                                 BlobAccess& blobs) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> maps,
                             job.List(&CheckDepthsStage::Outputs::map));
+  if (maps.size() != plan.panoramas.size())
+    return absl::DataLossError("not one depth map for each panorama");
   std::vector<DensePictures::Depth> pictures;
   for (const size_t i : Choose(report)) {
     const PanoramaFile& file = plan.panoramas[i].file;
     const std::string name = manifest.At(file.image).name;
-    PictureImage image{.name = PrintableText(name), .camera = file.camera};
+    PictureImage image{.camera = file.camera};
     if (absl::StatusOr<std::string> bytes = blobs.Get(file.content); bytes.ok())
       image.encoded = *std::move(bytes);
-    ORBWEAVE_ASSIGN_OR_RETURN(const DepthMap map, job.Fetch<DepthMap>(maps.at(i)));
+    ORBWEAVE_ASSIGN_OR_RETURN(const DepthMap map, job.Fetch<DepthMap>(maps[i]));
     ORBWEAVE_ASSIGN_OR_RETURN(std::string jpeg,
                               DrawDepthMap(image, map, report.is_metric ? "m" : "units"));
     pictures.push_back({name, std::move(jpeg)});

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/artifacts/dense_records.h"
 #include "core/base/status.h"
@@ -15,8 +17,11 @@
 
 namespace orbweave {
 
+/// Of the panoramas' distances to their first sources, in units of the model; 1 without any.
+[[nodiscard]] double MedianStep(const DensePlan& plan);
+
 /// Looks at a cloud on earth with north to the top, at others along the mean of the panoramas'
-/// upright axes. Its first pixels are a sixty-fourth of the median distance of neighbours.
+/// upright axes. Its first pixels are a sixty-fourth of MedianStep.
 [[nodiscard]] TopView ViewOfCloud(const DensePlan& plan, bool is_on_earth);
 
 /// from_above.png in `folder`, with .pgw and .png.aux.xml in the UTM zone of `origin` where there

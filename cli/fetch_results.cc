@@ -8,6 +8,7 @@
 
 #include "core/partitioned_ba/adjust_subproblems.h"
 #include "core/report/build_job_report.h"
+#include "core/report/check_results.h"
 #include "stages/align_submodels/stage.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
@@ -49,6 +50,7 @@ absl::StatusOr<AdjustedModel> FetchModel(JobReader& job,
                                          const ImageManifest& manifest,
                                          ModelListener* listener) {
   AdjustedModel model{.images = ModelImages(world), .report = world.report};
+  ORBWEAVE_RETURN_IF_ERROR(CheckModel(model.images, manifest));
   ReconstructionMeter meter(model.images, manifest);
   const auto visit = [&](const Track& track) {
     meter.Add(track);
@@ -72,7 +74,11 @@ absl::StatusOr<ImageManifest> FetchManifest(BlobAccess& coordinator,
                                             const JobSpec& job,
                                             const std::vector<TaskOutcome>& outcomes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(job.kind));
-  return JobReader(plan, job, outcomes, coordinator).Read(&PartitionViewGraphStage::manifest);
+  JobReader reader(plan, job, outcomes, coordinator);
+  ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest,
+                            reader.Read(&PartitionViewGraphStage::manifest));
+  ORBWEAVE_RETURN_IF_ERROR(CheckManifest(manifest));
+  return manifest;
 }
 
 absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
@@ -83,12 +89,18 @@ absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
   JobReader reader(plan, job, outcomes, coordinator);
   JobResults results;
   ORBWEAVE_ASSIGN_OR_RETURN(results.manifest, reader.Read(&PartitionViewGraphStage::manifest));
+  ORBWEAVE_RETURN_IF_ERROR(CheckManifest(results.manifest));
   results.image_problems = ImageProblems(reader);
+  results.image_problems.resize(results.manifest.images.size());
   ORBWEAVE_ASSIGN_OR_RETURN(results.view_graph,
                             reader.Read(&PartitionViewGraphStage::Outputs::divided));
+  const Partition& partition = results.view_graph.partition;
+  ORBWEAVE_RETURN_IF_ERROR(CheckPartition(partition, results.manifest));
   ORBWEAVE_ASSIGN_OR_RETURN(results.clusters, FetchClusters(reader));
+  ORBWEAVE_RETURN_IF_ERROR(CheckClusters(results.clusters, partition, results.manifest));
   ORBWEAVE_ASSIGN_OR_RETURN(results.alignment,
                             reader.Read(&AlignSubmodelsStage::Outputs::alignment));
+  ORBWEAVE_RETURN_IF_ERROR(CheckAlignment(results.alignment, results.clusters));
   ORBWEAVE_ASSIGN_OR_RETURN(results.review, reader.Read(&ReviewSeamsStage::Outputs::review));
   ORBWEAVE_ASSIGN_OR_RETURN(const FinalisedModel model,
                             reader.Read(&ConcludeAdjustmentStage::Outputs::model));

@@ -9,6 +9,7 @@
 #include "core/io/file.h"
 #include "core/io/reference_poses.h"
 #include "stages/codecs.h"
+#include "stages/dense_codecs.h"
 #include "stages/job_reader.h"
 #include "stages/plan_depths/stage.h"
 #include "stages/plans.h"
@@ -35,10 +36,12 @@ absl::StatusOr<double> MegapixelsOf(ClientApi& coordinator, const JobStatus& job
                             coordinator.GetOutcomes(job.id));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(job.spec.kind));
   JobReader reader(plan, job.spec, outcomes, coordinator);
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, reader.Read(&PlanDepthsStage::manifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const DensePlan dense, reader.Read(&PlanDepthsStage::Outputs::plan));
   double pixels = 0.0;
-  for (const ImageRecord& image : manifest.images)
-    pixels += static_cast<double>(image.camera.width_px) * image.camera.height_px;
+  for (const DensePanorama& panorama : dense.panoramas) {
+    const EquirectangularCamera& camera = panorama.file.camera;
+    pixels += static_cast<double>(camera.width_px) * camera.height_px;
+  }
   return 1e-6 * pixels;
 }
 

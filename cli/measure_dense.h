@@ -18,7 +18,7 @@ struct DenseMeasurement {
   uint32_t workers = 0;
   double wall_s = 0.0;
   size_t panoramas = 0;
-  double megapixels = 0.0;  ///< of all panoramas together
+  double megapixels = 0.0;  ///< of these panoramas together
   uint64_t points = 0;
   Digest cloud{};  ///< of cloud.las
   std::vector<StageTotals> stages{};

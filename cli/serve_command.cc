@@ -3,6 +3,7 @@
 
 #include "cli/serve_command.h"
 
+#include <csignal>
 #include <memory>
 #include <string>
 #include <utility>
@@ -91,9 +92,12 @@ absl::Status Serve(const ServeOptions& options) {
            absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
   SleepUntilStopped(end.get_token());
   ORBWEAVE_RETURN_IF_ERROR(coordinator->health());  // workers stay, for the other coordinator
-  coordinator->BeginShutdown();
+  // An engine stops it to start it again, here or elsewhere; who presses Ctrl-C is done with it.
+  const bool is_over = signals.first() == SIGINT;
+  coordinator->BeginShutdown(is_over ? Farewell::kDismissWorkers : Farewell::kComeBack);
   log({.event = "coordinator_stops",
-       .message = "its jobs go on when it is started again on the same state"});
+       .message = absl::StrCat("its jobs go on when it is started again on the same state; ",
+                               is_over ? "its workers are sent home" : "its workers wait for it")});
   return absl::OkStatus();
 }
 

@@ -25,15 +25,22 @@ sigset_t StoppingSignals() {
 
 StopSignals::StopSignals() {
   const sigset_t signals = StoppingSignals();
-  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
   listener_ = std::jthread([this](const std::stop_token& end) {
     const sigset_t awaited = StoppingSignals();
     const timespec look{.tv_sec = 0, .tv_nsec = 100'000'000};
     while (!end.stop_requested()) {
-      if (::sigtimedwait(&awaited, nullptr, &look) < 0) continue;
+      const int signal = ::sigtimedwait(&awaited, nullptr, &look);
+      if (signal < 0) continue;
+      if (first_ == 0) first_ = signal;
       if (!source_.request_stop()) ::_exit(kExitInterrupted);
     }
   });
+}
+
+StopSignals::~StopSignals() {
+  listener_ = {};
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 }  // namespace orbweave

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <csignal>
 #include <stop_token>
 #include <thread>
 
@@ -15,10 +17,16 @@ class StopSignals {
   StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
+  /// Signals do again what they did.
+  ~StopSignals();
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+  /// Which of both came first; 0: none so far.
+  [[nodiscard]] int first() const { return first_; }
 
  private:
+  sigset_t before_{};
+  std::atomic<int> first_{0};
   std::stop_source source_;
   std::jthread listener_;
 };

@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "absl/strings/str_cat.h"
 #include "cli/cloud_writer.h"
 #include "cli/dense_pictures.h"
 #include "cli/report_stages.h"
 #include "core/io/file.h"
 #include "core/pipeline/build_version.h"
+#include "core/report/check_results.h"
 #include "core/report/dense_report_html.h"
 #include "core/report/dense_report_json.h"
 #include "stages/assemble_tile/stage.h"
@@ -27,29 +29,52 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<DepthMapReport> MapReports(const JobReader& job,
+/// What a part of check_depths says of its map, as far as it says anything.
+struct CheckedMap {
+  double coverage = 0.0;
+  std::string problem{};
+};
+
+CheckedMap ParseChecked(const std::string& text) {
+  CheckedMap map;
+  const auto report = nlohmann::json::parse(text, nullptr, false);
+  if (!report.is_object()) return map;
+  const auto coverage = report.find("coverage");
+  if (coverage != report.end() && coverage->is_number())
+    map.coverage = std::clamp(coverage->get<double>(), 0.0, 1.0);
+  const auto problem = report.find("problem");
+  if (problem != report.end() && problem->is_string()) map.problem = problem->get<std::string>();
+  return map;
+}
+
+/// Of each panorama of the plan. DataLoss: not as many.
+absl::StatusOr<std::vector<CheckedMap>> CheckedMaps(const JobReader& job, const DensePlan& plan) {
+  std::vector<CheckedMap> maps;
+  for (const std::string& text : job.Reports<CheckDepthsStage>())
+    maps.push_back(ParseChecked(text));
+  if (maps.size() == plan.panoramas.size()) return maps;
+  return absl::DataLossError(
+      absl::StrCat(maps.size(), " checked maps of ", plan.panoramas.size(), " panoramas"));
+}
+
+std::vector<DepthMapReport> MapReports(const std::vector<CheckedMap>& maps,
                                        const DensePlan& plan,
                                        const ImageManifest& manifest) {
-  std::vector<DepthMapReport> maps;
-  const std::vector<std::string> reports = job.Reports<CheckDepthsStage>();
-  for (size_t i = 0; i < reports.size() && i < plan.panoramas.size(); ++i) {
-    const auto report = nlohmann::json::parse(reports[i], nullptr, false);
-    maps.push_back({manifest.At(plan.panoramas[i].file.image).name, report.value("coverage", 0.0)});
-  }
-  return maps;
+  std::vector<DepthMapReport> rows;
+  for (size_t i = 0; i < maps.size(); ++i)
+    rows.push_back({manifest.At(plan.panoramas[i].file.image).name, maps[i].coverage});
+  return rows;
 }
 
 /// Panoramas without a checked depth, and why: what took no part in the job, what the plan leaves
 /// out, maps that came out empty.
-absl::StatusOr<std::vector<Exclusion>> FindOmitted(JobReader& job,
-                                                   const DensePlan& plan,
-                                                   const ImageManifest& manifest) {
+std::vector<Exclusion> FindOmitted(const std::vector<CheckedMap>& maps,
+                                   const DensePlan& plan,
+                                   const ImageManifest& manifest) {
   std::vector<DenseOmission> omitted = plan.omitted;
-  const std::vector<std::string> reports = job.Reports<CheckDepthsStage>();
-  for (size_t i = 0; i < reports.size() && i < plan.panoramas.size(); ++i) {
-    const auto report = nlohmann::json::parse(reports[i], nullptr, false);
-    const std::string problem = report.value("problem", "");
-    if (!problem.empty()) omitted.push_back({plan.panoramas[i].file.image, problem});
+  for (size_t i = 0; i < maps.size(); ++i) {
+    if (!maps[i].problem.empty())
+      omitted.push_back({plan.panoramas[i].file.image, maps[i].problem});
   }
   std::ranges::sort(omitted, {}, &DenseOmission::image);
   std::vector<Exclusion> named = manifest.excluded;
@@ -70,6 +95,9 @@ absl::StatusOr<DenseReport> WriteDense(ClientApi& coordinator,
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest, job.Read(&PlanDepthsStage::manifest));
   ORBWEAVE_ASSIGN_OR_RETURN(const FinalisedModel model, job.Read(&PlanDepthsStage::model));
   ORBWEAVE_ASSIGN_OR_RETURN(const DensePlan dense, job.Read(&PlanDepthsStage::Outputs::plan));
+  ORBWEAVE_RETURN_IF_ERROR(CheckManifest(manifest));
+  ORBWEAVE_RETURN_IF_ERROR(CheckDensePlan(dense, manifest));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<CheckedMap> maps, CheckedMaps(job, dense));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> tiles,
                             job.List(&AssembleTileStage::Outputs::tile));
   const fs::path path(folder);
@@ -79,16 +107,18 @@ absl::StatusOr<DenseReport> WriteDense(ClientApi& coordinator,
   DenseReport report{.title = status.spec.label,
                      .version = std::string(BuildVersion()),
                      .is_metric = is_on_earth,
-                     .maps = MapReports(job, dense, manifest),
+                     .maps = MapReports(maps, dense, manifest),
+                     .sigma_unit = is_on_earth ? 1.0 : MedianStep(dense),
+                     .omitted = FindOmitted(maps, dense, manifest),
                      .elapsed_s = status.elapsed_s,
                      .stages = ReportStages(status)};
   CloudWriter cloud(path, origin, ViewOfCloud(dense, is_on_earth));
   for (const Digest& digest : tiles) {
     ORBWEAVE_ASSIGN_OR_RETURN(const DenseTile tile, job.Fetch<DenseTile>(digest));
+    ORBWEAVE_RETURN_IF_ERROR(CheckTile(tile));
     ORBWEAVE_RETURN_IF_ERROR(cloud.Add(tile, report));
   }
   ORBWEAVE_RETURN_IF_ERROR(cloud.Finish(report));
-  ORBWEAVE_ASSIGN_OR_RETURN(report.omitted, FindOmitted(job, dense, manifest));
   const TopPicture from_above = cloud.FromAbove();
   DensePictures pictures{.pixel = from_above.pixel};
   ORBWEAVE_ASSIGN_OR_RETURN(pictures.from_above_png, WriteFromAbove(from_above, origin, path));

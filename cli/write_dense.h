@@ -10,7 +10,7 @@
 
 namespace orbweave {
 
-/// Writes what a finished dense job leaves into `folder`, one tile after the other: tiles/X_Y.ply,
+/// Writes what a finished dense job leaves into `folder`, one tile after the other: tiles/*.ply,
 /// cloud.las (in the UTM zone of the model's origin where it stands on earth), from_above.png,
 /// report.json and report.html. What an earlier run left and this one has not is removed. Codes of
 /// WriteFileAtomically.

@@ -70,7 +70,7 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
       matchmaker_(
           mutex_, dispatcher_, clock, [this](uint64_t session) { return CheckTaker(session); }) {}
 
-Coordinator::~Coordinator() { BeginShutdown(); }
+Coordinator::~Coordinator() { BeginShutdown(Farewell::kComeBack); }
 
 absl::StatusOr<JoinReply> Coordinator::Join(const WorkerInfo& worker) {
   ORBWEAVE_RETURN_IF_ERROR(CheckVersion(worker));
@@ -121,9 +121,10 @@ absl::Status Coordinator::health() {
   return health_;
 }
 
-void Coordinator::BeginShutdown() {
+void Coordinator::BeginShutdown(Farewell farewell) {
   const std::lock_guard lock(mutex_);
   stopping_ = true;
+  dismisses_ = dismisses_ || farewell == Farewell::kDismissWorkers;
   WakeAll();
 }
 

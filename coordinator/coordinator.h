@@ -42,6 +42,12 @@ struct CoordinatorOptions {
 /// Where a coordinator with this state folder keeps its blobs.
 [[nodiscard]] std::string BlobFolderOf(const std::string& state_dir);
 
+/// What a coordinator that shuts down tells its workers.
+enum class Farewell {
+  kDismissWorkers,  ///< to end
+  kComeBack,        ///< nothing: it, or another on its state, will be there again
+};
+
 /// The coordinator: gives tasks to workers that ask, takes each result once, and remembers jobs,
 /// leases and results. A lease is durable before it is handed out, a result before it is
 /// acknowledged. Opened again on the same state it goes on where it was: a task whose result and
@@ -101,8 +107,8 @@ class Coordinator final : public CoordinatorApi {
   /// Aborted once another coordinator has taken the journal over. Then this one gives and takes
   /// nothing any more: to workers and clients it is Unavailable, so that they look for the other.
   [[nodiscard]] absl::Status health();
-  /// Wakes every waiting call, gives no more tasks and tells workers to leave.
-  void BeginShutdown();
+  /// Wakes every waiting call and gives no more tasks.
+  void BeginShutdown(Farewell farewell = Farewell::kDismissWorkers);
 
  private:
   Coordinator(const CoordinatorOptions& options,
@@ -147,6 +153,7 @@ class Coordinator final : public CoordinatorApi {
   std::mutex mutex_;
   Dispatcher dispatcher_;
   bool stopping_ = false;
+  bool dismisses_ = false;
   absl::Status health_;
   JobService job_service_;
   Planner planner_;

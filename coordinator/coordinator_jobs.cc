@@ -5,10 +5,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/coordinator.h"
+#include "coordinator/job_limits.h"
 
 namespace orbweave {
 
 absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckSizeOf(spec));
   for (const Digest& input : spec.inputs) {
     if (blobs_.Use(input)) continue;
     return absl::NotFoundError(

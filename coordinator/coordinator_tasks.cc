@@ -86,7 +86,7 @@ absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
   ORBWEAVE_RETURN_IF_ERROR(CheckServing());
   ORBWEAVE_ASSIGN_OR_RETURN(HeartbeatReply reply,
                             dispatcher_.Heartbeat(session, leases, clock_.NowSeconds()));
-  reply.shutdown = reply.shutdown || stopping_;
+  reply.shutdown = reply.shutdown || dismisses_;
   return reply;
 }
 

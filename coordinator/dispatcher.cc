@@ -271,7 +271,16 @@ absl::Status Dispatcher::TaskFailed(uint64_t session,
 }
 
 void Dispatcher::StageBegins(const Digest& id, PreparedStage prepared, double now_s) {
-  JobMachine& machine = *jobs_.At(id).machine;
+  const Job& job = jobs_.At(id);
+  const bool is_found =
+      std::ranges::all_of(prepared.found, [](const auto& result) { return result.has_value(); });
+  if (job.had_ended && !is_found) {
+    return JobFails(id,
+                    "it had ended, but its results are those of another build, or gone; submit it "
+                    "again to have it computed",
+                    now_s);
+  }
+  JobMachine& machine = *job.machine;
   machine.StageBegins(std::move(prepared.tasks), std::move(prepared.found), now_s);
   if (machine.state() == JobState::kFailed) VoidLeases(id, "the job failed");
   for (LeaseEntry* entry : book_.AwaitingPlace(id)) {

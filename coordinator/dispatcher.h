@@ -102,7 +102,9 @@ class Dispatcher {
                                         double now_s);
   void ExpireLeases(double now_s);
 
-  /// The stage that was prepared begins; tasks whose leases were awaited go on under them.
+  /// The stage that was prepared begins; tasks whose leases were awaited go on under them. A job
+  /// that had ended before the coordinator was started, and whose results are not all found, fails:
+  /// nobody asked for it anew.
   void StageBegins(const Digest& id, PreparedStage prepared, double now_s);
   void JobFails(const Digest& id, const std::string& error, double now_s);
   /// How many results came of awaited leases before their stage was planned: a stage prepared

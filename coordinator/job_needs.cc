@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coordinator/prepare_stage.h"
+#include "core/pipeline/loop_guard.h"
 
 namespace orbweave {
 namespace {
@@ -54,8 +55,10 @@ absl::Status AddNeedsOf(const JobSpec& spec,
   needs.blobs.insert(spec.inputs.begin(), spec.inputs.end());
   needs.lists.insert(spec.inputs.begin(), spec.inputs.end());
   JobSnapshot snapshot{.spec = spec, .plan = plan};
+  LoopGuard loops;  // results of a loop that never ended are all there
   while (snapshot.stage < plan.stages.size()) {
     ORBWEAVE_ASSIGN_OR_RETURN(const StagePlan stage, PlanSnapshot(snapshot, blobs));
+    if (!loops.Enter(plan, snapshot.stage, stage.tasks).ok()) break;
     const std::vector<Digest> ids = AddStage(plan.stages[snapshot.stage], stage, needs);
     ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::optional<TaskResult>> found,
                               journal.LoadResults(ids));

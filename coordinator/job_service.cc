@@ -47,6 +47,7 @@ absl::Status JobService::ResumeJobs() {
     if (entry.state == JobState::kFailed) job.machine->JobFails(entry.error, now_s);
     if (entry.state == JobState::kCancelled) job.machine->JobIsCancelled(now_s);
     job.is_saved = entry.state != JobState::kRunning;
+    job.had_ended = job.is_saved;
   }
   return absl::OkStatus();
 }

@@ -20,6 +20,7 @@ struct Job {
   uint64_t since_epoch = 0;  ///< see JobEntry
   bool verify = true;        ///< see JobSnapshot
   bool is_saved = true;      ///< its end is in the journal
+  bool had_ended = false;    ///< before the coordinator was started; nobody asked for it since
   uint32_t reruns = 0;
   std::unique_ptr<JobMachine> machine{};
 

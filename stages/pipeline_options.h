@@ -11,6 +11,7 @@
 #include "core/dense/dense_options.h"
 #include "core/dense/fuse_pixels.h"
 #include "core/dense/select_sources.h"
+#include "core/dense/tile_options.h"
 #include "core/estimators/two_view_options.h"
 #include "core/features/extract_features.h"
 #include "core/features/match_options.h"
@@ -44,6 +45,7 @@ struct PipelineOptions {
   SourceOptions sources{};
   DenseOptions dense{};
   FuseOptions fusion{};
+  TileOptions tiles{};
 
   template <typename Self, typename Visitor>
   static void VisitSections(Self& self, Visitor&& visit) {
@@ -63,6 +65,7 @@ struct PipelineOptions {
     visit("sources", self.sources);
     visit("dense", self.dense);
     visit("fusion", self.fusion);
+    visit("tiles", self.tiles);
   }
 };
 

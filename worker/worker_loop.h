@@ -27,10 +27,10 @@ struct WorkerOptions {
 /// Works for the coordinator until `stop` or until it says to leave: asks for tasks, has them run
 /// by one executor per slot, hands in what came out, and beats. Then it takes no more tasks,
 /// finishes those that run, and leaves; what is not done within the grace after `stop` is given
-/// back, and so is all when the coordinator shuts down. Outlasts a coordinator that is away for a
-/// while. Returns OK after leaving; FailedPrecondition when the coordinator does not take this
-/// worker (another version), or the blob folder is not its; PermissionDenied or Unauthenticated
-/// when it refuses its certificate. `blobs`: those of the coordinator.
+/// back, and so is all when the coordinator dismisses its workers. Outlasts a coordinator that is
+/// away for a while. Returns OK after leaving; FailedPrecondition when the coordinator does not
+/// take this worker (another version), or the blob folder is not its; PermissionDenied or
+/// Unauthenticated when it refuses its certificate. `blobs`: those of the coordinator.
 [[nodiscard]] absl::Status RunWorker(WorkerApi& coordinator,
                                      BlobAccess& blobs,
                                      const MakeTaskExecutor& make_executor,

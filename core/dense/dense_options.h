@@ -29,7 +29,10 @@ struct DenseOptions {
           self.noise_levels,
           "contrast, in 8-bit levels, below which texture counts as noise",
           Range{0.1, 20});
-    visit("min_zncc", self.min_zncc, "correlation that a match has at least", Range{-1, 1});
+    visit("min_zncc",
+          self.min_zncc,
+          "correlation that a match has at least to stand alone",
+          Range{-1, 1});
     visit("max_sigma",
           self.max_sigma,
           "largest sigma of a range, as a share of the range",

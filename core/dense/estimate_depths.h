@@ -14,8 +14,8 @@ namespace orbweave {
 /// as Galliani et al., ICCV 2015), at a quarter, half and all of the width. At half of the width,
 /// pixels that match as well at infinity are given up, and those without texture may take a plane
 /// of their surroundings (FitPlanarPrior). What matches badly is left out, or flagged as of such a
-/// plane alone (MapOfPlanes); ranges have sigmas (FindMinimum). A pure function of its arguments,
-/// with the same bytes from every kernel.
+/// plane alone (MapOfPlanes); what patches carry over edges is trimmed (TrimEdges); ranges have
+/// sigmas (FindMinimum). A pure function of its arguments, with the same bytes from every kernel.
 ///
 /// Degenerate problems (images that do not fit together, no source, no baseline, a pose that is no
 /// number, nothing but ignored pixels) give an empty map that says why.

@@ -20,7 +20,6 @@ struct FuseOptions {
   double max_depth_sigmas = 3.0;
   double max_normal_angle_deg = 20.0;
   int min_maps = 1;
-  int max_tile_points = 4000000;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -44,10 +43,6 @@ struct FuseOptions {
           self.min_maps,
           "maps that must agree on a point, its own among them; 2 gives a cleaner cloud with holes",
           Range{1, 8});
-    visit("max_tile_points",
-          self.max_tile_points,
-          "a tile with more is cut into pieces, each with points of other panoramas",
-          Range{1000, 1e9});
   }
 };
 

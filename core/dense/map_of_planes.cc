@@ -3,6 +3,7 @@
 
 #include "core/dense/map_of_planes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/dense/equiangular_raster.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr int kApron = PlaneField::kApron_px;
 constexpr float kPriorSigmas = 1.4F;  // of a plane's pixels, that one without a match may be off
 constexpr float kSameSigmas = 2.0F;   // between which two are one surface
+constexpr float kHeardCost = 0.7F;    // a match that correlates at 0.3 may contradict a plane
 constexpr float kLeastSlant = 0.1F;   // cosine between a plane's normal and the ray
 
 DepthMap BlankMap(int face_px) {
@@ -38,6 +40,7 @@ class FaceWriter {
         prior_(prior),
         limits_(limits),
         largest_cost_(static_cast<float>(1.0 - options.min_zncc)),
+        heard_cost_(std::max(kHeardCost, largest_cost_)),
         largest_sigma_(static_cast<float>(options.max_sigma)),
         map_(map) {}
 
@@ -50,19 +53,16 @@ class FaceWriter {
     const size_t pixel = EquiangularRaster{map_.face_px}.Index(face_, row, column);
     const Found own = FoundByMatch(row, column, ray);
     const Found prior = FoundByPrior(row, column, ray);
-    if (!prior.exists) return Set(pixel, own, 0);
-    if (!own.exists) return Set(pixel, prior, kDepthPriorOnly);
-    const float off = own.range_m / prior.range_m - 1.0F;
-    const float variance = own.sigma * own.sigma + prior.sigma * prior.sigma;
-    if (off * off < kSameSigmas * kSameSigmas * variance) return Set(pixel, Mean(own, prior), 0);
-    if (TextureAt(row, column) < kWeakTexture) return Set(pixel, prior, kDepthPriorOnly);
-    Set(pixel, own, 0);
+    if (prior.exists && own.exists) return WriteOneOf(pixel, own, prior, TextureAt(row, column));
+    if (prior.exists) return Set(pixel, prior, kDepthPriorOnly);
+    if (own.is_sure) Set(pixel, own, 0);
   }
 
  private:
   /// A surface on a pixel's ray.
   struct Found {
     bool exists = false;
+    bool is_sure = false;  ///< else it is too weak to stand alone, but may contradict
     float range_m = 0.0F;
     float sigma = 0.0F;  ///< as a share of the range
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
@@ -70,9 +70,13 @@ class FaceWriter {
 
   Found FoundByMatch(int row, int column, const Eigen::Vector3f& ray) const {
     const size_t at = field_.AtPixel(face_, row + kApron, column + kApron);
-    if (!(field_.cost[at] < largest_cost_) || !(field_.sigma[at] < largest_sigma_)) return {};
+    if (!(field_.cost[at] < heard_cost_) || !(field_.sigma[at] < largest_sigma_)) return {};
     const Eigen::Vector3f q(field_.x[at], field_.y[at], field_.z[at]);
-    return {true, ray.norm() / q.dot(ray), field_.sigma[at], camera_from_face_ * q.normalized()};
+    return {true,
+            field_.cost[at] < largest_cost_,
+            ray.norm() / q.dot(ray),
+            field_.sigma[at],
+            camera_from_face_ * q.normalized()};
   }
 
   Found FoundByPrior(int row, int column, const Eigen::Vector3f& ray) const {
@@ -86,7 +90,17 @@ class FaceWriter {
     const float slant = normal.dot(in_cam.normalized());
     if (slant < kLeastSlant) return {};
     const float range_m = in_cam.norm() / plane.dot(in_cam);
-    return {true, range_m, kPriorSigmas * prior_.scatter_m[label] / (slant * range_m), normal};
+    return {
+        true, true, range_m, kPriorSigmas * prior_.scatter_m[label] / (slant * range_m), normal};
+  }
+
+  void WriteOneOf(size_t pixel, const Found& own, const Found& prior, float texture) {
+    const float off = own.range_m / prior.range_m - 1.0F;
+    const float variance = own.sigma * own.sigma + prior.sigma * prior.sigma;
+    const bool agree = off * off < kSameSigmas * kSameSigmas * variance;
+    if (agree && own.is_sure) return Set(pixel, Mean(own, prior), 0);
+    if (agree || texture < kWeakTexture) return Set(pixel, prior, kDepthPriorOnly);
+    if (own.is_sure) Set(pixel, own, 0);
   }
 
   float TextureAt(int row, int column) const {
@@ -100,6 +114,7 @@ class FaceWriter {
     const float weight_b = 1.0F / (b.sigma * b.sigma);
     const float weights = weight_a + weight_b;
     return {true,
+            true,
             (weight_a * a.range_m + weight_b * b.range_m) / weights,
             1.0F / std::sqrt(weights),
             weight_a > weight_b ? a.normal : b.normal};
@@ -118,6 +133,7 @@ class FaceWriter {
   const PlanarPrior& prior_;
   RangeLimits limits_;
   float largest_cost_;
+  float heard_cost_;
   float largest_sigma_;
   DepthMap& map_;
   int face_ = 0;

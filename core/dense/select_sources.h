@@ -28,7 +28,7 @@ struct SourceOptions {
     visit("max_sources",
           self.max_sources,
           "panoramas that one is compared with at most",
-          Range{1, kMaxDepthSources});
+          Range{1, 32});
     visit("min_angle_deg",
           self.min_angle_deg,
           "rays that meet at less tell no depth",

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/status.h"
+
 namespace orbweave {
 namespace {
 
@@ -25,7 +27,9 @@ TopView::TopView(const Eigen::Vector3d& up, double pixel, int max_side_px)
       ahead_(up.cross(right_)),
       up_(up),
       pixel_(pixel),
-      max_side_px_(max_side_px) {}
+      max_side_px_(max_side_px) {
+  ORBWEAVE_CHECK(pixel > 0.0 && max_side_px >= 2);
+}
 
 TopView::Extent TopView::Union(const Extent& a, const Extent& b) {
   if (a.IsEmpty()) return b;
@@ -90,11 +94,13 @@ void TopView::Add(std::span<const SurfacePoint> points) {
     ++shift;
   }
   used_ = wanted;
-  const Extent held = Union(shift == 0 ? held_ : Extent{}, used_);
-  const bool grows = held.Width() > held_.Width() || held.Height() > held_.Height();
-  if (shift > 0 || grows) {
-    const int64_t slack = std::max(held.Width(), held.Height()) / 8;
-    Rebuild({held.left - slack, held.right + slack, held.low - slack, held.high + slack}, shift);
+  const bool fits = !held_.IsEmpty() && held_.left <= used_.left && held_.right >= used_.right &&
+                    held_.low <= used_.low && held_.high >= used_.high;
+  if (shift > 0 || !fits) {
+    const int64_t across = used_.Width() / 8;
+    const int64_t along = used_.Height() / 8;
+    Rebuild({used_.left - across, used_.right + across, used_.low - along, used_.high + along},
+            shift);
   }
   for (const SurfacePoint& point : points) {
     Show(PixelOf(point, right_),

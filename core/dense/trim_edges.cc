@@ -11,8 +11,8 @@
 namespace orbweave {
 namespace {
 
-constexpr int kBeyond_px = 3;  // that half a patch reaches over an edge
-constexpr int kAround_px = 6;  // where both sides are looked at: twice as far
+constexpr int kBeyond_px = 3;  // that patches are led over an edge
+constexpr int kAround_px = 6;  // where both sides are looked at: twice as far; within the apron
 constexpr float kJump = 0.05F;
 constexpr float kLeastScatter = 2.0F;  // levels
 constexpr int kLeastPixels = 8;        // of each side, to speak of a mean
@@ -51,9 +51,15 @@ class Face {
         size_(map.face_px),
         levels_(raster.levels[static_cast<size_t>(face)]),
         ignored_(raster.ignored[static_cast<size_t>(face)]),
-        range_m_(map.range_m.data() + EquiangularRaster{map.face_px}.Index(face, 0, 0)) {}
+        map_(map) {}
 
-  [[nodiscard]] float RangeAt(int row, int column) const { return range_m_[row * size_ + column]; }
+  /// Beyond the face's edges what other faces have there.
+  [[nodiscard]] float RangeAt(int row, int column) const {
+    const EquiangularRaster raster{size_};
+    if (IsWithin(row) && IsWithin(column)) return map_.range_m[raster.Index(face_, row, column)];
+    const Eigen::Vector3d bearing = raster.BearingFromPixel(face_, row + 0.5, column + 0.5);
+    return map_.range_m[raster.Index(raster.PixelFromBearing(bearing))];
+  }
 
   [[nodiscard]] bool IsCarriedOver(int row, int column) const {
     const float range = RangeAt(row, column);
@@ -82,6 +88,7 @@ class Face {
  private:
   enum class Side { kSurface, kBehind, kOther };
 
+  [[nodiscard]] bool IsWithin(int place) const { return place >= 0 && place < size_; }
   [[nodiscard]] size_t InRaster(int row, int column) const {
     return static_cast<size_t>((row + ReferenceRaster::kApron_px) * raster_.Stride() + column +
                                ReferenceRaster::kApron_px);
@@ -97,6 +104,8 @@ class Face {
 
   [[nodiscard]] bool IsSure(int row, int column) const {
     constexpr int kApron = PlaneField::kApron_px;
+    const size_t pixel = EquiangularRaster{size_}.Index(face_, row, column);
+    if ((map_.flags[pixel] & kDepthPriorOnly) != 0) return false;
     return field_.cost[field_.AtPixel(face_, row + kApron, column + kApron)] < kSureCost;
   }
 
@@ -107,9 +116,8 @@ class Face {
 
   template <typename Look>
   void ForEachAround(int row, int column, int reach, Look&& look) const {
-    for (int r = std::max(0, row - reach); r <= std::min(size_ - 1, row + reach); ++r) {
-      for (int c = std::max(0, column - reach); c <= std::min(size_ - 1, column + reach); ++c)
-        look(r, c);
+    for (int r = row - reach; r <= row + reach; ++r) {
+      for (int c = column - reach; c <= column + reach; ++c) look(r, c);
     }
   }
 
@@ -127,7 +135,7 @@ class Face {
   int size_;
   const std::vector<uint8_t>& levels_;
   const std::vector<uint8_t>& ignored_;
-  const float* range_m_;
+  const DepthMap& map_;
 };
 
 }  // namespace

@@ -17,13 +17,13 @@ struct ChartBar {
 /// A label below the boundary before bar `bar` (or below its middle, at bar + 0.5).
 struct ChartTick {
   double bar = 0.0;
-  std::string text{};
+  std::string text{};  ///< HTML
 };
 
 /// A dashed line from top to bottom, named.
 struct ChartMark {
   double bar = 0.0;
-  std::string text{};
+  std::string text{};  ///< HTML
 };
 
 inline constexpr double kHalfChart = 520.0;

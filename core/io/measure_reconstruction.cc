@@ -44,7 +44,8 @@ void ReconstructionMeter::Add(const Track& track) {
     const double residual_px =
         manifest_.At(id).camera.PixelsFromAngle(AngleBetween(observation.bearing, ray_in_cam));
     const double bin = std::floor(residual_px / histogram.bin_width);
-    ++histogram.counts[static_cast<size_t>(std::min(bin, kResidualBins - 1.0))];
+    const bool is_within = bin < kResidualBins - 1.0;  // not so where it is no number
+    ++histogram.counts[is_within ? static_cast<size_t>(bin) : kResidualBins - 1];
     sum_px_ += residual_px;
     sum_px2_ += residual_px * residual_px;
     sum_erp_px_ += ErpDistance(manifest_.At(id).camera, observation.bearing, ray_in_cam);

@@ -19,7 +19,7 @@ struct PicturePlace {
 
 /// A world file (.pgw beside .png): the affine map from column and row of pixel middles to easting
 /// and northing, six numbers in six lines. It agrees with the zone at three corners of the picture;
-/// between them UTM bends by less than a millimetre over a kilometre.
+/// between them UTM bends by less than a centimetre over a kilometre.
 [[nodiscard]] std::string WorldFileText(const PicturePlace& place, const UtmFrame& utm);
 
 /// What GDAL and QGIS read beside a picture as NAME.aux.xml to know its frame.

@@ -92,7 +92,8 @@ struct JobStatus {
 class JobApi {
  public:
   virtual ~JobApi() = default;
-  /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind. NotFound: an input blob is
+  /// Starts (or joins, or resumes) a job. InvalidArgument: unknown kind, or a
+  /// description too long. NotFound: an input blob is
   /// missing. ResourceExhausted: too many jobs are running.
   [[nodiscard]] virtual absl::StatusOr<Digest> SubmitJob(const JobSpec& job) = 0;
   /// NotFound: no such job.

@@ -24,7 +24,7 @@ absl::Status LoopGuard::Enter(const JobPlan& plan,
                               std::span<const TaskSpec> tasks) {
   const std::string& name = plan.stages[stage].stage;
   const auto last = std::ranges::find(plan.stages, name, &StageRule::back_to);
-  if (last == plan.stages.end() || tasks.empty()) return absl::OkStatus();
+  if (last == plan.stages.end()) return absl::OkStatus();
   std::set<Digest>& rounds = rounds_[stage];
   const bool is_new = rounds.insert(DigestOfTasks(tasks)).second;
   const std::string loop = absl::StrCat("the loop from ", name, " to ", last->stage);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -29,9 +30,9 @@ struct DepthMapReport {
 
 /// A dense cloud in numbers.
 struct DenseReport {
-  /// Upper ends of all bins but the last; where lengths are no metres, thousandths of their unit.
-  static constexpr std::array<int, 7> kSigmaBounds_mm = {1, 2, 4, 8, 16, 32, 64};
-  static constexpr size_t kSigmaBins = kSigmaBounds_mm.size() + 1;
+  /// Upper ends of all bins but the last, in thousandths of `sigma_unit`.
+  static constexpr std::array<int, 7> kSigmaBounds = {1, 2, 4, 8, 16, 32, 64};
+  static constexpr size_t kSigmaBins = kSigmaBounds.size() + 1;
   static constexpr size_t kViewBins = 9;  ///< borne out by 0 ... 7 panoramas, and by 8 or more
 
   std::string title{};
@@ -39,6 +40,7 @@ struct DenseReport {
   bool is_metric = true;  ///< lengths are metres, not units of a free frame
   uint64_t num_points = 0;
   std::vector<DepthMapReport> maps{};  ///< of all panoramas that took part, in the job's order
+  double sigma_unit = 1.0;  ///< a metre; in a free frame the median distance of neighbours
   std::array<uint64_t, kSigmaBins> by_sigma{};
   std::array<uint64_t, kViewBins> by_views{};
   std::vector<TileReport>

@@ -3,7 +3,6 @@
 #include "core/report/dense_report_html.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "absl/strings/escaping.h"
@@ -21,7 +20,7 @@ constexpr size_t kMaxCoverageBars = 450;
 
 const char* UnitOf(const DenseReport& report) { return report.is_metric ? "m" : "units"; }
 const char* SmallUnitOf(const DenseReport& report) {
-  return report.is_metric ? "mm" : "thousandths of a unit";
+  return report.is_metric ? "mm" : "thousandths of the step between panoramas";
 }
 
 std::string PercentText(double share) { return DecimalText(100.0 * share, 0); }
@@ -112,7 +111,7 @@ ChartBar BarOf(uint64_t count, const std::string& what, const DenseReport& repor
 std::string SigmaChart(const DenseReport& report) {
   std::vector<ChartBar> bars;
   std::vector<ChartTick> ticks;
-  const auto& bounds = DenseReport::kSigmaBounds_mm;
+  const auto& bounds = DenseReport::kSigmaBounds;
   for (size_t i = 0; i < report.by_sigma.size(); ++i) {
     const std::string what = i < bounds.size() ? absl::StrCat("below ", bounds[i], " ")
                                                : absl::StrCat(bounds.back(), " and more ");

@@ -7,9 +7,9 @@
 
 namespace orbweave {
 
-/// Points of a tile, by panorama -> the tile.
+/// Points of a tile, or of a piece of one, by panorama -> the tile.
 struct AssembleTileStage {
-  static constexpr StageFacts kFacts{.name = "assemble_tile", .version = "1", .weight = 2.0};
+  static constexpr StageFacts kFacts{.name = "assemble_tile", .version = "2", .weight = 2.0};
   using Options = OptionSections<>;
 
   Parts<TileRecipe> recipe;

@@ -13,7 +13,7 @@ namespace orbweave {
 
 absl::Status ListTilesStage::Run(StageTask<ListTilesStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> runs, task.Read(&ListTilesStage::runs));
-  TilePlanner planner(static_cast<uint64_t>(task.options<FuseOptions>().max_tile_points));
+  TilePlanner planner(static_cast<uint64_t>(task.options<TileOptions>().max_points));
   for (const Digest& digest : runs) {
     ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
     ORBWEAVE_ASSIGN_OR_RETURN(const TileRuns of_panorama, task.Fetch<TileRuns>(digest));

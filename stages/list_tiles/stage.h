@@ -3,16 +3,17 @@
 #pragma once
 
 #include "core/artifacts/dense_records.h"
-#include "core/dense/fuse_pixels.h"
+#include "core/dense/tile_options.h"
 #include "stages/stage.h"
 
 namespace orbweave {
 
-/// What each panorama has in which tile -> the tiles. A tile of more than max_tile_points is cut
-/// into pieces, each of whole panoramas, so that what assembles one needs no more memory than that.
+/// What each panorama has in which tile -> the tiles. A tile of more than max_points is cut
+/// into pieces, each of whole panoramas, so that what assembles one needs memory for so many, or
+/// for those of one panorama.
 struct ListTilesStage {
-  static constexpr StageFacts kFacts{.name = "list_tiles", .version = "1", .weight = 0.1};
-  using Options = OptionSections<FuseOptions>;
+  static constexpr StageFacts kFacts{.name = "list_tiles", .version = "2", .weight = 0.1};
+  using Options = OptionSections<TileOptions>;
 
   EachPart<TileRuns> runs;
 

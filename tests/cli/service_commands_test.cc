@@ -108,6 +108,22 @@ TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
   EXPECT_THAT(testing::ReadAll(folder_ / "state/logs/coordinator.log"), HasSubstr("worker_left"));
 }
 
+TEST_F(ServiceCommands, AWorkerWaitsForACoordinatorThatAnEngineStopped) {
+  Command worker(Orbweave({"work", "--join", address_, "--name", "w"}));
+  const auto joined = [](const Command& serve) {
+    return WaitUntil([&] { return serve.ErrSoFar().find("worker_joined") != std::string::npos; },
+                     60.0);
+  };
+  ASSERT_TRUE(joined(serve_)) << worker.ErrSoFar();
+  serve_.Signal(SIGTERM);
+  EXPECT_EQ(serve_.Wait().exit_code, kExitOk);
+  Command again(Orbweave({"serve", "--listen", address_, "--state", folder_ / "state"}));
+  EXPECT_TRUE(joined(again)) << worker.ErrSoFar();
+  again.Signal(SIGINT);
+  EXPECT_EQ(again.Wait().exit_code, kExitOk);
+  EXPECT_EQ(worker.Wait().exit_code, kExitOk) << "sent home";
+}
+
 TEST(WorkCommand, SaysSoWhileItsCoordinatorIsAwayAndWaitsNoLongerThanItIsToldTo) {
   const TemporaryFolder folder;
   Command worker(Orbweave({"work", "--join", "unix:" + (folder / "nobody"), "--grace", "1000000"}));

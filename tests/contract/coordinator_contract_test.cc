@@ -293,6 +293,18 @@ TEST_P(CoordinatorContract, RefusesAJobOfUnknownKindOrWithoutItsInput) {
       Api().SubmitJob({.kind = "toy", .inputs = {DigestOf("never put")}}).status()));
 }
 
+TEST_P(CoordinatorContract, RefusesAJobWhoseDescriptionWouldFillTheListOfAll) {
+  const JobSpec job = *PrepareToyJob(Api(), "1");
+  JobSpec labelled = job;
+  labelled.label = std::string(4'500'000, 'a');
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().SubmitJob(labelled).status()));
+  JobSpec optioned = job;
+  optioned.options_text = "toy.slow=false\n" + std::string(100'000, '\n');
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().SubmitJob(optioned).status()));
+  EXPECT_TRUE(Api().ListJobs()->empty());
+  EXPECT_TRUE(Api().SubmitJob(job).ok());
+}
+
 TEST_P(CoordinatorContract, WaitsForWorkNoLongerThanAsked) {
   const uint64_t session = Api().Join(Worker("w"))->session;
   const double start_s = clock_.NowSeconds();

@@ -376,6 +376,13 @@ TEST_F(CoordinatorTest, ShutdownWakesWaitingCallsAndTellsWorkersToLeave) {
   EXPECT_TRUE(coordinator_->Heartbeat(session, {})->shutdown);
 }
 
+TEST_F(CoordinatorTest, WhoWillComeBackGivesNoTasksAndSendsNobodyHome) {
+  const uint64_t session = Join("w");
+  std::jthread end([this] { coordinator_->BeginShutdown(Farewell::kComeBack); });
+  EXPECT_TRUE(absl::IsUnavailable(coordinator_->LeaseTask(session, 0, 60.0).status()));
+  EXPECT_FALSE(coordinator_->Heartbeat(session, {})->shutdown);
+}
+
 TEST_F(CoordinatorTest, ACallThatWaitsDoesNotKeepASilentWorkerAlive) {
   const uint64_t silent = Join("silent");
   auto waiting = std::async(std::launch::async,

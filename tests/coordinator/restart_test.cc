@@ -113,7 +113,7 @@ class RestartTest : public ::testing::Test {
   void Restart(bool leases_survive = true) {
     coordinator_.reset();
     CoordinatorOptions options{
-        .state_dir = folder_.Path(), .leases_survive = leases_survive, .find_plan = FindToyPlan};
+        .state_dir = folder_.Path(), .leases_survive = leases_survive, .find_plan = find_plan_};
     options.lost = [this] { was_told_ = true; };
     options.open_journal =
         [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
@@ -166,6 +166,7 @@ class RestartTest : public ::testing::Test {
 
   FailingJournal::Switch fails_;
   TemporaryFolder folder_;
+  PlanLookup find_plan_ = FindToyPlan;
   ManualClock clock_;
   testing::StageMap stages_ = ToyStages();
   std::atomic<bool> was_told_{false};
@@ -186,6 +187,34 @@ TEST_F(RestartTest, WhoLostTheJournalGivesAndTakesNothingMore) {
   fails_.is_lost = false;
   Restart();
   EXPECT_TRUE(Do(Join("w", {Held(lease)}), lease).ok()) << "as the other would";
+}
+
+absl::StatusOr<JobPlan> FindPlanOfANewerBuild(std::string_view kind) {
+  ORBWEAVE_ASSIGN_OR_RETURN(JobPlan plan, FindToyPlan(kind));
+  for (StageRule& rule : plan.stages) rule.version += "+";
+  return plan;
+}
+
+TEST_F(RestartTest, AFinishedJobIsNotComputedAgainByANewerBuildUntilSomebodyAsks) {
+  const Digest job = Submit("3");
+  uint64_t session = Join("w");
+  while (coordinator_->GetJob(job)->state == JobState::kRunning) {
+    const auto lease = coordinator_->LeaseTask(session, 0, 0.2);
+    ASSERT_TRUE(lease.ok());
+    if (!lease->has_value()) continue;
+    ASSERT_TRUE(Do(session, **lease).ok());
+  }
+  ASSERT_EQ(coordinator_->GetJob(job)->state, JobState::kDone);
+  find_plan_ = FindPlanOfANewerBuild;
+  Restart();
+  session = Join("w");
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator_->GetJob(job)->state == JobState::kFailed; }, 20.0));
+  EXPECT_NE(coordinator_->GetJob(job)->error.find("submit it again"), std::string::npos);
+  EXPECT_TRUE(GetsNothing(session));
+  EXPECT_EQ(Submit("3"), job);
+  EXPECT_TRUE(Do(session, MustLease(session)).ok());
+  find_plan_ = FindToyPlan;
 }
 
 TEST_F(RestartTest, AHolderThatComesBackGoesOnAndHandsItsResultIn) {

@@ -100,13 +100,17 @@ TEST_F(DenseTest, CutsTilesIntoPiecesWithTheSamePoints) {
   const std::string copy = *folder_ / "pieces";
   fs::copy(*folder_ / "model", copy, fs::copy_options::recursive);
   const CommandOutcome dense =
-      Orbweave({"dense", copy, "--set", "fusion.max_tile_points=5000", "--workers", "2"});
+      Orbweave({"dense", copy, "--set", "tiles.max_points=5000", "--workers", "2"});
   ASSERT_EQ(dense.exit_code, 0) << dense.err;
   const nlohmann::json whole = DenseReportOf(*folder_ / "model/dense");
   const nlohmann::json cut = DenseReportOf(copy + "/dense");
   EXPECT_EQ(cut["points"], whole["points"]);
   EXPECT_EQ(cut["points_by_sigma"], whole["points_by_sigma"]);
   EXPECT_GT(cut["tiles"].size(), whole["tiles"].size());
+  for (const auto& stage : cut["stages"]) {
+    if (stage["name"] != "fuse_panorama") continue;
+    EXPECT_EQ(stage["tasks_computed"], 0);
+  }
   EXPECT_EQ(ReadAll(copy + "/dense/from_above.png"),
             ReadAll(*folder_ / "model/dense/from_above.png"));
 }

@@ -38,6 +38,7 @@ struct Scene {
     }
     for (size_t k = 0; k < EquiangularRaster{kSize}.NumPixels(); ++k)
       map.range_m.push_back(static_cast<int>(k % kSize) < kEdge + kCarried ? 5.0F : behind_m);
+    map.flags.assign(map.range_m.size(), 0);
   }
 
   void SetCosts(float cost) { std::ranges::fill(field.cost, cost); }

@@ -34,7 +34,7 @@ TEST(DenseReport, KeepsNumbersInItsJson) {
   EXPECT_EQ(json["panoramas"], 3);
   EXPECT_DOUBLE_EQ(json["coverage"], 0.25);
   EXPECT_DOUBLE_EQ(json["cpu_s"], 6.0);
-  EXPECT_EQ(json["sigma_mm_below"].size() + 1, json["points_by_sigma"].size());
+  EXPECT_EQ(json["sigma_below_thousandths"].size() + 1, json["points_by_sigma"].size());
   EXPECT_EQ(json["without_depth"][0]["reason"], "all <sky>");
 }
 
