@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/coordinator.h"
+#include "core/pipeline/is_to_leave.h"
 
 namespace orbweave {
 namespace {
@@ -30,7 +31,7 @@ absl::Status Coordinator::CheckTaker(uint64_t session) {
   if (stopping_) return absl::UnavailableError("the coordinator is shutting down");
   ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Check(session));
   if (!dispatcher_.roster().IsDraining(session)) return absl::OkStatus();
-  return absl::CancelledError("the worker is to leave");
+  return absl::CancelledError(kIsToLeave);
 }
 
 absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,

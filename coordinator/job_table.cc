@@ -16,6 +16,7 @@ Job& JobTable::Begin(
   job.number = number;
   job.run = ++last_run_;
   job.is_saved = false;
+  job.had_ended = false;
   job.machine = std::make_unique<JobMachine>(spec, std::move(plan), retry, now_s);
   return job;
 }

@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/sleep.h"
 #include "core/pipeline/build_version.h"
+#include "core/pipeline/is_to_leave.h"
 #include "worker/blob_cache.h"
 #include "worker/held_leases.h"
 #include "worker/retry.h"
@@ -164,7 +165,7 @@ class Worker {
         if (*lease) Work(**lease, slot);
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
-      } else if (absl::IsCancelled(lease.status())) {
+      } else if (IsToLeave(lease.status())) {
         draining_.request_stop();
       } else if (IsRefusal(lease.status())) {
         End(lease.status());

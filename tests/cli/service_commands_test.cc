@@ -117,7 +117,8 @@ TEST_F(ServiceCommands, AWorkerWaitsForACoordinatorThatAnEngineStopped) {
   ASSERT_TRUE(joined(serve_)) << worker.ErrSoFar();
   serve_.Signal(SIGTERM);
   EXPECT_EQ(serve_.Wait().exit_code, kExitOk);
-  Command again(Orbweave({"serve", "--listen", address_, "--state", folder_ / "state"}));
+  Command again(
+      Orbweave({"serve", "--listen", address_, "--state", folder_ / "state", "--lease", "10"}));
   EXPECT_TRUE(joined(again)) << worker.ErrSoFar();
   again.Signal(SIGINT);
   EXPECT_EQ(again.Wait().exit_code, kExitOk);

@@ -199,7 +199,7 @@ TEST_F(RestartTest, AFinishedJobIsNotComputedAgainByANewerBuildUntilSomebodyAsks
   const Digest job = Submit("3");
   uint64_t session = Join("w");
   while (coordinator_->GetJob(job)->state == JobState::kRunning) {
-    const auto lease = coordinator_->LeaseTask(session, 0, 0.2);
+    const auto lease = coordinator_->LeaseTask(session, 0, 0.0);
     ASSERT_TRUE(lease.ok());
     if (!lease->has_value()) continue;
     ASSERT_TRUE(Do(session, **lease).ok());
