@@ -3,6 +3,7 @@
 
 #include "cli/serve_command.h"
 
+#include <algorithm>
 #include <csignal>
 #include <memory>
 #include <string>
@@ -66,6 +67,17 @@ absl::StatusOr<std::unique_ptr<MetricsServer>> ServeMetrics(Coordinator& coordin
   return server;
 }
 
+/// Waits until all workers have gone, or had the time of two heartbeats to hear that they may.
+void SeeWorkersOff(Coordinator& coordinator, double lease_s) {
+  constexpr double kLook_s = 0.05;
+  constexpr double kLongest_s = 10.0;
+  const auto is_alive = [](const WorkerStatus& worker) { return worker.alive; };
+  for (double left_s = std::min(kLongest_s, 0.2 * lease_s); left_s > 0.0; left_s -= kLook_s) {
+    if (std::ranges::none_of(coordinator.ListWorkers(), is_alive)) return;
+    SleepUnlessStopped(kLook_s, {});
+  }
+}
+
 absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
   std::stop_source end;  // a signal, or the journal was lost
@@ -98,6 +110,7 @@ absl::Status Serve(const ServeOptions& options) {
   log({.event = "coordinator_stops",
        .message = absl::StrCat("its jobs go on when it is started again on the same state; ",
                                is_over ? "its workers are sent home" : "its workers wait for it")});
+  if (is_over) SeeWorkersOff(*coordinator, options.coordinator.lease_s);
   return absl::OkStatus();
 }
 

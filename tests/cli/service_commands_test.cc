@@ -120,8 +120,9 @@ TEST_F(ServiceCommands, AWorkerWaitsForACoordinatorThatAnEngineStopped) {
   Command again(
       Orbweave({"serve", "--listen", address_, "--state", folder_ / "state", "--lease", "10"}));
   EXPECT_TRUE(joined(again)) << worker.ErrSoFar();
-  worker.Signal(SIGTERM);
-  EXPECT_EQ(worker.Wait().exit_code, kExitOk);
+  again.Signal(SIGINT);
+  EXPECT_EQ(again.Wait().exit_code, kExitOk);
+  EXPECT_EQ(worker.Wait().exit_code, kExitOk) << "sent home";
 }
 
 TEST(WorkCommand, SaysSoWhileItsCoordinatorIsAwayAndWaitsNoLongerThanItIsToldTo) {
