@@ -66,19 +66,14 @@ class Face {
     if (!(range > 0.0F) || !HasBehind(row, column, range)) return false;
     Levels surface;
     Levels behind;
-    ForEachAround(row, column, kAround_px, [&](int r, int c) {
-      if (r == row && c == column) return;
-      switch (SideOf(r, c, range)) {
-        case Side::kSurface:
-          surface.Add(LevelAt(r, c));
-          break;
-        case Side::kBehind:
-          behind.Add(LevelAt(r, c));
-          break;
-        case Side::kOther:
-          break;
+    for (int r = row - kAround_px; r <= row + kAround_px; ++r) {
+      for (int c = column - kAround_px; c <= column + kAround_px; ++c) {
+        if (r == row && c == column) continue;
+        const Side side = SideOf(r, c, range);
+        if (side == Side::kSurface) surface.Add(LevelAt(r, c));
+        if (side == Side::kBehind) behind.Add(LevelAt(r, c));
       }
-    });
+    }
     if (surface.count < kLeastPixels || behind.count < kLeastPixels) return false;
     if (IsSure(row, column) && !AreToldApart(surface, behind)) return false;
     const int level = LevelAt(row, column);
@@ -114,19 +109,13 @@ class Face {
     return contrast * contrast > a.Variance() + b.Variance();
   }
 
-  template <typename Look>
-  void ForEachAround(int row, int column, int reach, Look&& look) const {
-    for (int r = row - reach; r <= row + reach; ++r) {
-      for (int c = column - reach; c <= column + reach; ++c) look(r, c);
-    }
-  }
-
   [[nodiscard]] bool HasBehind(int row, int column, float range) const {
-    bool has = false;
-    ForEachAround(row, column, kBeyond_px, [&](int r, int c) {
-      has = has || SideOf(r, c, range) == Side::kBehind;
-    });
-    return has;
+    for (int r = row - kBeyond_px; r <= row + kBeyond_px; ++r) {
+      for (int c = column - kBeyond_px; c <= column + kBeyond_px; ++c) {
+        if (SideOf(r, c, range) == Side::kBehind) return true;
+      }
+    }
+    return false;
   }
 
   const ReferenceRaster& raster_;

@@ -28,6 +28,18 @@ std::string Section(const std::string& heading,
       "<section><h2>", heading, "</h2><p class=\"sub\">", subtitle, "</p>", body, "</section>\n");
 }
 
+std::string PageHead(const std::string& title,
+                     const std::string& version,
+                     const std::string& line) {
+  return absl::StrCat("<header><h1>",
+                      EscapeHtml(title),
+                      "</h1><p>Orbweave ",
+                      EscapeHtml(version),
+                      " · ",
+                      line,
+                      "</p></header>\n");
+}
+
 std::string Card(const std::string& number, const std::string& unit, const std::string& what) {
   return absl::StrCat("<div class=\"card\"><b>",
                       number,
@@ -35,6 +47,11 @@ std::string Card(const std::string& number, const std::string& unit, const std::
                       "</b><span>",
                       what,
                       "</span></div>");
+}
+
+std::string CountCard(uint64_t count, const std::string& what) {
+  if (count < 10'000'000) return Card(CountText(count), "", what);
+  return Card(DecimalText(1e-6 * static_cast<double>(count), 1), "million", what);
 }
 
 }  // namespace orbweave

@@ -29,23 +29,6 @@ std::string WorkersText(size_t workers) {
   return absl::StrCat(" on ", workers, workers == 1 ? " worker" : " workers");
 }
 
-std::string Header(const JobReport& report) {
-  return absl::StrCat("<header><h1>",
-                      EscapeHtml(report.title.empty() ? "Reconstruction" : report.title),
-                      "</h1><p>Orbweave ",
-                      EscapeHtml(report.version),
-                      " · ",
-                      DurationText(report.elapsed_s),
-                      WorkersText(report.workers.size()),
-                      "</p></header>\n");
-}
-
-/// Tiles are narrow: eight digits and more are shortened.
-std::string CountCard(uint64_t count, const std::string& what) {
-  if (count < 10'000'000) return Card(CountText(count), "", what);
-  return Card(DecimalText(1e-6 * static_cast<double>(count), 1), "million", what);
-}
-
 std::string Cards(const JobReport& report) {
   std::string cards =
       absl::StrCat(Card(CountText(report.registered),
@@ -177,7 +160,9 @@ std::string ReportHtml(const JobReport& report) {
   return HtmlPage(
       report.title.empty() ? "Orbweave report" : report.title + " - Orbweave",
       absl::StrCat(
-          Header(report),
+          PageHead(report.title.empty() ? "Reconstruction" : report.title,
+                   report.version,
+                   DurationText(report.elapsed_s) + WorkersText(report.workers.size())),
           VerdictHtml(report),
           WarningsHtml(report),
           Cards(report),

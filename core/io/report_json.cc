@@ -8,6 +8,7 @@
 #include "core/io/json_text.h"
 #include "core/io/level_text.h"
 #include "core/io/report_gnss.h"
+#include "core/io/report_json_rows.h"
 #include "core/io/report_seams.h"
 #include "core/io/report_uncertainty.h"
 
@@ -72,10 +73,6 @@ Json Gnss(const ReportGnss& gnss) {
           {"residual_rms_inliers_m", gnss.residual_rms_inliers_m},
           {"bend_m", gnss.deformation_m},
           {"outliers", gnss.outliers}};
-}
-
-Json VectorJson(const Eigen::Vector3d& vector) {
-  return Json::array({vector.x(), vector.y(), vector.z()});
 }
 
 /// GNSS minus model of the positions that are contradicted.
@@ -187,19 +184,6 @@ Json Uncertainty(const JobReport& report) {
   return json;
 }
 
-Json Stages(const JobReport& report) {
-  Json list = Json::array();
-  for (const ReportStage& stage : report.stages) {
-    list.push_back({{"name", stage.name},
-                    {"wall_s", stage.wall_s},
-                    {"cpu_s", stage.cpu_s},
-                    {"tasks_computed", stage.tasks_computed},
-                    {"tasks_reused", stage.tasks_reused},
-                    {"retries", stage.retries}});
-  }
-  return list;
-}
-
 Json Adjustments(const JobReport& report) {
   Json list = Json::array();
   for (const ReportAdjustment& adjustment : report.adjustments) {
@@ -256,7 +240,7 @@ std::string ReportJson(const JobReport& report) {
   json["gnss"]["contradicted"] = Contradicted(report);
   json["uncertainty"] = Uncertainty(report);
   json["global_adjustment"] = Adjustments(report);
-  json["stages"] = Stages(report);
+  json["stages"] = StagesJson(report.stages);
   json["workers"] = Workers(report);
   json["elapsed_s"] = report.elapsed_s;
   json["warnings"] = report.warnings;

@@ -29,27 +29,12 @@ double ShareOf(uint64_t part, uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-std::string Header(const DenseReport& report) {
-  return absl::StrCat("<header><h1>",
-                      EscapeHtml(report.title.empty() ? "Dense cloud" : report.title),
-                      "</h1><p>Orbweave ",
-                      EscapeHtml(report.version),
-                      " · dense cloud · ",
-                      DurationText(report.elapsed_s),
-                      "</p></header>\n");
-}
-
 std::string Cards(const DenseReport& report) {
   const auto with_depth = static_cast<uint64_t>(std::ranges::count_if(
       report.maps, [](const DepthMapReport& map) { return map.coverage > 0.0; }));
-  const std::string points =
-      report.num_points < 10'000'000
-          ? Card(CountText(report.num_points), "", "points")
-          : Card(
-                DecimalText(1e-6 * static_cast<double>(report.num_points), 1), "million", "points");
   return absl::StrCat(
       "<div class=\"cards\">",
-      points,
+      CountCard(report.num_points, "points"),
       Card(CountText(with_depth), "of " + CountText(report.maps.size()), "panoramas have depth"),
       Card(PercentText(report.Coverage()),
            "%",
@@ -189,7 +174,9 @@ std::string WithoutDepth(const DenseReport& report) {
 std::string DenseReportHtml(const DenseReport& report, const DensePictures& pictures) {
   return HtmlPage(
       report.title.empty() ? "Dense cloud - Orbweave" : report.title + " - dense cloud - Orbweave",
-      absl::StrCat(Header(report),
+      absl::StrCat(PageHead(report.title.empty() ? "Dense cloud" : report.title,
+                            report.version,
+                            "dense cloud · " + DurationText(report.elapsed_s)),
                    Cards(report),
                    FromAbove(report, pictures),
                    WithoutDepth(report),

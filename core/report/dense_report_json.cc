@@ -3,28 +3,18 @@
 #include "core/report/dense_report_json.h"
 
 #include "core/io/json_text.h"
+#include "core/io/report_json_rows.h"
 
 namespace orbweave {
 namespace {
-
-Json ToJson(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 Json ToJson(const TileReport& tile) {
   return {{"x", tile.cell.x},
           {"y", tile.cell.y},
           {"file", tile.file},
           {"points", tile.num_points},
-          {"low", ToJson(tile.low)},
-          {"high", ToJson(tile.high)}};
-}
-
-Json ToJson(const ReportStage& stage) {
-  return {{"name", stage.name},
-          {"wall_s", stage.wall_s},
-          {"cpu_s", stage.cpu_s},
-          {"tasks_computed", stage.tasks_computed},
-          {"tasks_reused", stage.tasks_reused},
-          {"retries", stage.retries}};
+          {"low", VectorJson(tile.low)},
+          {"high", VectorJson(tile.high)}};
 }
 
 Json ToJson(const DepthMapReport& map) {
@@ -58,7 +48,7 @@ std::string DenseReportJson(const DenseReport& report) {
                    {"tiles", ToJson(report.tiles)},
                    {"maps", ToJson(report.maps)},
                    {"without_depth", ToJson(report.omitted)},
-                   {"stages", ToJson(report.stages)}});
+                   {"stages", StagesJson(report.stages)}});
 }
 
 }  // namespace orbweave
