@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "cli/event_log.h"
@@ -66,9 +67,23 @@ double CpuSecondsOf(pid_t process) {
   return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-double PeakMegabytesOf(pid_t process) {
-  const std::string status = ReadAll("/proc/" + std::to_string(process) + "/status");
-  return std::strtod(status.c_str() + status.find("VmHWM:") + 6, nullptr) / 1024.0;
+/// A number of a status file of /proc.
+double NumberIn(const std::string& file, const std::string& name) {
+  const std::string status = "\n" + ReadAll(file);
+  return std::strtod(status.c_str() + status.find("\n" + name + ":") + name.size() + 2, nullptr);
+}
+
+double NumberOf(pid_t process, const std::string& name) {
+  return NumberIn("/proc/" + std::to_string(process) + "/status", name);
+}
+
+/// How often threads that are there now went to sleep.
+double SleepsOf(pid_t process) {
+  double sleeps = 0.0;
+  const std::string tasks = "/proc/" + std::to_string(process) + "/task";
+  for (const auto& task : std::filesystem::directory_iterator(tasks))
+    sleeps += NumberIn(task.path() / "status", "voluntary_ctxt_switches");
+  return sleeps;
 }
 
 /// One job to its end.
@@ -86,14 +101,25 @@ LightFaults RunJob(ClientApi& api, testing::LightFleet& fleet, uint64_t first, s
   return *faults;
 }
 
-/// What all slots cost the coordinator that wait for a task, in CPU seconds per second.
-double CostOfWaiting(pid_t coordinator) {
+/// What all slots cost the coordinator that wait for a task.
+struct Waiting {
+  double cpu_share = 0.0;  ///< CPU seconds per second
+  double wakes_per_s = 0.0;
+  double threads = 0.0;
+  double megabytes = 0.0;
+};
+
+Waiting CostOfWaiting(pid_t coordinator) {
   constexpr double kSettle_s = 5.0;
   constexpr double kTime_s = 10.0;
   std::this_thread::sleep_for(std::chrono::duration<double>(kSettle_s));
   const double start_s = CpuSecondsOf(coordinator);
+  const double sleeps = SleepsOf(coordinator);
   std::this_thread::sleep_for(std::chrono::duration<double>(kTime_s));
-  return (CpuSecondsOf(coordinator) - start_s) / kTime_s;
+  return {.cpu_share = (CpuSecondsOf(coordinator) - start_s) / kTime_s,
+          .wakes_per_s = (SleepsOf(coordinator) - sleeps) / kTime_s,
+          .threads = NumberOf(coordinator, "Threads"),
+          .megabytes = NumberOf(coordinator, "VmRSS") / 1024.0};
 }
 
 int Measure(const FleetOptions& options) {
@@ -102,7 +128,7 @@ int Measure(const FleetOptions& options) {
   ORBWEAVE_CHECK(WaitUntil([&] { return !coordinator.ErrSoFar().empty(); }, 60.0));
   GrpcCoordinatorClient client("unix:" + (folder / "s"));
   testing::LightFleet fleet(folder / "s", folder.Path(), options.workers, options.task_s);
-  const double waiting = CostOfWaiting(coordinator.Pid());
+  const Waiting waiting = CostOfWaiting(coordinator.Pid());
   const SteadyClock clock;
   const double start_s = clock.NowSeconds();
   const double cpu_start_s = CpuSecondsOf(coordinator.Pid());
@@ -118,18 +144,22 @@ int Measure(const FleetOptions& options) {
   const double cpu_s = CpuSecondsOf(coordinator.Pid()) - cpu_start_s;
   std::puts(
       "| workers | tasks | minutes | tasks / s | lost | doubled | coordinator, CPU ms per task "
-      "| coordinator, CPU ms per s while all wait | coordinator, peak MB "
-      "|\n|---|---|---|---|---|---|---|---|---|");
-  std::printf("| %u | %llu | %.1f | %.0f | %llu | %llu | %.2f | %.1f | %.0f |\n",
-              options.workers,
-              static_cast<unsigned long long>(tasks),
-              wall_s / 60.0,
-              static_cast<double>(tasks) / wall_s,
-              static_cast<unsigned long long>(faults.lost),
-              static_cast<unsigned long long>(faults.doubled),
-              1000.0 * cpu_s / static_cast<double>(tasks),
-              1000.0 * waiting,
-              PeakMegabytesOf(coordinator.Pid()));
+      "| peak MB | while all wait: CPU ms per s | wakes per s | threads | MB "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::printf(
+      "| %u | %llu | %.1f | %.0f | %llu | %llu | %.2f | %.0f | %.1f | %.0f | %.0f | %.0f |\n",
+      options.workers,
+      static_cast<unsigned long long>(tasks),
+      wall_s / 60.0,
+      static_cast<double>(tasks) / wall_s,
+      static_cast<unsigned long long>(faults.lost),
+      static_cast<unsigned long long>(faults.doubled),
+      1000.0 * cpu_s / static_cast<double>(tasks),
+      NumberOf(coordinator.Pid(), "VmHWM") / 1024.0,
+      1000.0 * waiting.cpu_share,
+      waiting.wakes_per_s,
+      waiting.threads,
+      waiting.megabytes);
   std::fflush(stdout);  // many files are to be removed yet
   return faults.lost + faults.doubled == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -14,7 +14,11 @@ namespace orbweave {
 namespace {
 
 void AddAddress(CLI::App& command, CoordinatorArgument& argument, const std::string& flag) {
-  command.add_option(flag, argument.address, "Address of the coordinator")->required();
+  command
+      .add_option(flag,
+                  argument.address,
+                  "Address of the coordinator, or @FILE that orbweave serve --announce writes")
+      ->required();
   AddTlsArgument(command, argument.tls_folder);
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/dense_job.h"
 #include "cli/exit_code.h"
+#include "cli/fleet_argument.h"
 #include "cli/option_arguments.h"
 #include "core/io/scan_image_folder.h"
 
@@ -18,7 +19,7 @@ struct DenseArguments {
   std::string colmap{};
   ScanRequest images{};
   std::string output{};
-  uint32_t workers = 2;
+  FleetArgument fleet{};
   OptionArguments options{};
 };
 
@@ -28,11 +29,11 @@ absl::Status Dense(const DenseArguments& arguments) {
     if (arguments.images.image_folder.empty() || arguments.output.empty())
       return absl::InvalidArgumentError("--colmap needs --images and --output");
     return RunDenseJobOnColmap(
-        arguments.colmap, arguments.images, arguments.output, arguments.workers, options);
+        arguments.colmap, arguments.images, arguments.output, arguments.fleet, options);
   }
   if (arguments.model.empty())
     return absl::InvalidArgumentError("name the output folder of a finished job, or --colmap");
-  return RunDenseJob(arguments.model, arguments.workers, options);
+  return RunDenseJob(arguments.model, arguments.fleet, options);
 }
 
 }  // namespace
@@ -51,9 +52,7 @@ void AddDenseCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("--images", arguments->images.image_folder, "With --colmap: the panoramas");
   command->add_option("--masks", arguments->images.mask_folder, "With --colmap: their masks");
   command->add_option("--output", arguments->output, "With --colmap: where the cloud goes");
-  command->add_option("--workers", arguments->workers, "Worker processes")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  AddFleetArguments(*command, arguments->fleet);
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/dense_job.h"
 
-#include <cstdio>
 #include <functional>
 
 #include "cli/finished_job.h"
-#include "cli/format_dense.h"
 #include "cli/run_local_job.h"
-#include "cli/write_dense.h"
+#include "cli/write_job.h"
 #include "core/base/clock.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
@@ -20,15 +18,35 @@
 namespace orbweave {
 namespace {
 
-/// A job on the poses and points that the last finished sparse job of a folder left.
+/// Of the last finished job of a folder.
 absl::StatusOr<JobSpec> DenseJobOf(const std::string& output, const PipelineOptions& options) {
   const SteadyClock clock;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, OpenFinished(output, clock));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, LastFinishedJob(*coordinator, output));
+  return DenseJobOf(*coordinator, sparse, options);
+}
+
+using Prepare = std::function<absl::StatusOr<JobSpec>(BlobDepot&, const StageContext&)>;
+
+absl::Status RunInto(const std::string& folder,
+                     const std::string& cloud_folder,
+                     const FleetArgument& fleet,
+                     const Prepare& prepare) {
+  const auto conclude = [&cloud_folder](ClientApi& coordinator, const JobStatus& status) {
+    return WriteJob(coordinator, status, cloud_folder);
+  };
+  return RunLocalJob({.output = folder, .fleet = fleet, .prepare = prepare, .conclude = conclude});
+}
+
+}  // namespace
+
+absl::StatusOr<JobSpec> DenseJobOf(ClientApi& coordinator,
+                                   const JobStatus& sparse,
+                                   const PipelineOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(sparse.spec.kind));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
-                            coordinator->GetOutcomes(sparse.id));
-  const JobReader reader(plan, sparse.spec, outcomes, *coordinator);
+                            coordinator.GetOutcomes(sparse.id));
+  const JobReader reader(plan, sparse.spec, outcomes, coordinator);
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest manifest, reader.Name(&PartitionViewGraphStage::manifest));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest model,
                             reader.Name(&ConcludeAdjustmentStage::Outputs::model));
@@ -40,43 +58,24 @@ absl::StatusOr<JobSpec> DenseJobOf(const std::string& output, const PipelineOpti
                  .label = sparse.spec.label};
 }
 
-using Prepare = std::function<absl::StatusOr<JobSpec>(BlobDepot&, const StageContext&)>;
-
-absl::Status RunInto(const std::string& folder,
-                     const std::string& cloud_folder,
-                     uint32_t workers,
-                     const Prepare& prepare) {
-  const auto conclude = [&cloud_folder](ClientApi& coordinator,
-                                        const JobStatus& status) -> absl::Status {
-    ORBWEAVE_ASSIGN_OR_RETURN(const DenseReport report,
-                              WriteDense(coordinator, status, cloud_folder));
-    std::fputs(FormatDense(report, cloud_folder).c_str(), stdout);
-    return absl::OkStatus();
-  };
-  return RunLocalJob(
-      {.output = folder, .workers = workers, .prepare = prepare, .conclude = conclude});
-}
-
-}  // namespace
-
 absl::Status RunDenseJob(const std::string& output,
-                         uint32_t workers,
+                         const FleetArgument& fleet,
                          const PipelineOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, DenseJobOf(output, options));
   return RunInto(
       output,
       output + "/dense",
-      workers,
+      fleet,
       [&spec](BlobDepot&, const StageContext&) -> absl::StatusOr<JobSpec> { return spec; });
 }
 
 absl::Status RunDenseJobOnColmap(const std::string& colmap_model,
                                  const ScanRequest& images,
                                  const std::string& output,
-                                 uint32_t workers,
+                                 const FleetArgument& fleet,
                                  const PipelineOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ColmapModel model, ReadColmapModel(colmap_model));
-  return RunInto(output, output, workers, [&](BlobDepot& depot, const StageContext& context) {
+  return RunInto(output, output, fleet, [&](BlobDepot& depot, const StageContext& context) {
     return PrepareDenseJob(depot, model, images, options, context);
   });
 }

@@ -2,27 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <string>
 
+#include "cli/fleet_argument.h"
 #include "cli/option_arguments.h"
 #include "core/base/status.h"
 #include "core/io/scan_image_folder.h"
+#include "core/pipeline/coordinator_api.h"
 
 namespace orbweave {
+
+/// A job on the poses and points that the finished sparse job `sparse` of a coordinator left.
+[[nodiscard]] absl::StatusOr<JobSpec> DenseJobOf(ClientApi& coordinator,
+                                                 const JobStatus& sparse,
+                                                 const PipelineOptions& options);
 
 /// Computes the dense cloud of the finished model in the folder `output`, with workers on this
 /// machine, into output/dense; shows progress and prints a summary. Run again it goes on where it
 /// was. FailedPrecondition: there is no finished model. Codes of RunLocalJob.
 [[nodiscard]] absl::Status RunDenseJob(const std::string& output,
-                                       uint32_t workers,
+                                       const FleetArgument& fleet,
                                        const PipelineOptions& options);
 
 /// The same for the poses of a COLMAP model and a folder of panoramas, into `output`.
 [[nodiscard]] absl::Status RunDenseJobOnColmap(const std::string& colmap_model,
                                                const ScanRequest& images,
                                                const std::string& output,
-                                               uint32_t workers,
+                                               const FleetArgument& fleet,
                                                const PipelineOptions& options);
 
 }  // namespace orbweave

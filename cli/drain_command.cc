@@ -5,9 +5,12 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cli/coordinator_argument.h"
 #include "cli/exit_code.h"
+#include "core/io/printable_text.h"
 
 namespace orbweave {
 namespace {
@@ -19,22 +22,31 @@ struct DrainOptions {
 
 absl::Status Drain(const DrainOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Connect(options.coordinator));
-  ORBWEAVE_RETURN_IF_ERROR(coordinator->DrainWorker(options.worker));
-  std::printf("worker %s finishes what it has and leaves\n", options.worker.c_str());
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> drained,
+                            coordinator->DrainWorkers(options.worker));
+  for (const std::string& worker : drained)
+    std::printf("worker %s finishes what it has and leaves\n", PrintableText(worker).c_str());
   return absl::OkStatus();
 }
 
 }  // namespace
 
 void AddDrainCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("drain", "Give a worker no more tasks and let it leave");
+  CLI::App* command = app.add_subcommand("drain", "Give workers no more tasks and let them leave");
   const auto options = std::make_shared<DrainOptions>();
   AddCoordinatorArgument(*command, options->coordinator);
-  command->add_option("worker", options->worker, "Its name, as status shows it")->required();
+  command
+      ->add_option(
+          "worker",
+          options->worker,
+          "Its name as status shows it, or how its name alone begins; with * at the end all "
+          "workers whose names begin so")
+      ->required();
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  orbweave drain --coordinator 127.0.0.1:7000 second\n"
-      "Its process ends then with 0. Started again it gets tasks again.");
+      "  orbweave drain --coordinator 127.0.0.1:7000 'node7/*'\n"
+      "Their processes end then with 0. Started again they get tasks again.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Drain(*options)); }; });
 }

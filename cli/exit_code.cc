@@ -12,19 +12,28 @@
 namespace orbweave {
 namespace {
 
-/// Marks an error that a code alone does not tell from others.
+/// They mark errors that a code alone does not tell from others.
 constexpr const char* kVerdictPayload = "orbweave/verdict";
+constexpr const char* kStoppedPayload = "orbweave/stopped";
+
+absl::Status Mark(absl::Status status, const char* payload) {
+  status.SetPayload(payload, absl::Cord());
+  return status;
+}
 
 }  // namespace
 
 absl::Status VerdictError(const std::string& message) {
-  absl::Status status = absl::FailedPreconditionError(message);
-  status.SetPayload(kVerdictPayload, absl::Cord());
-  return status;
+  return Mark(absl::FailedPreconditionError(message), kVerdictPayload);
+}
+
+absl::Status StoppedError(const std::string& message) {
+  return Mark(absl::CancelledError(message), kStoppedPayload);
 }
 
 int ExitCodeOf(const absl::Status& status) {
   if (status.GetPayload(kVerdictPayload).has_value()) return kExitVerdict;
+  if (status.GetPayload(kStoppedPayload).has_value()) return kExitStopped;
   switch (status.code()) {
     case absl::StatusCode::kOk:
       return kExitOk;

@@ -15,11 +15,15 @@ enum ExitCode : int {
   kExitUsage = 2,         ///< the command line or the input is not right
   kExitUnavailable = 3,   ///< no coordinator there
   kExitVerdict = 4,       ///< the job is done, its model judged as --fail-on does not take it
+  kExitStopped = 75,      ///< a worker was told to end, or its time was up: there may be more to do
   kExitInterrupted = 130  ///< stopped by Ctrl-C or SIGTERM
 };
 
 /// The error of a job that is done and whose verdict is too bad: its exit code is kExitVerdict.
 [[nodiscard]] absl::Status VerdictError(const std::string& message);
+
+/// Of a worker that left though there may be more to do: its exit code is kExitStopped.
+[[nodiscard]] absl::Status StoppedError(const std::string& message);
 
 [[nodiscard]] int ExitCodeOf(const absl::Status& status);
 

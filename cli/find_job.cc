@@ -10,6 +10,8 @@
 namespace orbweave {
 
 absl::StatusOr<JobStatus> FindJob(JobApi& coordinator, const std::string& prefix) {
+  if (const absl::StatusOr<Digest> whole = Digest::FromHex(prefix); whole.ok())
+    return coordinator.GetJob(*whole);
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, coordinator.ListJobs());
   const JobStatus* found = nullptr;
   for (const JobStatus& job : jobs) {

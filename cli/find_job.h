@@ -8,8 +8,8 @@
 
 namespace orbweave {
 
-/// The job whose id begins with `prefix` (hexadecimal digits). NotFound: none; InvalidArgument:
-/// several; else the codes of ListJobs.
+/// The job whose id is, or begins with, `prefix` (hexadecimal digits). NotFound: none;
+/// InvalidArgument: several; else the codes of GetJob and ListJobs.
 [[nodiscard]] absl::StatusOr<JobStatus> FindJob(JobApi& coordinator, const std::string& prefix);
 
 }  // namespace orbweave

@@ -19,6 +19,11 @@ std::string WorkerStateName(const WorkerStatus& worker) {
   return worker.set_aside ? "set aside: failed tasks that others did" : "at work";
 }
 
+/// In ASCII, whatever strangers wrote.
+std::string OneLine(const nlohmann::json& value) {
+  return value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
 nlohmann::json EtaToJson(const ProgressView& view) {
   return view.eta_s >= 0.0 ? nlohmann::json(view.eta_s) : nlohmann::json();
 }
@@ -67,6 +72,7 @@ std::string FormatJobStatus(const JobStatus& status) {
 }
 
 std::string FormatWorkers(const std::vector<WorkerStatus>& workers) {
+  if (workers.empty()) return "no workers\n";
   std::string text =
       absl::StrFormat("  %-22s %13s %8s %8s  %s\n", "worker", "done", "slots", "running", "state");
   for (const WorkerStatus& worker : workers) {
@@ -94,16 +100,6 @@ std::string JobStatusToJson(const JobStatus& status) {
                       {"wall_s", stage.wall_s},
                       {"cpu_s", stage.cpu_s}});
   }
-  nlohmann::json workers = nlohmann::json::array();
-  for (const WorkerStatus& worker : status.workers) {
-    workers.push_back({{"name", worker.name},
-                       {"slots", worker.slots},
-                       {"tasks_done", worker.tasks_done},
-                       {"tasks_running", worker.tasks_running},
-                       {"alive", worker.alive},
-                       {"set_aside", worker.set_aside},
-                       {"draining", worker.draining}});
-  }
   const nlohmann::json job = {{"id", status.id.ToHex()},
                               {"state", std::string(JobStateName(status.state))},
                               {"error", status.error},
@@ -112,9 +108,22 @@ std::string JobStatusToJson(const JobStatus& status) {
                               {"elapsed_s", status.elapsed_s},
                               {"fraction", view.fraction},
                               {"eta_s", EtaToJson(view)},
-                              {"stages", std::move(stages)},
-                              {"workers", std::move(workers)}};
-  return job.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+                              {"stages", std::move(stages)}};
+  return OneLine(job);
+}
+
+std::string WorkersToJson(const std::vector<WorkerStatus>& workers) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const WorkerStatus& worker : workers) {
+    list.push_back({{"name", worker.name},
+                    {"slots", worker.slots},
+                    {"tasks_done", worker.tasks_done},
+                    {"tasks_running", worker.tasks_running},
+                    {"alive", worker.alive},
+                    {"set_aside", worker.set_aside},
+                    {"draining", worker.draining}});
+  }
+  return OneLine({{"workers", std::move(list)}});
 }
 
 }  // namespace orbweave

@@ -21,4 +21,7 @@ namespace orbweave {
 /// A job as one JSON object, all of JobStatus by name.
 [[nodiscard]] std::string JobStatusToJson(const JobStatus& status);
 
+/// The same of workers: an object whose "workers" is a list.
+[[nodiscard]] std::string WorkersToJson(const std::vector<WorkerStatus>& workers);
+
 }  // namespace orbweave

@@ -3,6 +3,7 @@
 
 #include "cli/join_token_argument.h"
 
+#include <chrono>
 #include <cstdlib>
 
 #include "absl/strings/ascii.h"
@@ -44,27 +45,29 @@ void AddJoinTokenArgument(CLI::App& command, std::string& token_path) {
                      "certificate that is kept in the folder of --tls; or set ORBWEAVE_TOKEN");
 }
 
-absl::Status EnrolWhereNeeded(const CoordinatorArgument& coordinator,
-                              const std::string& token_path,
-                              const std::string& name,
-                              const std::stop_token& stop) {
+absl::Status EnrolWhereNeeded(const Enrolment& enrolment, const std::stop_token& stop) {
+  using Steady = std::chrono::steady_clock;
+  const CoordinatorArgument& coordinator = enrolment.coordinator;
   const TlsFolder folder{coordinator.tls_folder};
   const bool is_enrolled = !folder.path.empty() && HasValidCertificate(folder);
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::string token, TakeToken(is_enrolled ? "" : token_path));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string token,
+                            TakeToken(is_enrolled ? "" : enrolment.token_path));
   if (token.empty() || is_enrolled) return absl::OkStatus();
   if (folder.path.empty()) {
     return absl::InvalidArgumentError(
         "a join token needs --tls: the folder to keep the certificate in");
   }
   RefusedHandshake handshake(coordinator.address, folder.path, Caller::kStranger);
-  const auto say = [](const absl::Status& why) {
+  const auto say = [&, began = Steady::now()](const absl::Status& why) {
     LogToStderr({.level = LogLevel::kWarning,
                  .event = "coordinator_away",
                  .message = std::string(why.message())});
-    return true;
+    const std::chrono::duration<double> waited = Steady::now() - began;
+    return waited.count() < enrolment.patience_s;
   };
-  return Retry({.stop = stop, .goes_on = say},
-               [&] { return handshake.Explain(Enroll(coordinator.address, token, name, folder)); });
+  return Retry({.stop = stop, .goes_on = say}, [&] {
+    return handshake.Explain(Enroll(coordinator.address, token, enrolment.name, folder));
+  });
 }
 
 }  // namespace orbweave

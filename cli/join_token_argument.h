@@ -14,14 +14,21 @@ namespace orbweave {
 /// variable ORBWEAVE_TOKEN, never from the command line.
 void AddJoinTokenArgument(CLI::App& command, std::string& token_path);
 
-/// Makes `coordinator`'s TLS folder hold a certificate that is valid now: it is left as it is when
-/// it does; otherwise the token (of the file, or without one of the environment) is exchanged,
+/// Who is to have a certificate.
+struct Enrolment {
+  CoordinatorArgument coordinator{};
+  std::string token_path{};  ///< empty: the environment may have one
+  std::string name{};
+  double patience_s = 0.0;  ///< for a coordinator that does not answer
+};
+
+/// Makes the coordinator's TLS folder hold a certificate that is valid now: it is left as it is
+/// when it does; otherwise the token (of the file, or without one of the environment) is exchanged,
 /// waiting while the coordinator is Unavailable. Does nothing where no token is given. The variable
 /// is removed from the environment, so that no child inherits it. InvalidArgument: a token, and no
-/// --tls to keep the certificate in. Unauthenticated: see RefusedHandshake.
-[[nodiscard]] absl::Status EnrolWhereNeeded(const CoordinatorArgument& coordinator,
-                                            const std::string& token_path,
-                                            const std::string& name,
+/// --tls to keep the certificate in. Unauthenticated: see RefusedHandshake. Unavailable: nobody
+/// answered in time.
+[[nodiscard]] absl::Status EnrolWhereNeeded(const Enrolment& enrolment,
                                             const std::stop_token& stop);
 
 }  // namespace orbweave

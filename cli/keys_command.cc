@@ -3,16 +3,16 @@
 
 #include "cli/keys_command.h"
 
-#include <unistd.h>
-
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
 #include "cli/exit_code.h"
+#include "cli/host_name.h"
+#include "security/join_token.h"
 #include "security/key_store.h"
 #include "security/unix_time.h"
 
@@ -33,13 +33,12 @@ struct KeysOptions {
   std::string token_path{};
   int64_t days = 365;
   double minutes = 60.0;
+  uint32_t uses = 1;
 };
 
 /// What is always said of a coordinator's machine, and what the command line adds.
 std::vector<std::string> HostsOf(const KeysOptions& options) {
-  std::array<char, 256> own{};
-  ::gethostname(own.data(), own.size() - 1);
-  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "::1", own.data()};
+  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "::1", HostName()};
   hosts.insert(hosts.end(), options.hosts.begin(), options.hosts.end());
   return hosts;
 }
@@ -68,11 +67,15 @@ absl::Status Add(const KeysOptions& options) {
 
 absl::Status Token(const KeysOptions& options) {
   const auto valid_s = static_cast<int64_t>(options.minutes * static_cast<double>(kMinute_s));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::string number,
-                            WriteJoinToken(options.store, options.token_path, UnixNow() + valid_s));
-  std::printf("join token %s written to %s: good for one worker and %g minutes\n",
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const std::string number,
+      WriteJoinToken(options.store, options.token_path, UnixNow() + valid_s, options.uses));
+  const std::string workers =
+      options.uses == 1 ? "one worker" : absl::StrCat(options.uses, " workers");
+  std::printf("join token %s written to %s: good for %s and %g minutes\n",
               number.c_str(),
               options.token_path.c_str(),
+              workers.c_str(),
               options.minutes);
   return absl::OkStatus();
 }
@@ -154,16 +157,22 @@ void AddKeysCommand(CLI::App& app, SelectedCommand& selected) {
                      options->token,
                      "Of a join token that was not used yet, as 'orbweave keys token' prints it");
   CLI::App* token = AddAction(
-      *keys, selected, options, "token", "Make a token by which one new worker may join", Token);
+      *keys, selected, options, "token", "Make a token by which new workers may join", Token);
   token->add_option("--output", options->token_path, "File to write it to (mode 0600)")->required();
   token->add_option("--minutes", options->minutes, "How long it is valid")
       ->check(CLI::Range(0.01, 43200.0))
+      ->capture_default_str();
+  token
+      ->add_option("--uses",
+                   options->uses,
+                   "How many workers may join by it, each with a key and a name of its own")
+      ->check(CLI::Range(uint32_t{1}, kMostUses))
       ->capture_default_str();
   keys->footer(
       "Examples:\n"
       "  orbweave keys init keys --fleet city --host coordinator.example\n"
       "  orbweave keys add keys worker node7\n"
-      "  orbweave keys token keys --output join.token\n"
+      "  orbweave keys token keys --output join.token --uses 64\n"
       "  orbweave keys revoke keys node7");
 }
 

@@ -14,6 +14,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "cli/event_log.h"
+#include "cli/see_workers_off.h"
 #include "coordinator/listen_address.h"
 #include "core/base/sleep.h"
 #include "worker/machine_offers.h"
@@ -48,10 +49,50 @@ absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOp
 absl::Status LocalFleet::OpenCoordinator() {
   ORBWEAVE_ASSIGN_OR_RETURN(options_.coordinator.log,
                             OpenEventLog(CoordinatorLogPath(options_.coordinator.state_dir)));
+  ChooseJournalFolder();
+  const JournalPlace place = PlaceJournal(options_.coordinator.state_dir, options_.journal_folder);
+  const bool is_copied = !options_.journal_folder.empty();
+  if (is_copied) {
+    options_.coordinator.open_journal = [place](const std::string&) {
+      return OpenCopiedJournal(place);
+    };
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
+  if (is_copied) {
+    ORBWEAVE_ASSIGN_OR_RETURN(journal_copy_, JournalCopy::Start(place, options_.coordinator.log));
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string socket, ChooseSocket());
   ORBWEAVE_ASSIGN_OR_RETURN(server_, GrpcServer::Start(*coordinator_, socket));
+  return options_.door.IsOpen() ? OpenDoor() : absl::OkStatus();
+}
+
+absl::Status LocalFleet::OpenDoor() {
+  const FleetDoor& door = options_.door;
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      door_,
+      GrpcServer::Start(*coordinator_,
+                        door.listen,
+                        {.tls_folder = door.tls_folder,
+                         .used_tokens_folder = options_.coordinator.state_dir + "/used_tokens",
+                         .log = options_.coordinator.log}));
+  ORBWEAVE_RETURN_IF_ERROR(Announce(door.announce, door_->address(), door.tls_folder));
+  options_.coordinator.log({.event = "door_open", .message = "address=" + door_->address()});
   return absl::OkStatus();
+}
+
+void LocalFleet::CloseDoor() {
+  if (farewell_ == Farewell::kDismissWorkers) {
+    TakeBack(options_.door.announce);
+    SeeWorkersOff(*coordinator_, options_.coordinator.lease_s);
+  }
+  door_.reset();
+}
+
+void LocalFleet::ChooseJournalFolder() {
+  std::error_code error;
+  if (options_.journal_folder.empty() &&
+      !SharedFileSystemOf(options_.coordinator.state_dir).empty())
+    options_.journal_folder = fs::temp_directory_path(error).string();
 }
 
 absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
@@ -69,7 +110,8 @@ absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
 
 LocalFleet::~LocalFleet() {
   supervisor_ = {};
-  if (coordinator_) coordinator_->BeginShutdown();
+  if (coordinator_) coordinator_->BeginShutdown(farewell_);
+  if (door_) CloseDoor();
   server_.reset();
   std::error_code ignored;
   if (!short_folder_.empty()) fs::remove_all(short_folder_, ignored);

@@ -10,23 +10,39 @@
 #include <thread>
 #include <vector>
 
+#include "cli/announce.h"
 #include "cli/wait_for_job.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
+#include "coordinator/journal_copy.h"
 #include "core/base/clock.h"
 #include "worker/child_process.h"
 
 namespace orbweave {
 
+/// Where workers of other machines join.
+struct FleetDoor {
+  std::string listen{};      ///< empty: there is no such door
+  std::string tls_folder{};  ///< as in ServerOptions
+  AnnounceArgument announce{};
+
+  [[nodiscard]] bool IsOpen() const { return !listen.empty(); }
+};
+
 struct LocalFleetOptions {
   CoordinatorOptions coordinator{};
+  FleetDoor door{};
+  /// Where the journal is, with a copy in the state folder; empty: in the state folder itself, or
+  /// in that of temporary files where machines share its file system.
+  std::string journal_folder{};
   uint32_t workers = 2;
   int threads_per_worker = 1;
   uint32_t max_restarts = 20;  ///< of all workers together
 };
 
 /// A coordinator in this process, listening on a unix socket in its state folder, and worker
-/// processes of the same executable (`<self> work --join ...`), which end with it however it ends.
+/// processes of the same executable (`<self> work --join ...`), which end with it however it ends;
+/// and, where it has a door, whoever joins there, who outlast it unless they are sent home.
 /// A worker that dies is started again; its tasks go to others at once. Workers write
 /// their log to `<state>/logs/worker-<n>.log`, the coordinator to `coordinator.log` beside them.
 class LocalFleet {
@@ -36,6 +52,9 @@ class LocalFleet {
       const LocalFleetOptions& options);
   /// Ends the workers (running tasks are given back), then the coordinator.
   ~LocalFleet();
+  /// What is told to those who joined by the door when the fleet ends; unless this is called they
+  /// are sent home.
+  void ComesBack() { farewell_ = Farewell::kComeBack; }
 
   [[nodiscard]] ClientApi& coordinator() { return *coordinator_; }
   [[nodiscard]] const std::string& address() const { return server_->address(); }
@@ -55,10 +74,13 @@ class LocalFleet {
   };
 
   explicit LocalFleet(const LocalFleetOptions& options) : options_(options) {
-    options_.coordinator.leases_survive = false;  // no worker does
+    options_.coordinator.leases_survive = options_.door.IsOpen();  // our own workers do not
   }
   [[nodiscard]] absl::Status OpenCoordinator();
   [[nodiscard]] absl::StatusOr<std::string> ChooseSocket();
+  void ChooseJournalFolder();
+  [[nodiscard]] absl::Status OpenDoor();
+  void CloseDoor();
   void Supervise(const std::stop_token& stop);
   [[nodiscard]] absl::Status StartMember(Member& member) const;
   void ReviveDead();
@@ -69,7 +91,10 @@ class LocalFleet {
   SteadyClock clock_;
   std::string short_folder_;  ///< of the socket, when the state folder's path is too long for one
   std::unique_ptr<Coordinator> coordinator_;
+  std::unique_ptr<JournalCopy> journal_copy_;  ///< null: the journal is where it is safe
   std::unique_ptr<GrpcServer> server_;
+  std::unique_ptr<GrpcServer> door_;  ///< null: there is none
+  Farewell farewell_ = Farewell::kDismissWorkers;
   std::vector<Member> members_;  ///< of the supervisor thread
   mutable std::mutex mutex_;
   uint32_t restarts_ = 0;

@@ -15,11 +15,13 @@
 #include "cli/exec_tasks_command.h"
 #include "cli/exit_code.h"
 #include "cli/export_command.h"
+#include "cli/fetch_command.h"
 #include "cli/forget_command.h"
 #include "cli/gc_command.h"
 #include "cli/inspect_command.h"
 #include "cli/jobs_command.h"
 #include "cli/keys_command.h"
+#include "cli/launch_command.h"
 #include "cli/options_command.h"
 #include "cli/raise_file_limit.h"
 #include "cli/reconstruct_command.h"
@@ -28,6 +30,7 @@
 #include "cli/serve_command.h"
 #include "cli/single_threaded_libraries.h"
 #include "cli/status_command.h"
+#include "cli/stop_command.h"
 #include "cli/submit_command.h"
 #include "cli/synth_command.h"
 #include "cli/work_command.h"
@@ -59,12 +62,15 @@ int main(int argc, char** argv) {
   orbweave::AddServeCommand(app, selected, orbweave::FindJobPlan);
   orbweave::AddWorkCommand(app, selected);
   orbweave::AddExecTasksCommand(app, selected, stages);
+  orbweave::AddLaunchCommand(app, selected);
   orbweave::AddSubmitCommand(app, selected);
+  orbweave::AddFetchCommand(app, selected);
   orbweave::AddStatusCommand(app, selected);
   orbweave::AddJobsCommand(app, selected);
   orbweave::AddCancelCommand(app, selected);
   orbweave::AddRetryCommand(app, selected);
   orbweave::AddDrainCommand(app, selected);
+  orbweave::AddStopCommand(app, selected);
   orbweave::AddForgetCommand(app, selected);
   orbweave::AddGcCommand(app, selected);
   try {

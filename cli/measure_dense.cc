@@ -70,7 +70,7 @@ absl::StatusOr<DenseMeasurement> MeasureDenseJob(const std::string& street,
     return absl::OkStatus();
   };
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(
-      {.output = folder, .workers = workers, .prepare = prepare, .conclude = conclude}));
+      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude}));
   return measurement;
 }
 

@@ -65,7 +65,7 @@ absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
     return absl::OkStatus();
   };
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(
-      {.output = folder, .workers = workers, .prepare = prepare, .conclude = conclude}));
+      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude}));
   return measurement;
 }
 

@@ -143,8 +143,12 @@ absl::Status PatientCoordinator::Write(const Digest& digest,
   return absl::IsUnavailable(cut_off) ? Away(cut_off) : cut_off;
 }
 
-absl::Status PatientCoordinator::DrainWorker(const std::string& name) {
-  return Wait([&] { return api_->DrainWorker(name); });
+absl::StatusOr<std::vector<std::string>> PatientCoordinator::DrainWorkers(const std::string& name) {
+  return Wait([&] { return api_->DrainWorkers(name); });
+}
+
+absl::Status PatientCoordinator::StopCoordinator() {
+  return Wait([&] { return api_->StopCoordinator(); });
 }
 
 absl::StatusOr<Digest> PatientCoordinator::SubmitJob(const JobSpec& job) {
@@ -157,6 +161,10 @@ absl::StatusOr<JobStatus> PatientCoordinator::GetJob(const Digest& job) {
 
 absl::StatusOr<std::vector<JobStatus>> PatientCoordinator::ListJobs() {
   return Wait([&] { return api_->ListJobs(); });
+}
+
+absl::StatusOr<std::vector<WorkerStatus>> PatientCoordinator::ListWorkers() {
+  return Wait([&] { return api_->ListWorkers(); });
 }
 
 absl::Status PatientCoordinator::CancelJob(const Digest& job) {

@@ -41,10 +41,13 @@ class PatientCoordinator final : public ClientApi {
                                    uint64_t size_bytes,
                                    const NextPiece& next) override;
 
-  [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
+  [[nodiscard]] absl::StatusOr<std::vector<std::string>> DrainWorkers(
+      const std::string& name) override;
+  [[nodiscard]] absl::Status StopCoordinator() override;
   [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
+  [[nodiscard]] absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;

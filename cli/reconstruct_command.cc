@@ -7,6 +7,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/fail_on_argument.h"
+#include "cli/fleet_argument.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/run_local_job.h"
@@ -21,7 +22,7 @@ struct ReconstructArguments {
   std::string clusters{};
   std::string output{};
   bool single = false;
-  uint32_t workers = 2;
+  FleetArgument fleet{};
   FailOn fail_on{};
   OptionArguments options{};
 };
@@ -31,7 +32,7 @@ absl::Status Reconstruct(const ReconstructArguments& arguments) {
   if (arguments.single) options.partition.cluster_size = 0;
   return RunLocalJob(
       {.output = arguments.output,
-       .workers = arguments.workers,
+       .fleet = arguments.fleet,
        .fail_on = arguments.fail_on,
        .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
          return PrepareDatabaseJob(
@@ -58,9 +59,7 @@ void AddReconstructCommand(CLI::App& app, SelectedCommand& selected) {
   AddClustersArgument(*command, arguments->clusters);
   command->add_flag("--single", arguments->single, "One cluster: do not divide")
       ->excludes("--clusters");
-  command->add_option("--workers", arguments->workers, "Worker processes")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  AddFleetArguments(*command, arguments->fleet);
   AddFailOnArgument(*command, arguments->fail_on);
   AddOptionArguments(*command, arguments->options);
   command->footer(

@@ -8,6 +8,7 @@
 #include "cli/dense_job.h"
 #include "cli/exit_code.h"
 #include "cli/fail_on_argument.h"
+#include "cli/fleet_argument.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/run_local_job.h"
@@ -20,7 +21,7 @@ struct RunArguments {
   ScanRequest scan{};
   std::string clusters{};
   std::string output{};
-  uint32_t workers = 2;
+  FleetArgument fleet{};
   bool dense = false;
   FailOn fail_on{};
   OptionArguments options{};
@@ -29,15 +30,16 @@ struct RunArguments {
 absl::Status Run(const RunArguments& arguments) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   const LocalJob sparse{.output = arguments.output,
-                        .workers = arguments.workers,
+                        .fleet = arguments.fleet,
                         .fail_on = arguments.fail_on,
+                        .is_last = !arguments.dense,
                         .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
                           return PrepareImageJob(
                               coordinator, arguments.scan, arguments.clusters, options, context);
                         }};
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(sparse));
   if (!arguments.dense) return absl::OkStatus();
-  return RunDenseJob(arguments.output, arguments.workers, options);
+  return RunDenseJob(arguments.output, arguments.fleet, options);
 }
 
 }  // namespace
@@ -53,9 +55,7 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
       ->add_option(
           "--output", arguments->output, "Folder of the results; run again with it to go on")
       ->required();
-  command->add_option("--workers", arguments->workers, "Worker processes")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  AddFleetArguments(*command, arguments->fleet);
   command->add_flag(
       "--dense", arguments->dense, "Then compute the dense cloud as well, into OUTPUT/dense");
   AddFailOnArgument(*command, arguments->fail_on);
@@ -65,7 +65,11 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave run street/images --output street/model --gnss street/gnss.csv --masks "
       "street/masks\n"
       "  orbweave run flat --output flat_model --workers 4 --set features.max_features=4096\n"
-      "Ctrl-C stops cleanly; the same command goes on where it was.");
+      "  orbweave run street/images --output model --workers 0 --listen 0.0.0.0:0 --tls "
+      "keys/coordinator --announce model.json\n"
+      "Ctrl-C stops cleanly; the same command goes on where it was. Workers that joined by "
+      "--listen "
+      "are sent home at the end, and not when an engine stops it by SIGTERM (exit code 75).");
   command->callback([arguments, &selected] {
     selected.run = [arguments] { return ReportStatus(Run(*arguments)); };
   });

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/fail_on_argument.h"
+#include "cli/fleet_argument.h"
 #include "core/base/stage_context.h"
 #include "core/pipeline/coordinator_api.h"
 
@@ -13,18 +14,19 @@ namespace orbweave {
 
 struct LocalJob {
   std::string output{};  ///< folder of the results; its state is in output/.orbweave
-  uint32_t workers = 2;
-  FailOn fail_on{};  ///< of the verdict
+  FleetArgument fleet{};
+  FailOn fail_on{};     ///< of the verdict
+  bool is_last = true;  ///< else workers that joined are not sent home: another job follows
   /// Makes the job's inputs known to the coordinator and describes it.
   std::function<absl::StatusOr<JobSpec>(BlobDepot&, const StageContext&)> prepare{};
-  /// What becomes of the finished job. Empty: writes the outputs and prints a summary on stdout.
+  /// What becomes of the job that has ended, however. Empty: WriteJob.
   std::function<absl::Status(ClientApi&, const JobStatus&)> conclude{};
 };
 
 /// Runs one job with a coordinator in this process and worker processes on this machine, shows its
 /// progress on stderr and concludes it. Ctrl-C stops it cleanly; run again it goes on where it was.
-/// Internal: the job failed, or nothing could be registered (outputs are written all the same).
-/// VerdictError: the verdict is as bad as `fail_on`.
+/// SIGTERM too (StoppedError), but workers that joined are not sent home then: an engine will start
+/// it again. Codes of WriteJob.
 [[nodiscard]] absl::Status RunLocalJob(const LocalJob& job);
 
 }  // namespace orbweave

@@ -3,22 +3,25 @@
 
 #include "cli/serve_command.h"
 
-#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "cli/announce.h"
 #include "cli/coordinator_argument.h"
 #include "cli/event_log.h"
 #include "cli/exit_code.h"
 #include "cli/root_argument.h"
+#include "cli/see_workers_off.h"
 #include "cli/stop_signals.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
+#include "coordinator/http_pages.h"
+#include "coordinator/journal_copy.h"
 #include "coordinator/journal_meter.h"
-#include "coordinator/metrics_server.h"
 #include "coordinator/postgres_journal.h"
 #include "core/base/sleep.h"
 
@@ -27,8 +30,11 @@ namespace {
 
 struct ServeOptions {
   std::string listen{};
-  std::string journal{};  ///< of a PostgreSQL database; empty: in the state folder
-  std::string metrics{};  ///< address to serve them on; empty: nowhere
+  std::string journal{};         ///< of a PostgreSQL database; empty: in the state folder
+  std::string journal_folder{};  ///< where it is instead, with a copy in the state folder
+  std::string http{};            ///< address to serve HttpPages on; empty: nowhere
+  HttpServerOptions http_server{};
+  AnnounceArgument announce{};
   ServerOptions server{};
   CoordinatorOptions coordinator{};
 };
@@ -43,11 +49,26 @@ absl::StatusOr<EventLog> OpenLog(const std::string& state_dir, MetricsCounters& 
   };
 }
 
+JournalPlace PlaceOf(const ServeOptions& options) {
+  return PlaceJournal(options.coordinator.state_dir, options.journal_folder);
+}
+
+absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& options) {
+  if (!options.journal.empty()) return OpenPostgresJournal(options.journal);
+  if (!options.journal_folder.empty()) return OpenCopiedJournal(PlaceOf(options));
+  return OpenJournal(options.coordinator.state_dir);
+}
+
+/// Null where the journal is where it is safe.
+absl::StatusOr<std::unique_ptr<JournalCopy>> CopyJournalOf(const ServeOptions& options,
+                                                           const EventLog& log) {
+  if (options.journal_folder.empty()) return nullptr;
+  return JournalCopy::Start(PlaceOf(options), log);
+}
+
 absl::StatusOr<std::unique_ptr<Journal>> OpenMeteredJournal(const ServeOptions& options,
                                                             MetricsCounters& counters) {
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
-                            options.journal.empty() ? OpenJournal(options.coordinator.state_dir)
-                                                    : OpenPostgresJournal(options.journal));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournalOf(options));
   return MeterJournal(
       std::move(journal),
       [&counters](std::string_view what, double wait_s, const absl::Status& status) {
@@ -55,27 +76,19 @@ absl::StatusOr<std::unique_ptr<Journal>> OpenMeteredJournal(const ServeOptions& 
       });
 }
 
-/// Null when nobody asked for metrics.
-absl::StatusOr<std::unique_ptr<MetricsServer>> ServeMetrics(Coordinator& coordinator,
-                                                            const MetricsCounters& counters,
-                                                            const std::string& address,
-                                                            const EventLog& log) {
-  if (address.empty()) return nullptr;
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<MetricsServer> server,
-                            MetricsServer::Start(coordinator, counters, address));
-  log({.event = "metrics_ready", .message = absl::StrCat("address=", server->address())});
+/// Null when nobody asked for it.
+absl::StatusOr<std::unique_ptr<HttpServer>> ServeHttp(const ServeOptions& options,
+                                                      Coordinator& coordinator,
+                                                      const MetricsCounters& counters,
+                                                      const Clock& clock,
+                                                      const EventLog& log) {
+  if (options.http.empty()) return nullptr;
+  const auto pages = std::make_shared<HttpPages>(coordinator, counters, clock);
+  const auto find = [pages](std::string_view path) { return pages->Find(path); };
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<HttpServer> server,
+                            HttpServer::Start(options.http, options.http_server, find));
+  log({.event = "http_ready", .message = absl::StrCat("address=", server->address())});
   return server;
-}
-
-/// Waits until all workers have gone, or had the time of two heartbeats to hear that they may.
-void SeeWorkersOff(Coordinator& coordinator, double lease_s) {
-  constexpr double kLook_s = 0.05;
-  constexpr double kLongest_s = 10.0;
-  const auto is_alive = [](const WorkerStatus& worker) { return worker.alive; };
-  for (double left_s = std::min(kLongest_s, 0.2 * lease_s); left_s > 0.0; left_s -= kLook_s) {
-    if (std::ranges::none_of(coordinator.ListWorkers(), is_alive)) return;
-    SleepUnlessStopped(kLook_s, {});
-  }
 }
 
 absl::Status Serve(const ServeOptions& options) {
@@ -90,27 +103,39 @@ absl::Status Serve(const ServeOptions& options) {
   CoordinatorOptions coordinator_options = options.coordinator;
   coordinator_options.log = log;
   coordinator_options.lost = [&end] { end.request_stop(); };
+  std::atomic<bool> is_told{false};
+  coordinator_options.stop = [&end, &is_told] {
+    is_told = true;
+    end.request_stop();
+  };
   coordinator_options.open_journal = [&](const std::string&) {
     return OpenMeteredJournal(options, counters);
   };
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto journal_copy, CopyJournalOf(options, log));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto metrics,
-                            ServeMetrics(*coordinator, counters, options.metrics, log));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto http,
+                            ServeHttp(options, *coordinator, counters, clock, log));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Announce(options.announce, server->address(), options.server.tls_folder));
   log({.event = "coordinator_ready",
        .message =
            absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
   SleepUntilStopped(end.get_token());
   ORBWEAVE_RETURN_IF_ERROR(coordinator->health());  // workers stay, for the other coordinator
-  // An engine stops it to start it again, here or elsewhere; who presses Ctrl-C is done with it.
-  const bool is_over = signals.first() == SIGINT;
+  // An engine stops it to start it again, here or elsewhere; who presses Ctrl-C, or says so by
+  // `orbweave stop`, is done with it.
+  const bool is_over = is_told || signals.first() == SIGINT;
   coordinator->BeginShutdown(is_over ? Farewell::kDismissWorkers : Farewell::kComeBack);
   log({.event = "coordinator_stops",
        .message = absl::StrCat("its jobs go on when it is started again on the same state; ",
                                is_over ? "its workers are sent home" : "its workers wait for it")});
-  if (is_over) SeeWorkersOff(*coordinator, options.coordinator.lease_s);
+  if (is_over) {
+    TakeBack(options.announce);
+    SeeWorkersOff(*coordinator, options.coordinator.lease_s);
+  }
   return absl::OkStatus();
 }
 
@@ -128,10 +153,19 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
                    options->coordinator.state_dir,
                    "Folder of blobs and of the journal of jobs and results")
       ->required();
-  command->add_option("--journal",
-                      options->journal,
-                      "Address of a PostgreSQL database to keep the journal in, without password "
-                      "(that is for ~/.pgpass, PGPASSFILE or a service file)");
+  CLI::Option* const journal = command->add_option(
+      "--journal",
+      options->journal,
+      "Address of a PostgreSQL database to keep the journal in, without password "
+      "(that is for ~/.pgpass, PGPASSFILE or a service file)");
+  command
+      ->add_option(
+          "--journal-folder",
+          options->journal_folder,
+          "Folder on a disk of this machine to keep the journal in, where the state folder "
+          "is on NFS, Lustre and their like; a copy goes there each minute and at the end")
+      ->excludes(journal);
+  AddAnnounceArguments(*command, options->announce);
   AddTlsArgument(*command, options->server.tls_folder)
       ->description(
           "Folder with ca.crt, own.crt and own.key of a coordinator (see orbweave keys); "
@@ -146,8 +180,20 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
                   options->server.roots,
                   "Folder beneath which clients may name images, instead of sending them "
                   "(repeatable)");
-  command->add_option(
-      "--metrics", options->metrics, "Serve Prometheus metrics at http://ADDRESS/metrics");
+  CLI::Option* http = command->add_option(
+      "--http",
+      options->http,
+      "Serve /metrics, /livez, /readyz and /wanted at http://ADDRESS (127.0.0.1:port)");
+  command
+      ->add_flag("--http-open",
+                 options->http_server.is_open,
+                 "Let other machines read these pages: they are neither encrypted nor protected")
+      ->needs(http);
+  command
+      ->add_option("--max-slots",
+                   options->coordinator.max_slots,
+                   "Slots of workers beyond which /wanted asks for no more; without it: any number")
+      ->check(CLI::Range(0, 1'000'000));
   command
       ->add_option("--lease",
                    options->coordinator.lease_s,
@@ -160,7 +206,9 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
       "  orbweave serve --listen unix:/tmp/orbweave.sock --state state --lease 60\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state --journal postgresql://db/orbweave\n"
       "  orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state\n"
-      "  orbweave serve --listen 127.0.0.1:7000 --state state --metrics 127.0.0.1:9464\n"
+      "  orbweave serve --listen 0.0.0.0:0 --tls keys/coordinator --state state --announce "
+      "shared/coordinator.json\n"
+      "  orbweave serve --listen 127.0.0.1:7000 --state state --http 127.0.0.1:9464\n"
       "Started again on the same state it goes on where it was. The log, one JSON object per line, "
       "goes to stderr and to logs/coordinator.log in the state folder.");
   command->callback(

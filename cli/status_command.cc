@@ -33,18 +33,21 @@ absl::StatusOr<std::vector<JobStatus>> WantedJobs(JobApi& coordinator, const std
   return std::vector<JobStatus>{std::move(job)};
 }
 
-void Print(const std::vector<JobStatus>& jobs, bool as_json) {
+/// Jobs and who works for the coordinator.
+void Print(const std::vector<JobStatus>& jobs,
+           const std::vector<WorkerStatus>& workers,
+           bool as_json) {
   if (!as_json && jobs.empty()) std::puts("no jobs");
   for (const JobStatus& job : jobs) {
     std::fputs((as_json ? JobStatusToJson(job) + "\n" : FormatJobStatus(job)).c_str(), stdout);
   }
-  if (!as_json && !jobs.empty()) std::fputs(FormatWorkers(jobs.back().workers).c_str(), stdout);
+  std::fputs((as_json ? WorkersToJson(workers) + "\n" : FormatWorkers(workers)).c_str(), stdout);
 }
 
 /// The job in place of what the terminal showed before.
-void Redraw(const JobStatus& job) {
+void Redraw(const JobStatus& job, const std::vector<WorkerStatus>& workers) {
   constexpr const char* kHome = "\033[H\033[J";
-  std::fputs((kHome + FormatJobStatus(job) + FormatWorkers(job.workers)).c_str(), stdout);
+  std::fputs((kHome + FormatJobStatus(job) + FormatWorkers(workers)).c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -54,11 +57,15 @@ absl::Status Watch(JobApi& coordinator, const JobStatus& job, const std::stop_to
   ProgressBar bar(stderr);
   const bool is_terminal = ::isatty(STDOUT_FILENO) == 1;
   const auto show = [&](const JobStatus& status) {
-    is_terminal ? Redraw(status) : bar.Update(status);
+    if (!is_terminal) return bar.Update(status);
+    const absl::StatusOr<std::vector<WorkerStatus>> workers = coordinator.ListWorkers();
+    if (workers.ok()) Redraw(status, *workers);
   };
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus last, WaitForJob(coordinator, job.id, show, {}, stop));
   bar.Finish();
-  if (!is_terminal) Print({last}, false);
+  if (is_terminal) return absl::OkStatus();
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerStatus> workers, coordinator.ListWorkers());
+  Print({last}, workers, false);
   return absl::OkStatus();
 }
 
@@ -71,19 +78,20 @@ absl::Status ShowStatus(const StatusOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs,
                             WantedJobs(*coordinator, options.job));
   if (options.watch && !jobs.empty()) return Watch(*coordinator, jobs.back(), signals.token());
-  Print(jobs, options.json);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerStatus> workers, coordinator->ListWorkers());
+  Print(jobs, workers, options.json);
   return absl::OkStatus();
 }
 
 }  // namespace
 
 void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
-  CLI::App* command = app.add_subcommand("status", "Show the jobs of a coordinator");
+  CLI::App* command = app.add_subcommand("status", "Show the jobs and workers of a coordinator");
   const auto options = std::make_shared<StatusOptions>();
   AddCoordinatorArgument(*command, options->coordinator);
   command->add_option("job", options->job, "First digits of a job's id (default: all jobs)");
-  CLI::Option* json =
-      command->add_flag("--json", options->json, "One JSON object per job and line");
+  CLI::Option* json = command->add_flag(
+      "--json", options->json, "One JSON object per job and line, then one with the workers");
   command->add_flag("--watch", options->watch, "Follow the job, or the last one, to its end")
       ->excludes(json);
   command->footer(

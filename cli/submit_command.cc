@@ -8,16 +8,16 @@
 #include <string>
 
 #include "cli/coordinator_argument.h"
+#include "cli/dense_job.h"
 #include "cli/exit_code.h"
 #include "cli/fail_on_argument.h"
-#include "cli/format_summary.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/progress_bar.h"
 #include "cli/root_argument.h"
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
-#include "cli/write_outputs.h"
+#include "cli/write_job.h"
 #include "core/io/file.h"
 #include "stages/prepare_job.h"
 
@@ -28,26 +28,47 @@ struct SubmitArguments {
   CoordinatorArgument coordinator{};
   std::map<std::string, std::string> roots{};
   ScanRequest scan{};
+  std::string database{};  ///< instead of images
   std::string clusters{};
   std::string output{};
+  bool dense = false;
   FailOn fail_on{};
   OptionArguments options{};
 };
 
+absl::StatusOr<JobSpec> Prepare(BlobDepot& coordinator,
+                                const SubmitArguments& arguments,
+                                const PipelineOptions& options,
+                                const StageContext& context) {
+  const ScanRequest& scan = arguments.scan;
+  if (arguments.database.empty())
+    return PrepareImageJob(coordinator, scan, arguments.clusters, options, context);
+  return PrepareDatabaseJob(
+      coordinator, arguments.database, scan.gnss_table, arguments.clusters, options, context);
+}
+
+absl::StatusOr<JobStatus> Wait(ClientApi& coordinator,
+                               const Digest& job,
+                               const std::stop_token& stop) {
+  ProgressBar bar(stderr);
+  const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
+  absl::StatusOr<JobStatus> status = WaitForJob(coordinator, job, show, {}, stop);
+  bar.Finish();
+  return status;
+}
+
 absl::Status WaitAndWrite(ClientApi& coordinator,
                           const Digest& job,
                           const SubmitArguments& arguments,
+                          const PipelineOptions& options,
                           const std::stop_token& stop) {
-  ProgressBar bar(stderr);
-  const auto show = [&bar](const JobStatus& status) { bar.Update(status); };
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status, WaitForJob(coordinator, job, show, {}, stop));
-  bar.Finish();
-  if (status.state != JobState::kDone)
-    return absl::InternalError("the job did not finish: " + status.error);
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report,
-                            WriteOutputs(coordinator, status, arguments.output));
-  std::fputs(FormatSummary(report, arguments.output).c_str(), stdout);
-  return CheckVerdict(report.verdict, arguments.fail_on);
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, Wait(coordinator, job, stop));
+  ORBWEAVE_RETURN_IF_ERROR(WriteJob(coordinator, sparse, arguments.output, arguments.fail_on));
+  if (!arguments.dense) return absl::OkStatus();
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, DenseJobOf(coordinator, sparse, options));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest dense, coordinator.SubmitJob(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus cloud, Wait(coordinator, dense, stop));
+  return WriteJob(coordinator, cloud, arguments.output + "/dense");
 }
 
 absl::Status Submit(const SubmitArguments& arguments) {
@@ -58,12 +79,11 @@ absl::Status Submit(const SubmitArguments& arguments) {
       const auto coordinator,
       Connect(arguments.coordinator,
               {.patience_s = kJobPatience_s, .stop = signals.token(), .roots = arguments.roots}));
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      const JobSpec spec,
-      PrepareImageJob(
-          *coordinator, arguments.scan, arguments.clusters, options, {.stop = signals.token()}));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec,
+                            Prepare(*coordinator, arguments, options, {.stop = signals.token()}));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator->SubmitJob(spec));
-  if (!arguments.output.empty()) return WaitAndWrite(*coordinator, job, arguments, signals.token());
+  if (!arguments.output.empty())
+    return WaitAndWrite(*coordinator, job, arguments, options, signals.token());
   std::printf("%s\n", job.ToHex().c_str());
   return absl::OkStatus();
 }
@@ -72,7 +92,7 @@ absl::Status Submit(const SubmitArguments& arguments) {
 
 void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command =
-      app.add_subcommand("submit", "Have a running coordinator reconstruct a folder of panoramas");
+      app.add_subcommand("submit", "Have a running coordinator reconstruct panoramas");
   const auto arguments = std::make_shared<SubmitArguments>();
   AddCoordinatorArgument(*command, arguments->coordinator);
   AddRootArgument(*command,
@@ -80,12 +100,21 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
                   "Where a root of the coordinator is on this machine: images beneath it are not "
                   "sent, the coordinator reads them itself (repeatable)");
   AddImageArguments(*command, arguments->scan);
+  CLI::Option* const images = command->get_option("IMAGES")->required(false);
+  CLI::Option* const database = command->add_option(
+      "--database", arguments->database, "Instead of images: a COLMAP or SphereSfM database");
+  database->excludes(images);
   AddHeightArgument(*command, arguments->options);
   AddClustersArgument(*command, arguments->clusters);
   CLI::Option* output = command->add_option(
       "--output",
       arguments->output,
       "Wait for the end and write the results here (default: print the job's id and leave)");
+  command
+      ->add_flag(
+          "--dense", arguments->dense, "Then compute the dense cloud as well, into OUTPUT/dense")
+      ->needs(output)
+      ->excludes(database);
   AddFailOnArgument(*command, arguments->fail_on)->needs(output);
   AddOptionArguments(*command, arguments->options);
   command->footer(
@@ -94,8 +123,10 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave work --join 127.0.0.1:7000 --slots 2 &\n"
       "  orbweave submit --coordinator 127.0.0.1:7000 street/images --gnss street/gnss.csv "
       "--output model\n"
+      "  orbweave submit --coordinator 127.0.0.1:7000 --database street.db --output model\n"
       "The same command after an interruption joins the job, or collects its results.");
-  command->callback([arguments, &selected] {
+  command->callback([arguments, images, database, &selected] {
+    if (images->empty() && database->empty()) throw CLI::RequiredError("IMAGES or --database");
     selected.run = [arguments] { return ReportStatus(Submit(*arguments)); };
   });
 }

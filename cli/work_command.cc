@@ -6,16 +6,17 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
 #include "cli/event_log.h"
 #include "cli/exit_code.h"
+#include "cli/host_name.h"
 #include "cli/join_token_argument.h"
 #include "cli/stop_signals.h"
 #include "security/tls_folder.h"
+#include "security/unix_time.h"
 #include "worker/certificate_keeper.h"
 #include "worker/grpc_coordinator_client.h"
 #include "worker/grpc_enrollment_client.h"
@@ -24,12 +25,6 @@
 
 namespace orbweave {
 namespace {
-
-std::string HostName() {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  return host.data();
-}
 
 /// Renews the certificate as long as the worker works; null without one.
 std::unique_ptr<CertificateKeeper> KeepCertificate(const CoordinatorArgument& join) {
@@ -89,15 +84,38 @@ void AddOffers(CLI::App& command, WorkOptions& options) {
   command.add_option("--gpus", options.gpus, "GPUs for tasks (default: those of this machine)");
 }
 
+std::string Describe(WorkerEnd end) {
+  switch (end) {
+    case WorkerEnd::kDismissed:
+      return "it is needed no more";
+    case WorkerEnd::kIdle:
+      return "there was nothing to do";
+    case WorkerEnd::kStopped:
+      break;
+  }
+  return "it was told to end, or its time was up: there may be more to do";
+}
+
+/// Ctrl-C is of somebody who knows; an engine that stops a worker is to start it again.
+absl::Status ToStatus(const absl::StatusOr<WorkerEnd>& end, int signal) {
+  if (!end.ok() || *end != WorkerEnd::kStopped) return end.status();
+  if (signal == SIGINT) return absl::CancelledError("interrupted");
+  return StoppedError(Describe(*end));
+}
+
 absl::Status Work(const WorkOptions& options) {
   if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
   const StopSignals signals;
   const SteadyClock clock;
-  ORBWEAVE_RETURN_IF_ERROR(
-      EnrolWhereNeeded(options.join, options.token_path, HostName(), signals.token()));
+  WorkerOptions worker = options.worker;
+  ORBWEAVE_ASSIGN_OR_RETURN(worker.term, options.term.Begin(UnixNow()));
+  ORBWEAVE_RETURN_IF_ERROR(EnrolWhereNeeded({.coordinator = options.join,
+                                             .token_path = options.token_path,
+                                             .name = HostName(),
+                                             .patience_s = worker.term.patience_s},
+                                            signals.token()));
   ORBWEAVE_RETURN_IF_ERROR(options.join.Check());
   const auto keeper = KeepCertificate(options.join);
-  WorkerOptions worker = options.worker;
   worker.offers = OffersOf(options);
   if (worker.name.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(worker.name, DefaultName(options.join));
@@ -109,13 +127,13 @@ absl::Status Work(const WorkOptions& options) {
   const auto make_executor = [&options, &clock] {
     return std::make_unique<TaskProcess>(options.task_limits, clock);
   };
-  const absl::Status status =
+  const absl::StatusOr<WorkerEnd> end =
       RunWorker(coordinator, coordinator, make_executor, worker, signals.token());
-  LogToStderr({.level = status.ok() ? LogLevel::kInfo : LogLevel::kError,
+  LogToStderr({.level = end.ok() ? LogLevel::kInfo : LogLevel::kError,
                .event = "worker_ended",
                .worker = worker.name,
-               .message = std::string(status.message())});
-  return status;
+               .message = end.ok() ? Describe(*end) : std::string(end.status().message())});
+  return ToStatus(end, signals.first());
 }
 
 }  // namespace
@@ -149,6 +167,7 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       options->worker.blob_folder,
       "The folder blobs in the coordinator's state folder, as this machine sees it; "
       "they are then read and written there and do not go through the coordinator");
+  AddWorkerTermArguments(*command, options->term);
   AddOffers(*command, *options);
   AddTaskLimits(*command, options->task_limits);
   command
@@ -162,7 +181,10 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave work --join coordinator.example:7000 --tls keys/node7 --blobs "
       "storage/state/blobs\n"
       "  orbweave work --join coordinator.example:7000 --tls node-keys --token-file join.token\n"
+      "  orbweave work --join @shared/coordinator.json --idle-exit 60 --until 2026-11-23T18:00:00\n"
       "SIGTERM: takes no more tasks, gives back what does not end within the grace, and leaves. "
+      "Exit codes: 0 sent home or idle, 2 refused, 3 no coordinator within --patience, 75 stopped "
+      "(there may be more to do: start it again), 130 Ctrl-C. "
       "The log goes to stderr, one JSON object per line.");
   command->callback(
       [options, &selected] { selected.run = [options] { return ReportStatus(Work(*options)); }; });

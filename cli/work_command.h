@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/coordinator_argument.h"
+#include "cli/worker_term_argument.h"
 #include "worker/task_watch.h"
 #include "worker/worker_loop.h"
 
@@ -17,6 +18,7 @@ struct WorkOptions {
   CoordinatorArgument join{};
   std::string token_path{};  ///< file of a join token; empty: none, or in the environment
   WorkerOptions worker{};
+  WorkerTermArgument term{};
   TaskLimits task_limits{};
   std::optional<uint64_t> memory_bytes{};  ///< offered; nothing: what the machine has
   std::optional<uint32_t> gpus{};          ///< the same

@@ -22,13 +22,13 @@
 namespace orbweave {
 namespace {
 
-void FillRun(const JobStatus& status, JobReport& report) {
+void FillRun(const JobStatus& status, const std::vector<WorkerStatus>& workers, JobReport& report) {
   report.version = std::string(BuildVersion());
   report.title = status.spec.label;
   report.options_text = status.spec.options_text;
   report.elapsed_s = status.elapsed_s;
   report.stages = ReportStages(status);
-  for (const WorkerStatus& worker : status.workers) {
+  for (const WorkerStatus& worker : workers) {
     report.workers.push_back({worker.name, worker.slots, worker.tasks_done});
   }
 }
@@ -91,7 +91,8 @@ absl::StatusOr<JobReport> WriteOutputs(ClientApi& coordinator,
                             FetchResults(coordinator, status.spec, outcomes, &models));
   ORBWEAVE_RETURN_IF_ERROR(models.Finish());
   JobReport report = BuildJobReport(results);
-  FillRun(status, report);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerStatus> workers, coordinator.ListWorkers());
+  FillRun(status, workers, report);
 
   ORBWEAVE_RETURN_IF_ERROR(WritePoseFiles(report, results.manifest, path));
   ORBWEAVE_RETURN_IF_ERROR(WriteTrace(coordinator, status.id, path));

@@ -5,8 +5,7 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
-#include "core/pipeline/build_version.h"
+#include "coordinator/check_worker.h"
 #include "core/storage/durable_file.h"
 
 namespace orbweave {
@@ -14,17 +13,6 @@ namespace {
 
 /// Workers beat, and the journal is looked at, so often in a lease.
 constexpr double kBeat = 0.1;
-
-absl::Status CheckVersion(const WorkerInfo& worker) {
-  if (worker.version == BuildVersion()) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat("worker ",
-                                                    worker.name,
-                                                    " is orbweave ",
-                                                    worker.version,
-                                                    ", the coordinator is ",
-                                                    std::string(BuildVersion()),
-                                                    ": install the same version on both"));
-}
 
 }  // namespace
 
@@ -41,6 +29,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
       new Coordinator(options, clock, std::move(lock), std::move(blobs), std::move(journal)));
   ORBWEAVE_RETURN_IF_ERROR(coordinator->job_service_.Resume(options.leases_survive));
   coordinator->planner_.Start();
+  coordinator->desk_.Start();
   coordinator->matchmaker_.Start();
   coordinator->watch_.emplace(
       *coordinator->journal_,
@@ -64,18 +53,29 @@ Coordinator::Coordinator(const CoordinatorOptions& options,
                    .log = options.log,
                    .changed = [this] { Wake(); }},
                   journal_->generation()),
+      wanted_(options.max_slots),
       job_service_(
           mutex_, dispatcher_, *journal_, options.find_plan, options.max_running_jobs, clock),
-      planner_(mutex_, dispatcher_, job_service_, blobs_, *journal_, clock),
+      desk_(mutex_, dispatcher_, *journal_, clock),
       matchmaker_(
-          mutex_, dispatcher_, clock, [this](uint64_t session) { return CheckTaker(session); }) {}
+          mutex_,
+          dispatcher_,
+          clock,
+          [this](uint64_t session) { return CheckTaker(session); },
+          [this](TaskAnswer answer) { desk_.Settle(std::move(answer)); }),
+      planner_(mutex_, dispatcher_, wanted_, job_service_, blobs_, *journal_, clock) {}
 
-Coordinator::~Coordinator() { BeginShutdown(Farewell::kComeBack); }
+Coordinator::~Coordinator() {
+  BeginShutdown(Farewell::kComeBack);
+  matchmaker_.End();
+  desk_.End();
+}
 
 absl::StatusOr<JoinReply> Coordinator::Join(const WorkerInfo& worker) {
-  ORBWEAVE_RETURN_IF_ERROR(CheckVersion(worker));
+  ORBWEAVE_RETURN_IF_ERROR(CheckWorker(worker));
   const std::lock_guard lock(mutex_);
   ORBWEAVE_RETURN_IF_ERROR(CheckServing());
+  matchmaker_.WakeAll();  // the session before is over
   return JoinReply{.session = dispatcher_.Join(worker, clock_.NowSeconds()),
                    .lease_s = options_.lease_s,
                    .heartbeat_s = options_.lease_s * kBeat};
@@ -87,11 +87,23 @@ absl::Status Coordinator::Leave(uint64_t session) {
   return absl::OkStatus();
 }
 
-absl::Status Coordinator::DrainWorker(const std::string& name) {
+absl::StatusOr<std::vector<std::string>> Coordinator::DrainWorkers(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Drain(name));
-  dispatcher_.Log({.event = "worker_drained", .worker = name});
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<std::string> drained, dispatcher_.roster().Drain(name));
+  for (const std::string& worker : drained)
+    dispatcher_.Log({.event = "worker_drained", .worker = worker});
   WakeAll();
+  return drained;
+}
+
+absl::Status Coordinator::StopCoordinator() {
+  if (!options_.stop)
+    return absl::FailedPreconditionError("this coordinator ends with its job, or by Ctrl-C");
+  {
+    const std::lock_guard lock(mutex_);
+    dispatcher_.Log({.event = "coordinator_told_to_stop"});
+  }
+  options_.stop();
   return absl::OkStatus();
 }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,12 +13,14 @@
 #include "coordinator/job_service.h"
 #include "coordinator/journal.h"
 #include "coordinator/journal_watch.h"
+#include "coordinator/lease_desk.h"
 #include "coordinator/matchmaker.h"
 #include "coordinator/open_journal.h"
 #include "coordinator/planner.h"
+#include "coordinator/served_api.h"
 #include "coordinator/state_lock.h"
+#include "coordinator/wanted_slots.h"
 #include "core/base/clock.h"
-#include "core/pipeline/coordinator_api.h"
 #include "core/pipeline/log_event.h"
 #include "core/storage/blob_store.h"
 
@@ -30,13 +33,15 @@ struct CoordinatorOptions {
   bool leases_survive = true;
   double lease_s =
       20.0;  ///< a worker silent for so long loses its tasks; it beats ten times as often
-  uint32_t max_running_jobs = 1000;  ///< more are not taken
+  uint32_t max_running_jobs = 1000;                           ///< more are not taken
+  uint32_t max_slots = std::numeric_limits<uint32_t>::max();  ///< more are never wanted
   RetryPolicy retry{};
   PlanLookup find_plan = FindNoPlan;
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
       open_journal = OpenJournal;
   EventLog log{};
   std::function<void()> lost{};  ///< called when health() is OK no more
+  std::function<void()> stop{};  ///< called when an administrator wants it to end
 };
 
 /// Where a coordinator with this state folder keeps its blobs.
@@ -53,7 +58,7 @@ enum class Farewell {
 /// acknowledged. Opened again on the same state it goes on where it was: a task whose result and
 /// blobs are there is not computed again. Thread-safe; see CoordinatorApi and its parts for
 /// the contract of each call.
-class Coordinator final : public CoordinatorApi {
+class Coordinator final : public ServedApi {
  public:
   /// FailedPrecondition: the state is in use by another coordinator, or of another version.
   /// DataLoss: it is damaged. `clock` outlives the coordinator.
@@ -72,6 +77,11 @@ class Coordinator final : public CoordinatorApi {
   using WorkerApi::LeaseTask;
   [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(
       uint64_t session, uint32_t slot, double wait_s, const std::stop_token& left) override;
+  void AskForTask(uint64_t session,
+                  uint32_t slot,
+                  double wait_s,
+                  const std::stop_token& left,
+                  TakeLease take) override;
   [[nodiscard]] absl::StatusOr<HeartbeatReply> Heartbeat(
       uint64_t session, const std::vector<LeaseProgress>& leases) override;
   [[nodiscard]] absl::Status CompleteTask(uint64_t session,
@@ -81,11 +91,14 @@ class Coordinator final : public CoordinatorApi {
                                       const Lease& lease,
                                       const absl::Status& error) override;
   [[nodiscard]] absl::Status Leave(uint64_t session) override;
-  [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
+  [[nodiscard]] absl::StatusOr<std::vector<std::string>> DrainWorkers(
+      const std::string& name) override;
+  [[nodiscard]] absl::Status StopCoordinator() override;
 
   [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
+  [[nodiscard]] absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
@@ -100,13 +113,20 @@ class Coordinator final : public CoordinatorApi {
 
   /// Somebody saw the process of this worker end: its leases are void at once.
   void WorkerDied(std::string_view name);
-  /// Whoever ever joined, by name.
-  [[nodiscard]] std::vector<WorkerStatus> ListWorkers();
   /// Of workers and clients, since the start.
   [[nodiscard]] BlobTraffic blob_traffic() const { return {bytes_in_, bytes_out_}; }
   /// Aborted once another coordinator has taken the journal over. Then this one gives and takes
   /// nothing any more: to workers and clients it is Unavailable, so that they look for the other.
   [[nodiscard]] absl::Status health();
+  /// OK while its threads move: one that waits for the journal or for blobs does, for to start the
+  /// coordinator again would not help it. Unavailable: which has not moved for a lease time. Takes
+  /// no lock.
+  [[nodiscard]] absl::Status CheckLive() const;
+  /// OK when it can work: the journal saves and is its own, a blob can be put and got. Waits for
+  /// both.
+  [[nodiscard]] absl::Status CheckReady();
+  /// How many slots of workers there is work for; see WantedSlots.
+  [[nodiscard]] uint32_t SlotsWanted();
   /// Wakes every waiting call and gives no more tasks.
   void BeginShutdown(Farewell farewell = Farewell::kDismissWorkers);
 
@@ -116,11 +136,6 @@ class Coordinator final : public CoordinatorApi {
               StateLock lock,
               BlobStore blobs,
               std::unique_ptr<Journal> journal);
-  /// Writes a lease down; only then it may leave the house. Nothing: it ended meanwhile.
-  [[nodiscard]] absl::StatusOr<std::optional<Lease>> HandOut(const TaskRequest& request,
-                                                             const Grant& grant);
-  /// With the lock: a lease that was granted goes to nobody.
-  void TakeBack(uint64_t session, const Grant& grant, const std::string& reason);
   /// What `look` says of a job, with the lock. NotFound: there is no such job.
   template <typename Look>
   [[nodiscard]] auto LookAt(const Digest& job, Look&& look)
@@ -132,6 +147,8 @@ class Coordinator final : public CoordinatorApi {
   [[nodiscard]] absl::Status CheckServing() const;
   /// With the lock: whether a worker may be given tasks.
   [[nodiscard]] absl::Status CheckTaker(uint64_t session);
+  /// With the lock: the same of one that asks for this slot, and notes that it was heard.
+  [[nodiscard]] absl::Status HearAsker(uint64_t session, uint32_t slot);
   /// With the lock: logs what became of a lease's result.
   void LogOf(const Lease& lease,
              LogLevel level,
@@ -152,12 +169,14 @@ class Coordinator final : public CoordinatorApi {
   std::mutex collecting_mutex_;  ///< one collection of garbage at a time; taken before all others
   std::mutex mutex_;
   Dispatcher dispatcher_;
+  WantedSlots wanted_;
   bool stopping_ = false;
   bool dismisses_ = false;
   absl::Status health_;
   JobService job_service_;
-  Planner planner_;
+  LeaseDesk desk_;
   Matchmaker matchmaker_;
+  Planner planner_;
   std::optional<JournalWatch> watch_;  ///< last: ends before what it uses
 };
 

@@ -32,7 +32,7 @@ auto Coordinator::LookAt(const Digest& id, Look&& look)
 JobStatus Coordinator::StatusOf(const Job& job, double now_s) const {
   JobStatus status = job.machine->Status(now_s);
   status.unmet = dispatcher_.UnmetOf(job, now_s);
-  status.workers = dispatcher_.WorkerStatuses(now_s);
+  status.slots = dispatcher_.SlotsAtWork(now_s);
   return status;
 }
 
@@ -51,7 +51,7 @@ absl::StatusOr<std::vector<JobStatus>> Coordinator::ListJobs() {
   return jobs;
 }
 
-std::vector<WorkerStatus> Coordinator::ListWorkers() {
+absl::StatusOr<std::vector<WorkerStatus>> Coordinator::ListWorkers() {
   const std::lock_guard lock(mutex_);
   return dispatcher_.WorkerStatuses(clock_.NowSeconds());
 }

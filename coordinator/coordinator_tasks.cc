@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <memory>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/coordinator.h"
+#include "coordinator/job_limits.h"
 #include "core/pipeline/is_to_leave.h"
 
 namespace orbweave {
@@ -17,12 +21,6 @@ namespace {
 /// Who asks for a task waits no longer: a call that nobody waits for any more, which is not
 /// noticed, is over then.
 constexpr double kLongestWait_s = 60.0;
-
-/// A journal that is another coordinator's is none that refuses a worker: the other takes its
-/// result.
-absl::Status ForWorkers(const absl::Status& saved) {
-  return absl::IsFailedPrecondition(saved) ? absl::UnavailableError(saved.message()) : saved;
-}
 
 }  // namespace
 
@@ -34,51 +32,36 @@ absl::Status Coordinator::CheckTaker(uint64_t session) {
   return absl::CancelledError(kIsToLeave);
 }
 
+absl::Status Coordinator::HearAsker(uint64_t session, uint32_t slot) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckTaker(session));
+  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().CheckSlot(session, slot));
+  // Once: that a call is still here says nothing about who made it.
+  return dispatcher_.roster().Hear(session, clock_.NowSeconds());
+}
+
+void Coordinator::AskForTask(
+    uint64_t session, uint32_t slot, double wait_s, const std::stop_token& left, TakeLease take) {
+  if (!std::isfinite(wait_s) || wait_s < 0.0) {
+    return take(absl::InvalidArgumentError("who asks for a task waits for a number of seconds"));
+  }
+  std::unique_lock lock(mutex_);
+  if (const absl::Status may_ask = HearAsker(session, slot); !may_ask.ok()) {
+    lock.unlock();
+    return take(may_ask);
+  }
+  const double until_s = clock_.NowSeconds() + std::min(wait_s, kLongestWait_s);
+  matchmaker_.Ask(std::move(lock), {session, slot, until_s, left}, std::move(take));
+}
+
 absl::StatusOr<std::optional<Lease>> Coordinator::LeaseTask(uint64_t session,
                                                             uint32_t slot,
                                                             double wait_s,
                                                             const std::stop_token& left) {
-  if (!std::isfinite(wait_s) || wait_s < 0.0)
-    return absl::InvalidArgumentError("who asks for a task waits for a number of seconds");
-  std::unique_lock lock(mutex_);
-  ORBWEAVE_RETURN_IF_ERROR(CheckTaker(session));
-  const double now_s = clock_.NowSeconds();
-  // Once: that a call is still here says nothing about who made it.
-  ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, now_s));
-  const TaskRequest request{session, slot, now_s + std::min(wait_s, kLongestWait_s), left};
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Grant> grant, matchmaker_.Await(lock, request));
-  lock.unlock();
-  if (!grant) return std::nullopt;
-  return HandOut(request, *grant);
-}
-
-absl::StatusOr<std::optional<Lease>> Coordinator::HandOut(const TaskRequest& request,
-                                                          const Grant& grant) {
-  const absl::Status saved = journal_->SaveStart(grant.attempt);
-  const std::lock_guard lock(mutex_);
-  const bool goes_on = dispatcher_.Begin(request.session, grant.lease, clock_.NowSeconds());
-  if (!saved.ok()) {
-    dispatcher_.Log({.level = LogLevel::kError,
-                     .event = "start_not_saved",
-                     .job = grant.attempt.job,
-                     .stage = grant.attempt.stage,
-                     .part = grant.attempt.part,
-                     .task = grant.attempt.task,
-                     .worker = grant.attempt.worker,
-                     .epoch = grant.attempt.epoch,
-                     .message = std::string(saved.message())});
-    TakeBack(request.session, grant, absl::StrCat("not handed out: ", saved.message()));
-    return ForWorkers(saved);
-  }
-  if (!goes_on) return std::nullopt;
-  if (!request.left.stop_requested()) return grant.lease;
-  TakeBack(request.session, grant, "nobody waits for it any more");
-  return absl::CancelledError("nobody waits for a task any more");
-}
-
-void Coordinator::TakeBack(uint64_t session, const Grant& grant, const std::string& reason) {
-  dispatcher_.TaskFailed(session, grant.lease, absl::CancelledError(reason), clock_.NowSeconds())
-      .IgnoreError();  // the lease may have ended meanwhile
+  using Answer = absl::StatusOr<std::optional<Lease>>;
+  const auto answer = std::make_shared<std::promise<Answer>>();
+  AskForTask(
+      session, slot, wait_s, left, [answer](Answer lease) { answer->set_value(std::move(lease)); });
+  return answer->get_future().get();
 }
 
 absl::StatusOr<HeartbeatReply> Coordinator::Heartbeat(uint64_t session,
@@ -107,6 +90,7 @@ void Coordinator::LogOf(const Lease& lease,
 absl::Status Coordinator::CompleteTask(uint64_t session,
                                        const Lease& lease,
                                        const TaskResult& result) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckSizeOf(result));
   for (const auto* blobs : {&result.outputs, &result.recipes}) {
     for (const Digest& blob : *blobs) {
       if (blobs_.Use(blob)) continue;
@@ -140,7 +124,7 @@ absl::Status Coordinator::FailTask(uint64_t session,
   if (error.ok()) return absl::InvalidArgumentError("a failure needs a reason");
   const std::lock_guard lock(mutex_);
   ORBWEAVE_RETURN_IF_ERROR(dispatcher_.roster().Hear(session, clock_.NowSeconds()));
-  return dispatcher_.TaskFailed(session, lease, error, clock_.NowSeconds());
+  return dispatcher_.TaskFailed(session, lease, Shortened(error), clock_.NowSeconds());
 }
 
 }  // namespace orbweave

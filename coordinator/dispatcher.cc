@@ -4,6 +4,7 @@
 #include "coordinator/dispatcher.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -48,6 +49,7 @@ void Dispatcher::ForgetJob(const Digest& id) {
 uint64_t Dispatcher::Join(const WorkerInfo& worker, double now_s) {
   const uint64_t session = ++last_session_;
   roster_.Join(worker, session, now_s);
+  roster_.ForgetGone(now_s);
   EndAllLost(book_.Adopt(worker.name, worker.held, session, now_s + options_.lease_s),
              absl::StrCat("worker ", worker.name, " started anew"),
              now_s);
@@ -112,7 +114,7 @@ std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at,
   for (const auto& [number, id] : jobs_.order()) {
     const JobMachine& machine = *jobs_.At(id).machine;
     const StageRule* stage = machine.StageToGiveOut();
-    if (stage == nullptr) continue;
+    if (stage == nullptr || !HasTime(at, machine, now_s)) continue;
     std::vector<std::string> those_able;
     const std::vector<std::string>& able = EveryWorkerMeets(stage->needs)
                                                ? serving
@@ -130,9 +132,15 @@ std::optional<Dispatcher::JobTask> Dispatcher::NextTask(const WorkerSlot& at,
   for (const auto& [number, id] : jobs_.order()) {
     const JobMachine& machine = *jobs_.At(id).machine;
     const auto ref = machine.NextStraggler(at.worker, slots, now_s);
-    if (ref && roster_.HasRoom(at.worker, taken, machine.Needs(*ref))) return JobTask{id, *ref};
+    const bool fits = ref && roster_.HasRoom(at.worker, taken, machine.Needs(*ref));
+    if (fits && HasTime(at, machine, now_s)) return JobTask{id, *ref};
   }
   return std::nullopt;
+}
+
+bool Dispatcher::HasTime(const WorkerSlot& at, const JobMachine& machine, double now_s) const {
+  const double stays_s = roster_.StaysFor(at.worker, now_s);
+  return std::isinf(stays_s) || machine.UsualTime_s() <= stays_s;
 }
 
 StageNeeds Dispatcher::TakenBeside(const WorkerSlot& at) const {
@@ -152,8 +160,14 @@ std::string Dispatcher::UnmetOf(const Job& job, double now_s) const {
   const StageRule* stage = job.machine->StageToGiveOut();
   if (stage == nullptr) return {};
   const std::string missing = roster_.Missing(stage->needs, now_s);
-  if (missing.empty()) return {};
-  return absl::StrCat("a task of stage ", stage->stage, " asks for ", missing);
+  if (!missing.empty())
+    return absl::StrCat("a task of stage ", stage->stage, " asks for ", missing);
+  if (job.machine->UsualTime_s() <= roster_.LongestStay(now_s)) return {};
+  return absl::StrCat("a task of stage ",
+                      stage->stage,
+                      " takes ",
+                      std::ceil(job.machine->UsualTime_s()),
+                      " s, longer than any worker stays");
 }
 
 std::optional<Grant> Dispatcher::GrantNext(uint64_t session,
@@ -190,9 +204,9 @@ bool Dispatcher::Begin(uint64_t session, const Lease& lease, double now_s) {
 }
 
 bool Dispatcher::HasLooseEnds() const {
-  return roster_.HasBlames() || std::ranges::any_of(ends_, [this](const AttemptEnd& end) {
-           return !starting_.contains(end.epoch);
-         });
+  return roster_.HasBlames() || !spoilt_.empty() ||
+         std::ranges::any_of(
+             ends_, [this](const AttemptEnd& end) { return !starting_.contains(end.epoch); });
 }
 
 LooseEnds Dispatcher::TakeLooseEnds() {
@@ -200,7 +214,7 @@ LooseEnds Dispatcher::TakeLooseEnds() {
       ends_, [this](const AttemptEnd& end) { return !starting_.contains(end.epoch); });
   std::vector<AttemptEnd> kept(later.begin(), later.end());
   ends_.erase(later.begin(), later.end());
-  return {std::exchange(ends_, std::move(kept)), roster_.TakeBlames()};
+  return {std::exchange(ends_, std::move(kept)), roster_.TakeBlames(), std::exchange(spoilt_, {})};
 }
 
 void Dispatcher::Await(const Attempt& attempt, double now_s) {
@@ -251,13 +265,24 @@ absl::Status Dispatcher::TaskDone(uint64_t session,
       EndVoid(other, "another attempt was first");
     JobMachine& machine = *jobs_.At(entry->job).machine;
     machine.TaskDone({*entry->ref, entry->epoch}, result, now_s);
-    roster_.CountTask(session, machine.FailedOn(*entry->ref));
+    CountDone(session, *entry, result);
   } else {
     ++early_results_;
     roster_.CountTask(session, {});
   }
   options_.changed();
   return absl::OkStatus();
+}
+
+void Dispatcher::CountDone(uint64_t session, const LeaseEntry& entry, const TaskResult& result) {
+  const Job& job = jobs_.At(entry.job);
+  // Whoever left the same bytes that others could not read is not to blame for them.
+  if (job.damage.IsIn(result)) return roster_.CountTask(session, {});
+  roster_.CountTask(session, job.machine->FailedOn(*entry.ref));
+  for (const FailedAttempt& damaged : job.damage.results) {
+    if (damaged.task == entry.task && damaged.worker != entry.worker)
+      roster_.CountDamage(damaged.worker);
+  }
 }
 
 absl::Status Dispatcher::TaskFailed(uint64_t session,

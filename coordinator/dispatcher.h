@@ -35,6 +35,7 @@ struct Grant {
 struct LooseEnds {
   std::vector<AttemptEnd> attempts{};
   std::vector<WorkerBlame> blames{};
+  std::vector<Digest> spoilt{};  ///< tasks whose results are to be forgotten
 };
 
 /// What a coordinator knows: jobs, who works on which task until when, and which attempts ended
@@ -60,7 +61,9 @@ class Dispatcher {
   [[nodiscard]] uint64_t Join(const WorkerInfo& worker, double now_s);
   void Leave(uint64_t session, double now_s);
   void WorkerDied(std::string_view name, double now_s);
-  /// Of every worker that ever joined, by name.
+  /// Of all workers that are given tasks.
+  [[nodiscard]] uint32_t SlotsAtWork(double now_s) const { return roster_.SlotsAtWork(now_s); }
+  /// Of every worker that the roster has, by name.
   [[nodiscard]] std::vector<WorkerStatus> WorkerStatuses(double now_s) const;
 
   /// What a job's ready tasks ask for and no worker that is there ever has, in words that name the
@@ -128,8 +131,12 @@ class Dispatcher {
   [[nodiscard]] std::optional<JobTask> NextTask(const WorkerSlot& at,
                                                 const std::vector<std::string>& serving,
                                                 double now_s);
+  /// Whether a task as they usually are ends before the worker leaves.
+  [[nodiscard]] bool HasTime(const WorkerSlot& at, const JobMachine& machine, double now_s) const;
   /// What the tasks take that a worker runs in its other slots.
   [[nodiscard]] StageNeeds TakenBeside(const WorkerSlot& at) const;
+  /// A worker handed in a result: what that says of it, and of those who failed before.
+  void CountDone(uint64_t session, const LeaseEntry& entry, const TaskResult& result);
   void EndAttempt(const LeaseEntry& entry, const absl::Status& error, double now_s);
   /// Its worker is lost. A task that only waited there has not been tried.
   void EndLost(const LeaseEntry& entry, const absl::Status& error, double now_s);
@@ -140,6 +147,14 @@ class Dispatcher {
   void EndVoid(const LeaseEntry& entry, const std::string& reason);
   void VoidLeases(const Digest& job, const std::string& reason);
   void FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s);
+  /// A blob cannot be read: the job begins anew, and with it the tasks that left it, better
+  /// elsewhere.
+  void MakeAgain(const LeaseEntry& reader,
+                 const Digest& blob,
+                 const absl::Status& error,
+                 double now_s);
+  void NoteDamage(TaskRef maker, const LeaseEntry& reader, const std::string& reason);
+  void BeginAnew(Job& job, double now_s);
 
   DispatcherOptions options_;
   JobTable jobs_;
@@ -147,6 +162,7 @@ class Dispatcher {
   WorkerRoster roster_;
   std::set<uint64_t> starting_;  ///< epochs that were granted and not written down yet
   std::vector<AttemptEnd> ends_;
+  std::vector<Digest> spoilt_;  ///< see LooseEnds
   uint64_t last_epoch_;
   uint64_t last_session_;
   uint64_t early_results_ = 0;

@@ -3,10 +3,13 @@
 
 // How attempts end that have no result, and what follows.
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/dispatcher.h"
+#include "core/pipeline/damaged_blob.h"
 
 namespace orbweave {
 namespace {
@@ -42,15 +45,65 @@ void Dispatcher::EndAttempt(const LeaseEntry& entry, const absl::Status& error, 
 
 void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s) {
   Job& job = jobs_.At(entry.job);
+  const std::optional<Digest> blob = BlobToBlame(error);
+  if (blob && !job.machine->MakersOf(*blob).empty()) return MakeAgain(entry, *blob, error, now_s);
   const bool input_lost = ClassifyFailure(error.code()) == FailureClass::kInputLost;
   if (input_lost && job.reruns < kMaxReruns) {
     ++job.reruns;
     job.verify = true;
-    BeginJob(JobSpec(job.machine->spec()), JobPlan(job.machine->plan()), job.number, now_s);
-    return;
+    // All bytes were right the last time, and still what they say does not fit.
+    if (absl::IsDataLoss(error) && job.reruns > 1 && !std::exchange(job.damage.is_remade, true))
+      std::ranges::move(job.machine->TasksReadBy(*entry.ref), std::back_inserter(spoilt_));
+    return BeginAnew(job, now_s);
   }
   job.machine->TaskFailed({*entry.ref, entry.epoch}, error, now_s);
   if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
+}
+
+void Dispatcher::MakeAgain(const LeaseEntry& reader,
+                           const Digest& blob,
+                           const absl::Status& error,
+                           double now_s) {
+  Job& job = jobs_.At(reader.job);
+  const std::string reason = absl::StrCat("it left blob ",
+                                          blob.ToShortHex(),
+                                          ", which ",
+                                          job.machine->Describe(*reader.ref),
+                                          " cannot read: ",
+                                          error.message());
+  job.damage.blobs.insert(blob);
+  for (const TaskRef& maker : job.machine->MakersOf(blob)) NoteDamage(maker, reader, reason);
+  if (job.damage.results.size() <= options_.retry.job_retries) return BeginAnew(job, now_s);
+  JobFails(reader.job,
+           absl::StrCat("the job gave up after ",
+                        job.damage.results.size(),
+                        " damaged results, the last of ",
+                        job.machine->Describe(job.machine->MakersOf(blob).back()),
+                        ": ",
+                        reason),
+           now_s);
+}
+
+void Dispatcher::NoteDamage(TaskRef maker, const LeaseEntry& reader, const std::string& reason) {
+  Job& job = jobs_.At(reader.job);
+  const JobMachine& machine = *job.machine;
+  const Digest& task = machine.TaskId(maker);
+  const std::string& worker = machine.WorkerOf(maker);
+  job.damage.results.push_back({task, worker, absl::StatusCode::kDataLoss, reason});
+  spoilt_.push_back(task);
+  Log({.level = LogLevel::kWarning,
+       .event = "result_damaged",
+       .job = reader.job,
+       .stage = machine.Spec(maker).stage,
+       .part = maker.part,
+       .task = task,
+       .worker = worker,
+       .message = reason});
+}
+
+void Dispatcher::BeginAnew(Job& job, double now_s) {
+  BeginJob(JobSpec(job.machine->spec()), JobPlan(job.machine->plan()), job.number, now_s);
+  job.machine->Remember(job.damage.results);
 }
 
 void Dispatcher::EndLost(const LeaseEntry& entry, const absl::Status& error, double now_s) {
@@ -75,6 +128,7 @@ void Dispatcher::EndVoid(const LeaseEntry& entry, const std::string& reason) {
 }
 
 void Dispatcher::ExpireLeases(double now_s) {
+  roster_.ForgetGone(now_s);
   for (const LeaseEntry& entry : book_.TakeExpired(now_s)) {
     LogEvent event = Describe(entry, "lease_expired");
     event.level = LogLevel::kWarning;

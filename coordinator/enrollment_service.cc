@@ -13,14 +13,22 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kNonceDigits = 8;
+/// The worker that uses a token for the `use`th time.
+Identity BearerOf(const JoinClaims& claims, const std::string& name, uint32_t use) {
+  constexpr size_t kNonceDigits = 8;
+  Identity worker{.fleet = claims.fleet,
+                  .role = claims.role,
+                  .name = absl::StrCat(name, "-", claims.nonce.substr(0, kNonceDigits))};
+  if (claims.uses > 1) absl::StrAppend(&worker.name, "-", use);
+  return worker;
+}
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<EnrollmentService>> EnrollmentService::Open(
     const EnrollmentOptions& options) {
   CertifiedKey own;
-  ORBWEAVE_ASSIGN_OR_RETURN(own.certificate_pem, ReadSecretFile(options.tls.AuthorityPath()));
+  ORBWEAVE_ASSIGN_OR_RETURN(own.certificate_pem, ReadTrustedFile(options.tls.AuthorityPath()));
   ORBWEAVE_ASSIGN_OR_RETURN(own.key_pem, ReadSecretFile(options.tls.AuthorityKeyPath()));
   ORBWEAVE_ASSIGN_OR_RETURN(std::string token_key, ReadSecretFile(options.tls.TokenKeyPath()));
   ORBWEAVE_ASSIGN_OR_RETURN(CertificateAuthority authority, CertificateAuthority::Load(own));
@@ -43,11 +51,11 @@ absl::StatusOr<std::string> EnrollmentService::Enroll(const std::string& token,
   if (claims.fleet != authority_.fleet() || claims.role != Role::kWorker)
     return absl::PermissionDeniedError("the join token is not one of a worker of this fleet");
   ORBWEAVE_RETURN_IF_ERROR(revocations_->CheckToken(claims.nonce));
-  const Identity worker{.fleet = claims.fleet,
-                        .role = claims.role,
-                        .name = absl::StrCat(name, "-", claims.nonce.substr(0, kNonceDigits))};
+  // What can be wrong with a name or a request is found before the token is spent.
+  ORBWEAVE_RETURN_IF_ERROR(Renew(BearerOf(claims, name, claims.uses), request_pem).status());
+  ORBWEAVE_ASSIGN_OR_RETURN(const uint32_t use, used_.Use(claims));
+  const Identity worker = BearerOf(claims, name, use);
   ORBWEAVE_ASSIGN_OR_RETURN(std::string certificate, Renew(worker, request_pem));
-  ORBWEAVE_RETURN_IF_ERROR(used_.Use(claims.nonce, claims.expires_unix_s));
   if (options_.log) options_.log({.event = "certificate_given", .worker = worker.name});
   return certificate;
 }

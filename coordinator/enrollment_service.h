@@ -31,8 +31,9 @@ class EnrollmentService {
   [[nodiscard]] static absl::StatusOr<std::unique_ptr<EnrollmentService>> Open(
       const EnrollmentOptions& options);
 
-  /// A certificate for the key of `request_pem`, once per token. The worker is called `name` and
-  /// the first digits of the token's nonce: no token takes the name of another worker.
+  /// A certificate for the key of `request_pem`, as often as the token says. The worker is called
+  /// `name`, the first digits of the token's nonce and, of one for several, the number of this use:
+  /// no token takes the name of another worker, and no two workers have one name.
   /// PermissionDenied: the token is false, expired, revoked, used, or of another fleet.
   /// InvalidArgument: a bad name or request; the token is then still good.
   [[nodiscard]] absl::StatusOr<std::string> Enroll(const std::string& token,

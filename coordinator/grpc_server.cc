@@ -58,7 +58,7 @@ void SetConnectionAge(grpc::ServerBuilder& builder) {
 
 }  // namespace
 
-absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& api,
+absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(ServedApi& api,
                                                               const std::string& address,
                                                               const ServerOptions& options) {
   const bool has_tls = !options.tls_folder.empty();
@@ -93,7 +93,7 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(CoordinatorApi& ap
   return server;
 }
 
-GrpcServer::GrpcServer(CoordinatorApi& api,
+GrpcServer::GrpcServer(ServedApi& api,
                        const ServerOptions& options,
                        std::unique_ptr<EnrollmentService> enrollment_service)
     : service_(

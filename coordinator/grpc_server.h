@@ -17,7 +17,7 @@ namespace orbweave {
 struct ServerLimits {
   int message_bytes = 8 << 20;
   int streams_per_connection = 256;  ///< further ones wait
-  int threads = 4096;                ///< one per call; waiting for a task is a call too
+  int threads = 256;                 ///< one per call, but for those that wait for a task
 };
 
 struct ServerOptions {
@@ -30,7 +30,7 @@ struct ServerOptions {
   FileRoots roots{};  ///< beneath which clients may name files of this machine; see LinkFile
 };
 
-/// Serves a CoordinatorApi on an address until destroyed, and beside it grpc.health.v1.Health,
+/// Serves a coordinator on an address until destroyed, and beside it grpc.health.v1.Health,
 /// which answers SERVING for the server as a whole (service ""). Before that, whatever keeps calls
 /// waiting in `api` has to let go (Coordinator::BeginShutdown).
 class GrpcServer {
@@ -38,14 +38,14 @@ class GrpcServer {
   /// `address`: see CheckListenAddress; port 0 lets the system choose. InvalidArgument: not
   /// allowed. Unavailable: taken, or not ours to use. Also those of MakeTlsCredentials.
   [[nodiscard]] static absl::StatusOr<std::unique_ptr<GrpcServer>> Start(
-      CoordinatorApi& api, const std::string& address, const ServerOptions& options = {});
+      ServedApi& api, const std::string& address, const ServerOptions& options = {});
   ~GrpcServer();
 
   /// Where workers and clients find it.
   [[nodiscard]] const std::string& address() const { return address_; }
 
  private:
-  GrpcServer(CoordinatorApi& api,
+  GrpcServer(ServedApi& api,
              const ServerOptions& options,
              std::unique_ptr<EnrollmentService> enrollment_service);
 

@@ -6,8 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "coordinator/grpc_lease_call.h"
 #include "coordinator/grpc_peer.h"
 #include "coordinator/grpc_status.h"
+#include "core/pipeline/damaged_blob.h"
 #include "proto/codec/coordinator_codec.h"
 #include "proto/codec/garbage_codec.h"
 
@@ -18,9 +20,21 @@ constexpr uint64_t kMaxBlobBytes = uint64_t{8} << 30;
 
 grpc::Status ReaderLeft() { return {grpc::StatusCode::CANCELLED, "the reader left"}; }
 
+/// A stream of what a call answers, one message each.
+template <typename Value, typename Proto>
+grpc::Status WriteAll(const absl::StatusOr<std::vector<Value>>& values,
+                      grpc::ServerWriter<Proto>& writer) {
+  if (!values.ok()) return OnWire(values.status());
+  for (const Value& value : *values) {
+    if (!writer.Write(ToProto(value))) return ReaderLeft();
+  }
+  return grpc::Status::OK;
+}
+
 }  // namespace
 
-absl::Status GrpcService::CheckSession(const Context& context, uint64_t session) const {
+absl::Status GrpcService::CheckSession(const grpc::ServerContextBase& context,
+                                       uint64_t session) const {
   if (peers_ == Peers::kTrusted) return absl::OkStatus();
   ORBWEAVE_ASSIGN_OR_RETURN(const Identity peer, CertifiedPeerOf(*context.auth_context()));
   return owners_.Check(session, peer);
@@ -44,21 +58,17 @@ grpc::Status GrpcService::Join(Context* context,
   return grpc::Status::OK;
 }
 
-grpc::Status GrpcService::LeaseTask(Context* context,
-                                    const v1::LeaseTaskRequest* request,
-                                    v1::LeaseTaskReply* reply) {
-  ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(
-      const std::optional<Lease> lease, calls_.During(*context, [&](const std::stop_token& left) {
-        return api_.LeaseTask(request->session(), request->slot(), request->wait_s(), left);
-      }));
-  if (!lease) return grpc::Status::OK;
-  if (context->IsCancelled()) {  // nobody is there to take it
-    return OnWire(
-        api_.FailTask(request->session(), *lease, absl::CancelledError("the worker hung up")));
+grpc::ServerUnaryReactor* GrpcService::LeaseTask(grpc::CallbackServerContext* context,
+                                                 const v1::LeaseTaskRequest* request,
+                                                 v1::LeaseTaskReply* reply) {
+  if (const absl::Status may_ask = CheckSession(*context, request->session()); !may_ask.ok()) {
+    grpc::ServerUnaryReactor* refusal = context->DefaultReactor();
+    refusal->Finish(OnWire(may_ask));
+    return refusal;
   }
-  *reply->mutable_lease() = ToProto(*lease);
-  return grpc::Status::OK;
+  auto* const call = new GrpcLeaseCall(api_, *request, *reply);  // deletes itself
+  call->Ask();
+  return call;
 }
 
 grpc::Status GrpcService::Heartbeat(Context* context,
@@ -91,7 +101,11 @@ grpc::Status GrpcService::FailTask(Context* context,
                                    v1::Empty*) {
   ORBWEAVE_GRPC_RETURN_IF_ERROR(CheckSession(*context, request->session()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Lease lease, FromProto(request->lease()));
-  const absl::Status error(static_cast<absl::StatusCode>(request->code()), request->message());
+  absl::Status error(static_cast<absl::StatusCode>(request->code()), request->message());
+  if (!request->damaged().empty()) {
+    ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest blob, DigestFromProto(request->damaged()));
+    error = BlameBlob(std::move(error), blob);
+  }
   return OnWire(api_.FailTask(request->session(), lease, error));
 }
 
@@ -114,14 +128,29 @@ grpc::Status GrpcService::GetJob(Context*, const v1::JobRequest* request, v1::Jo
   return grpc::Status::OK;
 }
 
-grpc::Status GrpcService::ListJobs(Context*, const v1::Empty*, v1::ListJobsReply* reply) {
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs, api_.ListJobs());
-  for (const JobStatus& job : jobs) *reply->add_jobs() = ToProto(job);
+grpc::Status GrpcService::ListJobs(Context*,
+                                   const v1::Empty*,
+                                   grpc::ServerWriter<v1::JobStatus>* writer) {
+  return WriteAll(api_.ListJobs(), *writer);
+}
+
+grpc::Status GrpcService::ListWorkers(Context*,
+                                      const v1::Empty*,
+                                      grpc::ServerWriter<v1::WorkerStatus>* writer) {
+  return WriteAll(api_.ListWorkers(), *writer);
+}
+
+grpc::Status GrpcService::DrainWorkers(Context*,
+                                       const v1::DrainWorkersRequest* request,
+                                       v1::DrainWorkersReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<std::string> names,
+                                 api_.DrainWorkers(request->name()));
+  reply->mutable_names()->Add(names.begin(), names.end());
   return grpc::Status::OK;
 }
 
-grpc::Status GrpcService::DrainWorker(Context*, const v1::DrainWorkerRequest* request, v1::Empty*) {
-  return OnWire(api_.DrainWorker(request->name()));
+grpc::Status GrpcService::StopCoordinator(Context*, const v1::Empty*, v1::Empty*) {
+  return OnWire(api_.StopCoordinator());
 }
 
 grpc::Status GrpcService::CancelJob(Context*, const v1::JobRequest* request, v1::Empty*) {
@@ -147,33 +176,21 @@ grpc::Status GrpcService::GetOutcomes(Context*,
                                       const v1::JobRequest* request,
                                       grpc::ServerWriter<v1::TaskOutcome>* writer) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes, api_.GetOutcomes(id));
-  for (const TaskOutcome& outcome : outcomes) {
-    if (!writer->Write(ToProto(outcome))) return ReaderLeft();
-  }
-  return grpc::Status::OK;
+  return WriteAll(api_.GetOutcomes(id), *writer);
 }
 
 grpc::Status GrpcService::GetTimings(Context*,
                                      const v1::JobRequest* request,
                                      grpc::ServerWriter<v1::TaskTiming>* writer) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<TaskTiming> timings, api_.GetTimings(id));
-  for (const TaskTiming& timing : timings) {
-    if (!writer->Write(ToProto(timing))) return ReaderLeft();
-  }
-  return grpc::Status::OK;
+  return WriteAll(api_.GetTimings(id), *writer);
 }
 
 grpc::Status GrpcService::GetCosts(Context*,
                                    const v1::JobRequest* request,
                                    grpc::ServerWriter<v1::MeasuredTask>* writer) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest id, DigestFromProto(request->id()));
-  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<MeasuredTask> tasks, api_.GetCosts(id));
-  for (const MeasuredTask& task : tasks) {
-    if (!writer->Write(ToProto(task))) return ReaderLeft();
-  }
-  return grpc::Status::OK;
+  return WriteAll(api_.GetCosts(id), *writer);
 }
 
 grpc::Status GrpcService::StatBlobs(Context*,

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "coordinator/file_roots.h"
-#include "coordinator/grpc_call_watch.h"
+#include "coordinator/served_api.h"
 #include "coordinator/session_owners.h"
-#include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 
 namespace orbweave {
@@ -17,17 +16,22 @@ enum class Peers {
                ///< alone
 };
 
-/// CoordinatorApi on the wire: each handler decodes, calls and encodes.
-class GrpcService final : public v1::Coordinator::Service {
+/// CoordinatorApi on the wire: each handler decodes, calls and encodes, in a thread of its own but
+/// for the one call that waits.
+class GrpcService final
+    : public v1::Coordinator::WithCallbackMethod_LeaseTask<v1::Coordinator::Service> {
  public:
   /// Files are named to it beneath `roots` alone.
-  GrpcService(CoordinatorApi& api, Peers peers, FileRoots roots)
+  GrpcService(ServedApi& api, Peers peers, FileRoots roots)
       : api_(api), peers_(peers), roots_(std::move(roots)) {}
 
   using Context = grpc::ServerContext;
+  using WithCallbackMethod_LeaseTask::LeaseTask;
 
   grpc::Status Join(Context*, const v1::JoinRequest*, v1::JoinReply*) override;
-  grpc::Status LeaseTask(Context*, const v1::LeaseTaskRequest*, v1::LeaseTaskReply*) override;
+  grpc::ServerUnaryReactor* LeaseTask(grpc::CallbackServerContext*,
+                                      const v1::LeaseTaskRequest*,
+                                      v1::LeaseTaskReply*) override;
   grpc::Status Heartbeat(Context*, const v1::HeartbeatRequest*, v1::HeartbeatReply*) override;
   grpc::Status CompleteTask(Context*, const v1::CompleteTaskRequest*, v1::Empty*) override;
   grpc::Status FailTask(Context*, const v1::FailTaskRequest*, v1::Empty*) override;
@@ -35,8 +39,14 @@ class GrpcService final : public v1::Coordinator::Service {
 
   grpc::Status SubmitJob(Context*, const v1::JobSpec*, v1::JobReply*) override;
   grpc::Status GetJob(Context*, const v1::JobRequest*, v1::JobStatus*) override;
-  grpc::Status ListJobs(Context*, const v1::Empty*, v1::ListJobsReply*) override;
-  grpc::Status DrainWorker(Context*, const v1::DrainWorkerRequest*, v1::Empty*) override;
+  grpc::Status ListJobs(Context*, const v1::Empty*, grpc::ServerWriter<v1::JobStatus>*) override;
+  grpc::Status ListWorkers(Context*,
+                           const v1::Empty*,
+                           grpc::ServerWriter<v1::WorkerStatus>*) override;
+  grpc::Status DrainWorkers(Context*,
+                            const v1::DrainWorkersRequest*,
+                            v1::DrainWorkersReply*) override;
+  grpc::Status StopCoordinator(Context*, const v1::Empty*, v1::Empty*) override;
   grpc::Status CancelJob(Context*, const v1::JobRequest*, v1::Empty*) override;
   grpc::Status ForgetJob(Context*, const v1::JobRequest*, v1::Empty*) override;
   grpc::Status CollectGarbage(Context*, const v1::GarbageRequest*, v1::GarbageReport*) override;
@@ -60,13 +70,13 @@ class GrpcService final : public v1::Coordinator::Service {
  private:
   [[nodiscard]] absl::StatusOr<JoinReply> JoinAs(const Context& context, const WorkerInfo& worker);
   /// See SessionOwners::Check.
-  [[nodiscard]] absl::Status CheckSession(const Context& context, uint64_t session) const;
+  [[nodiscard]] absl::Status CheckSession(const grpc::ServerContextBase& context,
+                                          uint64_t session) const;
 
-  CoordinatorApi& api_;
+  ServedApi& api_;
   Peers peers_;
   FileRoots roots_;
   SessionOwners owners_;
-  GrpcCallWatch calls_;
 };
 
 }  // namespace orbweave

@@ -43,7 +43,7 @@ bool JobMachine::MayHaveWork() const {
 }
 
 bool JobMachine::MayHaveWork(double now_s) const {
-  return MayHaveWork() && (!runs_.back().ready.empty() || runs_.back().HasStraggler(now_s));
+  return MayHaveWork() && (runs_.back().HasReady(now_s) || runs_.back().HasStraggler(now_s));
 }
 
 const StageRule* JobMachine::StageToGiveOut() const {
@@ -157,7 +157,7 @@ void JobMachine::TaskLeased(TaskRef ref, const TaskHolder& holder, double now_s)
 
 void JobMachine::TaskProgressed(AttemptRef ref, const Progress& progress) {
   RunningAttempt* attempt = Task(ref.task).FindAttempt(ref.epoch);
-  if (attempt != nullptr) attempt->progress = progress;
+  if (attempt != nullptr) attempt->progress = {progress.done, progress.total};
 }
 
 double JobMachine::AttemptEnds(AttemptRef ref, bool ok, double now_s) {
@@ -228,7 +228,8 @@ void JobMachine::CountFailure(TaskRecord& task,
 }
 
 void JobMachine::JobFails(const std::string& error, double now_s) {
-  error_ = error;
+  constexpr size_t kMostBytes = 8000;
+  error_ = error.substr(0, kMostBytes);
   JobEnds(JobState::kFailed, now_s);
 }
 

@@ -59,6 +59,8 @@ class JobMachine {
   [[nodiscard]] const StageNeeds& Needs(TaskRef ref) const { return RuleOf(ref.run).needs; }
   /// The stage whose tasks are given out now; nullptr: none is ready.
   [[nodiscard]] const StageRule* StageToGiveOut() const;
+  /// How long its tasks usually take; see StageRun::usual_s.
+  [[nodiscard]] double UsualTime_s() const { return runs_.empty() ? 0.0 : runs_.back().usual_s(); }
 
   /// The stage whose tasks are to be written down now: all that come before it are done.
   [[nodiscard]] std::optional<uint32_t> StageToPlan() const;
@@ -66,6 +68,8 @@ class JobMachine {
   [[nodiscard]] bool MayHaveWork() const;
   /// The same of this moment.
   [[nodiscard]] bool MayHaveWork(double now_s) const;
+  /// Tasks that are ready, wait to be tried again, or run; at least one as long as the job runs.
+  [[nodiscard]] uint64_t CountOpenTasks() const;
   /// The task that a worker had better do next in this slot; see ChoosePart.
   [[nodiscard]] std::optional<TaskRef> NextReady(const WorkerSlot& at,
                                                  const std::vector<std::string>& alive,
@@ -80,6 +84,13 @@ class JobMachine {
                                                      double now_s) const;
   /// Workers that failed a task, each once.
   [[nodiscard]] std::set<std::string> FailedOn(TaskRef ref) const;
+  /// The tasks that left a blob, when their stage last ran.
+  [[nodiscard]] std::vector<TaskRef> MakersOf(const Digest& blob) const;
+  /// Ids of the tasks of all stages that this task's stage reads, when they last ran.
+  [[nodiscard]] std::vector<Digest> TasksReadBy(TaskRef ref) const;
+  /// Who did a task; no name: it was found done.
+  [[nodiscard]] const std::string& WorkerOf(TaskRef ref) const { return Task(ref).done_by.worker; }
+  [[nodiscard]] std::string Describe(TaskRef ref) const { return Task(ref).Describe(); }
   /// Whether this very attempt is the one whose result was taken.
   [[nodiscard]] bool WasDoneBy(const Digest& task, uint64_t epoch) const;
 
@@ -115,6 +126,8 @@ class JobMachine {
   [[nodiscard]] TaskRecord& Task(TaskRef ref) { return runs_[ref.run].tasks[ref.part]; }
   /// The stage that comes after the last run; the number of stages: none.
   [[nodiscard]] uint32_t NextStage() const;
+  /// The last run of a stage; the number of runs: there is none.
+  [[nodiscard]] uint32_t LastRunOf(uint32_t stage) const;
   /// Of the run that begins.
   void FindHomes();
   void TakeFound(std::vector<std::optional<TaskResult>> found);

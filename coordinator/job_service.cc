@@ -55,7 +55,8 @@ absl::Status JobService::ResumeJobs() {
 absl::Status JobService::ResumeBlames() {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerBlame> blames, journal_.LoadBlames());
   const std::lock_guard lock(mutex_);
-  for (const WorkerBlame& blame : blames) dispatcher_.roster().Remember(blame);
+  const double now_s = clock_.NowSeconds();
+  for (const WorkerBlame& blame : blames) dispatcher_.roster().Remember(blame, now_s);
   return absl::OkStatus();
 }
 
@@ -100,6 +101,7 @@ absl::StatusOr<Digest> JobService::Submit(const JobSpec& spec) {
   Job& job = dispatcher_.BeginJob(spec, *std::move(plan), number, clock_.NowSeconds());
   job.verify = true;
   job.reruns = 0;
+  job.damage = {};
   job.since_epoch = since_epoch;
   dispatcher_.Log({.event = "job_submitted", .job = id, .message = spec.label});
   return id;

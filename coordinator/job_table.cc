@@ -8,6 +8,12 @@
 
 namespace orbweave {
 
+bool JobDamage::IsIn(const TaskResult& result) const {
+  const auto is_damaged = [this](const Digest& blob) { return blobs.contains(blob); };
+  return std::ranges::any_of(result.outputs, is_damaged) ||
+         std::ranges::any_of(result.recipes, is_damaged);
+}
+
 Job& JobTable::Begin(
     const JobSpec& spec, JobPlan plan, uint64_t number, const RetryPolicy& retry, double now_s) {
   const Digest id = spec.Id();
@@ -34,6 +40,12 @@ Job* JobTable::Find(const Digest& id) {
 size_t JobTable::NumRunning() const {
   return static_cast<size_t>(
       std::ranges::count_if(jobs_, [](const auto& item) { return item.second.IsRunning(); }));
+}
+
+uint64_t JobTable::CountOpenTasks() const {
+  uint64_t open = 0;
+  for (const auto& [id, job] : jobs_) open += job.had_ended ? 0 : job.machine->CountOpenTasks();
+  return open;
 }
 
 std::optional<Digest> JobTable::ToPlan() const {

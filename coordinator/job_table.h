@@ -6,12 +6,23 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "coordinator/job_machine.h"
 #include "coordinator/prepare_stage.h"
 #include "core/pipeline/worker_api.h"
 
 namespace orbweave {
+
+/// What tasks of a job left that others could not read.
+struct JobDamage {
+  std::vector<FailedAttempt> results{};  ///< each counts as a failure of the task that left it
+  std::set<Digest> blobs{};
+  bool is_remade = false;  ///< whatever a task read was made again, since nobody knew what it was
+
+  [[nodiscard]] bool IsIn(const TaskResult& result) const;
+};
 
 /// A job and its machine.
 struct Job {
@@ -22,6 +33,7 @@ struct Job {
   bool is_saved = true;      ///< its end is in the journal
   bool had_ended = false;    ///< before the coordinator was started; nobody asked for it since
   uint32_t reruns = 0;
+  JobDamage damage{};
   std::unique_ptr<JobMachine> machine{};
 
   [[nodiscard]] bool IsRunning() const { return machine->state() == JobState::kRunning; }
@@ -47,6 +59,8 @@ class JobTable {
   }
 
   [[nodiscard]] size_t NumRunning() const;
+  /// JobMachine::CountOpenTasks of all jobs, but those that had ended: nothing of them is computed.
+  [[nodiscard]] uint64_t CountOpenTasks() const;
 
   /// The oldest job with a stage to plan; with an end to save.
   [[nodiscard]] std::optional<Digest> ToPlan() const;

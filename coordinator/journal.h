@@ -81,6 +81,9 @@ class Journal {
   [[nodiscard]] virtual uint64_t generation() const = 0;
   /// Whether saving would be allowed: OK, or one of the errors.
   [[nodiscard]] virtual absl::Status Confirm() = 0;
+  /// Whether saving is possible: saves something that means nothing and takes no more room each
+  /// time.
+  [[nodiscard]] virtual absl::Status TrySave() = 0;
 
   [[nodiscard]] virtual absl::Status SaveJob(const JobEntry& job) = 0;
   /// In order of submission.
@@ -88,8 +91,9 @@ class Journal {
   /// Forgets a job and the attempts made for it. Results stay: other jobs may have them too.
   [[nodiscard]] virtual absl::Status ForgetJob(const Digest& job) = 0;
 
-  /// A task is handed out.
-  [[nodiscard]] virtual absl::Status SaveStart(const Attempt& attempt) = 0;
+  /// Tasks are handed out.
+  [[nodiscard]] virtual absl::Status SaveStarts(const std::vector<Attempt>& attempts) = 0;
+  [[nodiscard]] absl::Status SaveStart(const Attempt& attempt) { return SaveStarts({attempt}); }
   /// Attempt `epoch` ends with the result of `task`.
   [[nodiscard]] virtual absl::Status SaveResult(uint64_t epoch,
                                                 const Digest& task,
@@ -99,6 +103,8 @@ class Journal {
   /// One answer per task: nothing where none was saved, or what was saved is damaged.
   [[nodiscard]] virtual absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
       const std::vector<Digest>& tasks) = 0;
+  /// Forgets the result of a task, if there is one.
+  [[nodiscard]] virtual absl::Status ForgetResultOf(const Digest& task) = 0;
   /// Forgets results; how many. `is_garbage` is asked about each, and again, while nothing is
   /// saved, about those that are to go. It does not call the journal.
   [[nodiscard]] virtual absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) = 0;

@@ -17,12 +17,15 @@ class JournalMeter final : public Journal {
   uint64_t generation() const override { return journal_->generation(); }
 
   absl::Status Confirm() override { return journal_->Confirm(); }
+  absl::Status TrySave() override {
+    return Time("probe", [&] { return journal_->TrySave(); });
+  }
 
   absl::Status SaveJob(const JobEntry& job) override {
     return Time("job", [&] { return journal_->SaveJob(job); });
   }
-  absl::Status SaveStart(const Attempt& attempt) override {
-    return Time("start", [&] { return journal_->SaveStart(attempt); });
+  absl::Status SaveStarts(const std::vector<Attempt>& attempts) override {
+    return Time("start", [&] { return journal_->SaveStarts(attempts); });
   }
   absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
     return Time("result", [&] { return journal_->SaveResult(epoch, task, result); });
@@ -36,6 +39,9 @@ class JournalMeter final : public Journal {
   }
   absl::Status ForgetJob(const Digest& job) override {
     return Time("forget", [&] { return journal_->ForgetJob(job); });
+  }
+  absl::Status ForgetResultOf(const Digest& task) override {
+    return Time("forget", [&] { return journal_->ForgetResultOf(task); });
   }
   absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override {
     return journal_->ForgetResults(is_garbage);

@@ -10,8 +10,8 @@
 
 namespace orbweave {
 
-/// Told each time something was saved: what ("job", "start", "result", "ends", "blames", "forget"),
-/// the seconds until it was durable, and how that ended. Called from several threads.
+/// Told each time something was saved: what ("job", "start", "result", "ends", "blames", "forget",
+/// "probe"), the seconds until it was durable, and how that ended. Called from several threads.
 using SaveObserver =
     std::function<void(std::string_view what, double wait_s, const absl::Status& status)>;
 

@@ -28,7 +28,8 @@ constexpr const char* kTables[] = {
     "CREATE TABLE IF NOT EXISTS orbweave_result (task BYTEA PRIMARY KEY, digest BYTEA NOT NULL, "
     "content BYTEA NOT NULL)",
     "CREATE TABLE IF NOT EXISTS orbweave_blame (worker TEXT PRIMARY KEY, process BIGINT NOT NULL, "
-    "blames BIGINT NOT NULL)"};
+    "blames BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS orbweave_probe (id BIGINT PRIMARY KEY, number BIGINT NOT NULL)"};
 
 /// Tables of format 1 as those of format 2: failures of that time count for nothing.
 constexpr const char* kFromFormat1[] = {

@@ -9,9 +9,9 @@
 namespace orbweave {
 
 /// Makes the tables of a journal that are missing: `orbweave` (format and generation),
-/// `orbweave_job`, `orbweave_attempt`, `orbweave_result`, `orbweave_blame`; those of an earlier
-/// format are brought up to date. Begins a generation and returns it. FailedPrecondition: the
-/// tables are of another format.
+/// `orbweave_job`, `orbweave_attempt`, `orbweave_result`, `orbweave_blame`, `orbweave_probe`; those
+/// of an earlier format are brought up to date. Begins a generation and returns it.
+/// FailedPrecondition: the tables are of another format.
 [[nodiscard]] absl::StatusOr<uint64_t> BeginGeneration(SqlDatabase& database);
 
 }  // namespace orbweave

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace orbweave {
@@ -15,29 +14,35 @@ namespace {
 /// and waits that are over. By one thread, however many slots wait.
 constexpr std::chrono::milliseconds kLook{100};
 
+absl::Status NobodyWaits() { return absl::CancelledError("nobody waits for a task any more"); }
+
 }  // namespace
 
 void Matchmaker::Start() {
+  pulse_.Beat(clock_.NowSeconds());
   thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
 }
 
-absl::StatusOr<std::optional<Grant>> Matchmaker::Await(std::unique_lock<std::mutex>& lock,
-                                                       const TaskRequest& request) {
+void Matchmaker::End() { thread_ = {}; }
+
+void Matchmaker::Ask(std::unique_lock<std::mutex> lock, TaskRequest request, TakeLease take) {
+  const auto call = std::make_shared<TaskCall>();
+  call->request = std::move(request);
+  call->take = std::move(take);
+  const TaskRequest& asked = call->request;
   const double now_s = clock_.NowSeconds();
   dispatcher_.ExpireLeases(now_s);
+  if (const auto before = places_.find(PlaceOf(asked)); before != places_.end())
+    SettleAt(before->second, absl::AbortedError("it was asked again for this slot"));
   std::optional<Grant> grant =
       dispatcher_.MayHaveWork(now_s)
           ? dispatcher_.GrantNext(
-                request.session, request.slot, dispatcher_.roster().Serving(now_s), now_s)
+                asked.session, asked.slot, dispatcher_.roster().Serving(now_s), now_s)
           : std::nullopt;
-  if (grant || request.until_s <= now_s) return grant;
-  Waiting& waiting = waiting_.emplace_back();
-  const auto place = std::prev(waiting_.end());
-  waiting.request = request;
-  waiting.answered.wait(lock, [&waiting] { return waiting.answer.has_value(); });
-  Answer answer = *std::move(waiting.answer);
-  waiting_.erase(place);
-  return answer;
+  if (grant || asked.until_s <= now_s) return settle_({call, std::move(grant)});
+  places_[PlaceOf(asked)] = waiting_.insert(waiting_.end(), call);
+  lock.unlock();
+  call->on_left.emplace(asked.left, [this, raw = call.get()] { Leave(*raw); });
 }
 
 void Matchmaker::Wake() {
@@ -50,9 +55,19 @@ void Matchmaker::WakeAll() {
   Wake();
 }
 
-void Matchmaker::Tell(Waiting& waiting, Answer answer) {
-  waiting.answer = std::move(answer);
-  waiting.answered.notify_one();
+void Matchmaker::Leave(const TaskCall& call) {
+  const std::lock_guard lock(mutex_);
+  const auto place = places_.find(PlaceOf(call.request));
+  if (place != places_.end() && place->second->get() == &call)
+    SettleAt(place->second, NobodyWaits());
+}
+
+Matchmaker::Waiting::iterator Matchmaker::SettleAt(Waiting::iterator it,
+                                                   absl::StatusOr<std::optional<Grant>> grant) {
+  TaskAnswer answer{std::move(*it), std::move(grant)};
+  places_.erase(PlaceOf(answer.call->request));
+  settle_(std::move(answer));
+  return waiting_.erase(it);
 }
 
 void Matchmaker::Run(const std::stop_token& stop) {
@@ -63,6 +78,7 @@ void Matchmaker::Run(const std::stop_token& stop) {
     woken_.wait_until(lock, stop, next_look, [this] { return is_woken_; });
     is_woken_ = false;
     const double now_s = clock_.NowSeconds();
+    pulse_.Beat(now_s);
     if (std::exchange(looks_at_all_, false) || Steady::now() >= next_look) {
       LookAtAll(now_s);
       next_look = Steady::now() + kLook;
@@ -70,19 +86,22 @@ void Matchmaker::Run(const std::stop_token& stop) {
     GiveTasks(now_s);
   }
   LookAtAll(clock_.NowSeconds());  // who still waits is told of the end
+  pulse_.Rest();
 }
 
 void Matchmaker::LookAtAll(double now_s) {
   dispatcher_.ExpireLeases(now_s);
-  for (Waiting& waiting : waiting_) {
-    if (waiting.answer) continue;
-    const absl::Status may_take = may_take_(waiting.request.session);
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    const TaskRequest& request = (*it)->request;
+    const absl::Status may_take = may_take_(request.session);
     if (!may_take.ok()) {
-      Tell(waiting, may_take);
-    } else if (waiting.request.left.stop_requested()) {
-      Tell(waiting, absl::CancelledError("nobody waits for a task any more"));
-    } else if (waiting.request.until_s <= now_s) {
-      Tell(waiting, std::optional<Grant>());
+      it = SettleAt(it, may_take);
+    } else if (request.left.stop_requested()) {
+      it = SettleAt(it, NobodyWaits());
+    } else if (request.until_s <= now_s) {
+      it = SettleAt(it, std::optional<Grant>());
+    } else {
+      ++it;
     }
   }
 }
@@ -91,16 +110,19 @@ void Matchmaker::GiveTasks(double now_s) {
   if (waiting_.empty() || !dispatcher_.MayHaveWork(now_s)) return;
   const std::vector<std::string> serving = dispatcher_.roster().Serving(now_s);
   for (const size_t leases : {0, 1}) {
-    for (Waiting& waiting : waiting_) {
-      const TaskRequest& request = waiting.request;
-      const bool may_take = !waiting.answer && !request.left.stop_requested() &&
+    for (auto it = waiting_.begin(); it != waiting_.end();) {
+      const TaskRequest& request = (*it)->request;
+      const bool may_take = !request.left.stop_requested() &&
                             dispatcher_.CountAt(request.session, request.slot) == leases &&
                             may_take_(request.session).ok();
-      if (!may_take) continue;
       std::optional<Grant> grant =
-          dispatcher_.GrantNext(request.session, request.slot, serving, now_s);
-      if (!grant) continue;
-      Tell(waiting, std::move(grant));
+          may_take ? dispatcher_.GrantNext(request.session, request.slot, serving, now_s)
+                   : std::nullopt;
+      if (!grant) {
+        ++it;
+        continue;
+      }
+      it = SettleAt(it, std::move(grant));
       if (!dispatcher_.MayHaveWork(now_s)) return;
     }
   }

@@ -11,7 +11,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<MethodRight, 23> kRights = {{
+constexpr std::array<MethodRight, 25> kRights = {{
     {.method = "/orbweave.v1.Coordinator/Join", .worker = true},
     {.method = "/orbweave.v1.Coordinator/LeaseTask", .worker = true},
     {.method = "/orbweave.v1.Coordinator/Heartbeat", .worker = true},
@@ -22,6 +22,7 @@ constexpr std::array<MethodRight, 23> kRights = {{
     {.method = "/orbweave.v1.Coordinator/SubmitJob", .client = true},
     {.method = "/orbweave.v1.Coordinator/GetJob", .client = true},
     {.method = "/orbweave.v1.Coordinator/ListJobs", .client = true},
+    {.method = "/orbweave.v1.Coordinator/ListWorkers", .client = true},
     {.method = "/orbweave.v1.Coordinator/CancelJob", .client = true},
     {.method = "/orbweave.v1.Coordinator/GetOutcomes", .client = true},
     {.method = "/orbweave.v1.Coordinator/GetTimings", .client = true},
@@ -33,7 +34,8 @@ constexpr std::array<MethodRight, 23> kRights = {{
     {.method = "/orbweave.v1.Coordinator/PutBlob", .worker = true, .client = true},
 
     // An admin's.
-    {.method = "/orbweave.v1.Coordinator/DrainWorker"},
+    {.method = "/orbweave.v1.Coordinator/DrainWorkers"},
+    {.method = "/orbweave.v1.Coordinator/StopCoordinator"},
     {.method = "/orbweave.v1.Coordinator/ForgetJob"},
     {.method = "/orbweave.v1.Coordinator/CollectGarbage"},
 

@@ -108,10 +108,14 @@ MetricFamily CountBytes(const BlobTraffic& traffic) {
 
 std::vector<MetricFamily> SnapshotMetrics(const std::vector<JobStatus>& jobs,
                                           const std::vector<WorkerStatus>& workers,
-                                          const BlobTraffic& traffic) {
+                                          const BlobTraffic& traffic,
+                                          uint32_t slots_wanted) {
   std::vector<MetricFamily> families = {CountJobs(jobs)};
   AddRunningJobs(jobs, families);
   AddWorkers(workers, families);
+  MetricFamily& wanted = families.emplace_back(
+      Gauges("orbweave_slots_wanted", "Slots there is work for, the most of the last minute"));
+  AddGauge(wanted, {}, slots_wanted);
   families.push_back(CountBytes(traffic));
   return families;
 }

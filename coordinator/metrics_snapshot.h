@@ -19,10 +19,12 @@ namespace orbweave {
 ///   orbweave_job_done_ratio{job}, orbweave_job_eta_seconds{job}  the latter once it is known
 ///   orbweave_workers{state}            state: at_work, draining, gone
 ///   orbweave_slots, orbweave_slots_busy  of workers that are there
+///   orbweave_slots_wanted              see WantedSlots
 ///   orbweave_blob_bytes_total{direction}
 [[nodiscard]] std::vector<prometheus::MetricFamily> SnapshotMetrics(
     const std::vector<JobStatus>& jobs,
     const std::vector<WorkerStatus>& workers,
-    const BlobTraffic& traffic);
+    const BlobTraffic& traffic,
+    uint32_t slots_wanted);
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/journal_copy.h"
 #include "coordinator/sqlite_journal.h"
 #include "core/base/status.h"
 
@@ -26,6 +27,14 @@ absl::Status RefuseFolderOfFiles(const std::string& state_dir) {
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenJournal(const std::string& state_dir) {
   ORBWEAVE_RETURN_IF_ERROR(RefuseFolderOfFiles(state_dir));
+  if (const std::string_view shared = SharedFileSystemOf(state_dir); !shared.empty()) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        state_dir,
+        " is on ",
+        std::string(shared),
+        ", where a journal gets damaged: give --journal-folder with a folder on a disk "
+        "of this machine, or --journal with a PostgreSQL database"));
+  }
   return OpenSqliteJournal(state_dir + "/journal.db");
 }
 

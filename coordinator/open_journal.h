@@ -10,7 +10,7 @@
 namespace orbweave {
 
 /// The journal of a coordinator whose state is in `state_dir`. FailedPrecondition: the folder was
-/// written by a version that kept results in files.
+/// written by a version that kept results in files, or is on a file system that machines share.
 [[nodiscard]] absl::StatusOr<std::unique_ptr<Journal>> OpenJournal(const std::string& state_dir);
 
 }  // namespace orbweave

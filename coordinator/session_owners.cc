@@ -3,8 +3,6 @@
 
 #include "coordinator/session_owners.h"
 
-#include <utility>
-
 #include "absl/strings/str_cat.h"
 
 namespace orbweave {
@@ -23,8 +21,18 @@ absl::Status SessionOwners::CheckName(const Identity& peer, const std::string& w
 
 void SessionOwners::Begin(uint64_t session, const std::string& worker_name, const Identity& peer) {
   const std::lock_guard lock(mutex_);
-  owners_.erase(std::exchange(session_of_worker_[worker_name], session));
-  owners_[session] = peer;
+  if (const auto before = session_of_worker_.find(worker_name); before != session_of_worker_.end())
+    Forget(before->second);
+  if (owners_.size() == kMostSessions) Forget(sessions_.front());
+  session_of_worker_[worker_name] = session;
+  owners_[session] = {peer, worker_name, sessions_.insert(sessions_.end(), session)};
+}
+
+void SessionOwners::Forget(uint64_t session) {
+  const auto owner = owners_.find(session);
+  session_of_worker_.erase(owner->second.worker);
+  sessions_.erase(owner->second.place);
+  owners_.erase(owner);
 }
 
 absl::Status SessionOwners::Check(uint64_t session, const Identity& peer) const {
@@ -32,9 +40,12 @@ absl::Status SessionOwners::Check(uint64_t session, const Identity& peer) const 
   const auto owner = owners_.find(session);
   if (owner == owners_.end())
     return absl::NotFoundError(absl::StrCat("session ", session, " is over: join again"));
-  if (owner->second == peer) return absl::OkStatus();
-  return absl::PermissionDeniedError(
-      absl::StrCat("session ", session, " is not that of ", peer.ToUri()));
+  if (owner->second.identity != peer) {
+    return absl::PermissionDeniedError(
+        absl::StrCat("session ", session, " is not that of ", peer.ToUri()));
+  }
+  sessions_.splice(sessions_.end(), sessions_, owner->second.place);
+  return absl::OkStatus();
 }
 
 }  // namespace orbweave

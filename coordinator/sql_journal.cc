@@ -64,6 +64,14 @@ absl::Status SqlJournal::Confirm() {
   return commit_.Commit([] { return absl::OkStatus(); });
 }
 
+absl::Status SqlJournal::TrySave() {
+  return commit_.Commit([this] {
+    return writer_->Execute(
+        "INSERT INTO orbweave_probe (id, number) VALUES (0, 0) "
+        "ON CONFLICT (id) DO UPDATE SET number = orbweave_probe.number + 1");
+  });
+}
+
 absl::Status SqlJournal::Commit(std::string_view what, const GroupCommit::Write& write) {
   FaultPoint(what, FaultSide::kBefore);
   ORBWEAVE_RETURN_IF_ERROR(commit_.Commit(write));
@@ -98,23 +106,28 @@ absl::Status SqlJournal::ForgetJob(const Digest& job) {
   });
 }
 
-absl::Status SqlJournal::SaveStart(const Attempt& attempt) {
+absl::Status SqlJournal::SaveStarts(const std::vector<Attempt>& attempts) {
+  const double now_s = SecondsSince1970();
+  return Commit("start", [&]() -> absl::Status {
+    for (const Attempt& attempt : attempts) ORBWEAVE_RETURN_IF_ERROR(BeginAttempt(attempt, now_s));
+    return absl::OkStatus();
+  });
+}
+
+absl::Status SqlJournal::BeginAttempt(const Attempt& attempt, double now_s) {
   const std::string task = ToProto(attempt.task);
   const std::string job = ToProto(attempt.job);
-  const double now_s = SecondsSince1970();
-  return Commit("start", [&] {
-    return writer_->Execute(
-        "INSERT INTO orbweave_attempt (epoch, task, job, stage, part, worker, slot, started_s) "
-        "VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (epoch) DO NOTHING",
-        {static_cast<int64_t>(attempt.epoch),
-         SqlBytes{task},
-         SqlBytes{job},
-         std::string_view(attempt.stage),
-         int64_t{attempt.part},
-         std::string_view(attempt.worker),
-         int64_t{attempt.slot},
-         now_s});
-  });
+  return writer_->Execute(
+      "INSERT INTO orbweave_attempt (epoch, task, job, stage, part, worker, slot, started_s) "
+      "VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (epoch) DO NOTHING",
+      {static_cast<int64_t>(attempt.epoch),
+       SqlBytes{task},
+       SqlBytes{job},
+       std::string_view(attempt.stage),
+       int64_t{attempt.part},
+       std::string_view(attempt.worker),
+       int64_t{attempt.slot},
+       now_s});
 }
 
 absl::Status SqlJournal::EndAttempt(const AttemptEnd& end) {
@@ -144,6 +157,13 @@ absl::Status SqlJournal::SaveEnds(const std::vector<AttemptEnd>& ends) {
   return Commit("ends", [&]() -> absl::Status {
     for (const AttemptEnd& end : ends) ORBWEAVE_RETURN_IF_ERROR(EndAttempt(end));
     return absl::OkStatus();
+  });
+}
+
+absl::Status SqlJournal::ForgetResultOf(const Digest& task) {
+  const std::string key = ToProto(task);
+  return commit_.Commit([&] {
+    return writer_->Execute("DELETE FROM orbweave_result WHERE task = $1", {SqlBytes{key}});
   });
 }
 
@@ -206,6 +226,11 @@ absl::StatusOr<bool> SqlJournal::ForgetResult(const std::string& task,
 absl::Status SqlJournal::SaveBlames(const std::vector<WorkerBlame>& blames) {
   return commit_.Commit([&]() -> absl::Status {
     for (const WorkerBlame& blame : blames) {
+      if (blame.blames == 0) {
+        ORBWEAVE_RETURN_IF_ERROR(writer_->Execute("DELETE FROM orbweave_blame WHERE worker = $1",
+                                                  {std::string_view(blame.worker)}));
+        continue;
+      }
       ORBWEAVE_RETURN_IF_ERROR(writer_->Execute(
           "INSERT INTO orbweave_blame (worker, process, blames) VALUES ($1, $2, $3) "
           "ON CONFLICT (worker) DO UPDATE SET process = excluded.process, "

@@ -22,16 +22,18 @@ class SqlJournal final : public Journal {
 
   [[nodiscard]] uint64_t generation() const override { return generation_; }
   [[nodiscard]] absl::Status Confirm() override;
+  [[nodiscard]] absl::Status TrySave() override;
   [[nodiscard]] absl::Status SaveJob(const JobEntry& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobEntry>> LoadJobs() override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
-  [[nodiscard]] absl::Status SaveStart(const Attempt& attempt) override;
+  [[nodiscard]] absl::Status SaveStarts(const std::vector<Attempt>& attempts) override;
   [[nodiscard]] absl::Status SaveResult(uint64_t epoch,
                                         const Digest& task,
                                         const TaskResult& result) override;
   [[nodiscard]] absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override;
   [[nodiscard]] absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
       const std::vector<Digest>& tasks) override;
+  [[nodiscard]] absl::Status ForgetResultOf(const Digest& task) override;
   [[nodiscard]] absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override;
   [[nodiscard]] absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override;
   [[nodiscard]] absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(
@@ -55,6 +57,7 @@ class SqlJournal final : public Journal {
   /// In a transaction; whether it was garbage.
   [[nodiscard]] absl::StatusOr<bool> ForgetResult(const std::string& task,
                                                   const IsGarbage& is_garbage);
+  [[nodiscard]] absl::Status BeginAttempt(const Attempt& attempt, double now_s);
   [[nodiscard]] absl::Status EndAttempt(const AttemptEnd& end);
 
   std::unique_ptr<SqlDatabase> writer_;  ///< of whoever leads a commit

@@ -20,6 +20,10 @@ std::optional<double> StageRun::mean_s() const {
   return computed > 0 ? std::optional(wall_s / computed) : earlier_mean_s;
 }
 
+double StageRun::usual_s() const {
+  return durations_s.empty() ? earlier_mean_s.value_or(0.0) : UpperMedian(durations_s);
+}
+
 bool StageRun::IsQuick() const { return mean_s().value_or(kQuick_s) < kQuick_s; }
 
 void StageRun::FindHomes(const StageRun& earlier) {
@@ -51,6 +55,11 @@ void StageRun::UpdateStragglerTime(const RetryPolicy& policy) {
   const size_t computed = tasks.size() - reused;
   if (!ready.empty() || durations_s.empty() || 2 * durations_s.size() < computed) return;
   straggler_after_s = policy.StragglerAfter(UpperMedian(durations_s));
+}
+
+bool StageRun::HasReady(double now_s) const {
+  const auto is_due = [&](uint32_t part) { return tasks[part].not_before_s <= now_s; };
+  return ready.FindFirst(is_due).has_value();
 }
 
 bool StageRun::HasStraggler(double now_s) const {

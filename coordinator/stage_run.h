@@ -40,6 +40,9 @@ struct StageRun {
   [[nodiscard]] bool IsDone() const { return done == tasks.size(); }
   /// How long a task takes: the mean of those computed now, or else of those of the run before.
   [[nodiscard]] std::optional<double> mean_s() const;
+  /// How long a task usually takes: the median of those computed now, or else the mean of the run
+  /// before; 0: nothing is known yet.
+  [[nodiscard]] double usual_s() const;
   /// Whether a task may as well wait behind another one for a while.
   [[nodiscard]] bool IsQuick() const;
   /// Looks up the homes of all parts in `earlier`, the run before; to be called before any is
@@ -53,6 +56,8 @@ struct StageRun {
   void UpdateStragglerTime(const RetryPolicy& policy);
   /// Whether an attempt has run too long, where there are stragglers.
   [[nodiscard]] bool IsLate(const RunningAttempt& attempt, double now_s) const;
+  /// Whether a task is ready whose time has come.
+  [[nodiscard]] bool HasReady(double now_s) const;
   /// Whether a task has run too long, and nobody does it a second time.
   [[nodiscard]] bool HasStraggler(double now_s) const;
   /// The first straggler that `worker` does not do itself, unless as many run twice as may of all

@@ -8,6 +8,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "core/storage/durable_file.h"
 
 namespace orbweave {
@@ -15,11 +16,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that does not say when its token expires is kept.
-bool HasExpired(const std::string& path, int64_t now_unix_s) {
-  const absl::StatusOr<std::string> text = ReadWholeFile(path);
+/// What a file says: "EXPIRES USES".
+struct Record {
   int64_t expires_unix_s = 0;
-  return text.ok() && absl::SimpleAtoi(*text, &expires_unix_s) && expires_unix_s <= now_unix_s;
+  uint32_t uses = 0;
+};
+
+absl::StatusOr<Record> ReadRecord(const std::string& path) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(path));
+  const std::vector<std::string> words = absl::StrSplit(text, ' ');
+  Record record;
+  if (words.size() == 2 && absl::SimpleAtoi(words[0], &record.expires_unix_s) &&
+      absl::SimpleAtoi(words[1], &record.uses)) {
+    return record;
+  }
+  return absl::DataLossError(absl::StrCat(path, " does not say how often its token was used"));
+}
+
+/// A file that cannot be read is kept.
+bool HasExpired(const std::string& path, int64_t now_unix_s) {
+  const absl::StatusOr<Record> record = ReadRecord(path);
+  return record.ok() && record->expires_unix_s <= now_unix_s;
 }
 
 }  // namespace
@@ -37,14 +54,17 @@ absl::StatusOr<UsedTokens> UsedTokens::Open(const std::string& folder, int64_t n
   return UsedTokens(folder);
 }
 
-absl::Status UsedTokens::Use(const std::string& nonce, int64_t expires_unix_s) {
+absl::StatusOr<uint32_t> UsedTokens::Use(const JoinClaims& claims) {
   const std::lock_guard lock(*mutex_);
-  const std::string path = absl::StrCat(folder_, "/", nonce);
-  std::error_code error;
-  const fs::file_type found = fs::symlink_status(path, error).type();
-  if (found == fs::file_type::not_found)
-    return WriteFileDurably(folder_ + "/tmp", path, absl::StrCat(expires_unix_s));
-  return absl::PermissionDeniedError("the join token was used before: ask for a new one");
+  const std::string path = absl::StrCat(folder_, "/", claims.nonce);
+  const absl::StatusOr<Record> before = ReadRecord(path);
+  if (!before.ok() && !absl::IsNotFound(before.status())) return before.status();
+  const uint32_t use = before.ok() ? before->uses + 1 : 1;
+  if (use > claims.uses)
+    return absl::PermissionDeniedError("the join token was used before: ask for a new one");
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteFileDurably(folder_ + "/tmp", path, absl::StrCat(claims.expires_unix_s, " ", use)));
+  return use;
 }
 
 }  // namespace orbweave

@@ -5,14 +5,24 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 
 namespace orbweave {
+namespace {
 
-void WorkerRoster::Remember(const WorkerBlame& blame) {
+constexpr double kForEver_s = std::numeric_limits<double>::infinity();
+/// How long, and how many, workers are remembered that are gone.
+constexpr double kRemembered_s = 86'400.0;
+constexpr size_t kMostGone = 1000;
+
+}  // namespace
+
+void WorkerRoster::Remember(const WorkerBlame& blame, double now_s) {
   Record& record = records_[blame.worker];
+  record.heard_s = now_s;
   record.process = blame.process;
   record.blames = blame.blames;
 }
@@ -20,14 +30,40 @@ void WorkerRoster::Remember(const WorkerBlame& blame) {
 std::vector<WorkerBlame> WorkerRoster::TakeBlames() {
   std::vector<WorkerBlame> blames;
   for (const std::string& name : std::exchange(changed_, {})) {
-    const Record& record = records_[name];
-    blames.push_back({name, record.process, record.blames});
+    const auto it = records_.find(name);
+    blames.push_back(it == records_.end()
+                         ? WorkerBlame{.worker = name}
+                         : WorkerBlame{name, it->second.process, it->second.Faults()});
   }
   return blames;
 }
 
 void WorkerRoster::SetBlames(const std::string& name, uint32_t blames) {
-  if (std::exchange(records_[name].blames, blames) != blames) changed_.insert(name);
+  if (std::exchange(records_.at(name).blames, blames) != blames) changed_.insert(name);
+}
+
+void WorkerRoster::ForgetGone(double now_s) {
+  constexpr double kBetweenLooks_s = 60.0;
+  constexpr size_t kMoreBetweenLooks = kMostGone / 4;
+  if (now_s < next_look_s_ && records_.size() < next_look_size_) return;
+  std::vector<std::tuple<bool, double, std::string>> gone;  // the last ones first
+  for (const auto& [name, record] : records_) {
+    if (!IsAlive(record, now_s)) gone.emplace_back(!IsSetAside(record), -record.heard_s, name);
+  }
+  std::ranges::sort(gone);
+  for (size_t i = 0; i < gone.size(); ++i) {
+    const auto& [is_harmless, heard_s, name] = gone[i];
+    if (i >= kMostGone || now_s + heard_s > kRemembered_s) Forget(name);
+  }
+  next_look_s_ = now_s + kBetweenLooks_s;
+  next_look_size_ = records_.size() + kMoreBetweenLooks;
+}
+
+void WorkerRoster::Forget(const std::string& name) {
+  const auto it = records_.find(name);
+  names_.erase(it->second.session);
+  if (it->second.Faults() > 0) changed_.insert(name);
+  records_.erase(it);
 }
 
 void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s) {
@@ -37,9 +73,11 @@ void WorkerRoster::Join(const WorkerInfo& worker, uint64_t session, double now_s
   record.heard_s = now_s;
   record.slots = worker.slots;
   record.offers = worker.offers;
+  record.leaves_s = now_s + worker.stays_s.value_or(kForEver_s);
   record.draining = false;
   const bool is_another = worker.process == 0 || worker.process != record.process;
   record.process = worker.process;
+  if (is_another && std::exchange(record.damages, 0) > 0) changed_.insert(worker.name);
   if (is_another) SetBlames(worker.name, 0);
   names_[session] = worker.name;
 }
@@ -49,25 +87,59 @@ absl::Status WorkerRoster::Check(uint64_t session) const {
   return absl::NotFoundError(absl::StrCat("session ", session, " is over: join again"));
 }
 
+absl::Status WorkerRoster::CheckSlot(uint64_t session, uint32_t slot) const {
+  ORBWEAVE_RETURN_IF_ERROR(Check(session));
+  const uint32_t slots = records_.at(names_.at(session)).slots;
+  if (slot < slots) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("a worker of ", slots, " slots has no slot ", slot));
+}
+
 absl::Status WorkerRoster::Hear(uint64_t session, double now_s) {
   ORBWEAVE_RETURN_IF_ERROR(Check(session));
-  records_[names_.at(session)].heard_s = now_s;
+  records_.at(names_.at(session)).heard_s = now_s;
   return absl::OkStatus();
 }
 
 void WorkerRoster::End(uint64_t session) {
   const auto it = names_.find(session);
   if (it == names_.end()) return;
-  records_[it->second].session = 0;
+  records_.at(it->second).session = 0;
   names_.erase(it);
 }
 
-absl::Status WorkerRoster::Drain(std::string_view name) {
-  const auto it = records_.find(name);
-  if (it == records_.end() || it->second.session == 0)
-    return absl::NotFoundError(absl::StrCat("there is no worker ", std::string(name)));
-  it->second.draining = true;
-  return absl::OkStatus();
+std::vector<std::string> WorkerRoster::PresentFrom(std::string_view prefix) const {
+  std::vector<std::string> names;
+  for (auto it = records_.lower_bound(prefix);
+       it != records_.end() && it->first.starts_with(prefix);
+       ++it) {
+    if (it->second.session != 0) names.push_back(it->first);
+  }
+  return names;
+}
+
+absl::StatusOr<std::vector<std::string>> WorkerRoster::Drain(std::string_view name) {
+  const bool means_all = name.ends_with('*');
+  const std::string prefix(means_all ? name.substr(0, name.size() - 1) : name);
+  std::vector<std::string> meant = PresentFrom(prefix);
+  if (meant.empty() || name.empty())
+    return absl::NotFoundError(absl::StrCat("there is no worker ", prefix));
+  const bool is_whole = meant.front() == prefix;
+  if (!means_all && !is_whole && meant.size() > 1) {
+    return absl::InvalidArgumentError(absl::StrCat(meant.size(),
+                                                   " workers' names begin with ",
+                                                   prefix,
+                                                   ", ",
+                                                   meant[0],
+                                                   " and ",
+                                                   meant[1],
+                                                   " among them: give more of one, or ",
+                                                   prefix,
+                                                   "* for all"));
+  }
+  if (!means_all) meant.resize(1);
+  for (const std::string& worker : meant) records_.at(worker).draining = true;
+  return meant;
 }
 
 bool WorkerRoster::IsDraining(uint64_t session) const {
@@ -78,11 +150,19 @@ bool WorkerRoster::IsDraining(uint64_t session) const {
 void WorkerRoster::CountTask(uint64_t session, const std::set<std::string>& failed_on) {
   const std::string name = NameOf(session);
   for (const std::string& other : failed_on) {
-    if (other != name) SetBlames(other, records_[other].blames + 1);
+    const auto it = records_.find(other);
+    if (other != name && it != records_.end()) SetBlames(other, it->second.blames + 1);
   }
   if (name.empty()) return;
-  ++records_[name].tasks_done;
+  ++records_.at(name).tasks_done;
   SetBlames(name, 0);
+}
+
+void WorkerRoster::CountDamage(const std::string& name) {
+  const auto it = records_.find(name);
+  if (it == records_.end()) return;
+  ++it->second.damages;
+  changed_.insert(name);
 }
 
 std::string WorkerRoster::NameOf(uint64_t session) const {
@@ -102,7 +182,7 @@ bool WorkerRoster::IsAlive(const Record& record, double now_s) const {
 
 bool WorkerRoster::IsSetAside(const Record& record) {
   constexpr uint32_t kMaxBlames = 3;
-  return record.blames >= kMaxBlames;
+  return record.Faults() >= kMaxBlames;
 }
 
 std::vector<std::string> WorkerRoster::Serving(double now_s) const {
@@ -113,6 +193,25 @@ std::vector<std::string> WorkerRoster::Serving(double now_s) const {
     (IsSetAside(record) ? set_aside : serving).push_back(name);
   }
   return serving.empty() ? set_aside : serving;
+}
+
+double WorkerRoster::StaysFor(std::string_view name, double now_s) const {
+  const auto it = records_.find(name);
+  return it == records_.end() ? kForEver_s : it->second.leaves_s - now_s;
+}
+
+double WorkerRoster::LongestStay(double now_s) const {
+  const std::vector<std::string> serving = Serving(now_s);
+  if (serving.empty()) return kForEver_s;
+  double longest_s = 0.0;
+  for (const std::string& name : serving) longest_s = std::max(longest_s, StaysFor(name, now_s));
+  return longest_s;
+}
+
+uint32_t WorkerRoster::SlotsAtWork(double now_s) const {
+  uint32_t slots = 0;
+  for (const std::string& name : Serving(now_s)) slots += records_.at(name).slots;
+  return slots;
 }
 
 uint32_t WorkerRoster::Slots(double now_s) const {

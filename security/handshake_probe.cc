@@ -91,20 +91,24 @@ ContextHandle MakeContext(const TlsFolder& folder, Caller caller) {
   return is_whole ? std::move(context) : nullptr;
 }
 
-/// The connection of a caller who expects `host` and speaks gRPC's protocol.
-ConnectionHandle MakeConnection(SSL_CTX& context, const std::string& host, BIO& wire) {
-  static constexpr std::array<unsigned char, 3> kHttp2 = {2, 'h', '2'};
-  ConnectionHandle connection(SSL_new(&context));
-  SSL_set_alpn_protos(connection.get(), kHttp2.data(), kHttp2.size());
+/// The other side's certificate is to name `host`.
+void ExpectHost(SSL& connection, const std::string& host) {
   std::array<unsigned char, 16> address{};
   const bool is_address = ::inet_pton(AF_INET, host.c_str(), address.data()) == 1 ||
                           ::inet_pton(AF_INET6, host.c_str(), address.data()) == 1;
   if (is_address) {
-    X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(connection.get()), host.c_str());
+    X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(&connection), host.c_str());
   } else {
-    SSL_set1_host(connection.get(), host.c_str());
-    SSL_set_tlsext_host_name(connection.get(), host.c_str());
+    SSL_set1_host(&connection, host.c_str());
+    SSL_set_tlsext_host_name(&connection, host.c_str());
   }
+}
+
+/// The connection of a caller who speaks gRPC's protocol.
+ConnectionHandle MakeConnection(SSL_CTX& context, BIO& wire) {
+  static constexpr std::array<unsigned char, 3> kHttp2 = {2, 'h', '2'};
+  ConnectionHandle connection(SSL_new(&context));
+  SSL_set_alpn_protos(connection.get(), kHttp2.data(), kHttp2.size());
   SSL_set_bio(connection.get(), &wire, &wire);
   return connection;
 }
@@ -123,7 +127,10 @@ Handshake FirstAnswer(SSL& connection) {
 
 }  // namespace
 
-Handshake ProbeHandshake(const std::string& address, const TlsFolder& folder, Caller caller) {
+Handshake ProbeHandshake(const std::string& address,
+                         const TlsFolder& folder,
+                         Caller caller,
+                         KnownBy known_by) {
   const WithoutSigpipe guard;
   const HostAndPort server = Split(address);
   const ContextHandle context = MakeContext(folder, caller);
@@ -131,7 +138,8 @@ Handshake ProbeHandshake(const std::string& address, const TlsFolder& folder, Ca
   Handshake outcome = Handshake::kUnclear;
   if (context != nullptr && socket.IsOpen()) {
     const ConnectionHandle connection =
-        MakeConnection(*context, server.host, *BIO_new_socket(socket.get(), BIO_NOCLOSE));
+        MakeConnection(*context, *BIO_new_socket(socket.get(), BIO_NOCLOSE));
+    if (known_by == KnownBy::kHost) ExpectHost(*connection, server.host);
     errno = 0;
     ERR_clear_error();
     if (SSL_connect(connection.get()) == 1) {

@@ -16,6 +16,12 @@ enum class Handshake {
   kCallerRefused,  ///< the server, having proven who it is, hung up on the caller's certificate
 };
 
+/// By what a caller knows a coordinator, beside its authority.
+enum class KnownBy {
+  kHost,   ///< its certificate names the host that was called
+  kFleet,  ///< it is the certificate of a coordinator of the caller's fleet, wherever it runs
+};
+
 /// What a caller shows of its TlsFolder.
 enum class Caller {
   kCertified,
@@ -26,6 +32,7 @@ enum class Caller {
 /// up: to find out why calls fail, which gRPC does not tell. Every step waits 2 seconds at most.
 [[nodiscard]] Handshake ProbeHandshake(const std::string& address,
                                        const TlsFolder& folder,
-                                       Caller caller);
+                                       Caller caller,
+                                       KnownBy known_by = KnownBy::kHost);
 
 }  // namespace orbweave

@@ -20,7 +20,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::string_view kPrefix = "orbweave-join-1.";
+constexpr std::string_view kPrefix = "orbweave-join-2.";
 constexpr size_t kNonceBytes = 16;
 constexpr size_t kKeyBytes = 32;
 constexpr size_t kLongestToken = 16'384;
@@ -46,9 +46,9 @@ std::string Hmac(const std::string& key, std::string_view text) {
   return mac;
 }
 
-/// The parts of "orbweave-join-1.PAYLOAD.MAC", the last two decoded.
+/// The parts of "orbweave-join-2.PAYLOAD.MAC", the last two decoded.
 struct TokenParts {
-  std::string signed_text{};  ///< "orbweave-join-1.PAYLOAD"
+  std::string signed_text{};  ///< "orbweave-join-2.PAYLOAD"
   std::string payload{};
   std::string mac{};
 };
@@ -68,12 +68,13 @@ absl::StatusOr<TokenParts> Split(std::string_view token) {
 }
 
 absl::StatusOr<JoinClaims> ParseClaims(const std::string& payload) {
-  const std::vector<std::string> lines = absl::StrSplit(payload, absl::MaxSplits('\n', 4));
-  if (lines.size() != 5) return NoToken();
-  JoinClaims claims{.fleet = lines[0], .nonce = lines[3], .authority_pem = lines[4]};
+  const std::vector<std::string> lines = absl::StrSplit(payload, absl::MaxSplits('\n', 5));
+  if (lines.size() != 6) return NoToken();
+  JoinClaims claims{.fleet = lines[0], .nonce = lines[4], .authority_pem = lines[5]};
   const absl::StatusOr<Role> role = RoleFromName(lines[1]);
   if (!role.ok() || !IsTokenNonce(claims.nonce) || !CheckName(claims.fleet).ok() ||
-      !absl::SimpleAtoi(lines[2], &claims.expires_unix_s)) {
+      !absl::SimpleAtoi(lines[2], &claims.expires_unix_s) ||
+      !absl::SimpleAtoi(lines[3], &claims.uses) || claims.uses == 0 || claims.uses > kMostUses) {
     return NoToken();
   }
   claims.role = *role;
@@ -96,6 +97,8 @@ std::string MakeJoinToken(const std::string& key, JoinClaims claims) {
                                            std::string(RoleName(claims.role)),
                                            "\n",
                                            claims.expires_unix_s,
+                                           "\n",
+                                           claims.uses,
                                            "\n",
                                            claims.nonce,
                                            "\n",

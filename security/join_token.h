@@ -10,14 +10,17 @@
 
 namespace orbweave {
 
-/// What a join token says. It is worth one certificate of `role` in `fleet`.
+/// What a join token says. It is worth so many certificates of `role` in `fleet`.
 struct JoinClaims {
   std::string fleet{};
   Role role = Role::kWorker;
   int64_t expires_unix_s = 0;
+  uint32_t uses = 1;            ///< from 1 to kMostUses
   std::string nonce{};          ///< 32 hexadecimal digits that name this token
   std::string authority_pem{};  ///< the authority by which its bearer knows the coordinator
 };
+
+inline constexpr uint32_t kMostUses = 100'000;
 
 /// Whether a token may have this nonce.
 [[nodiscard]] bool IsTokenNonce(std::string_view text);

@@ -134,7 +134,8 @@ absl::Status Revoke(const std::string& store, const Revocations& more) {
 
 absl::StatusOr<std::string> WriteJoinToken(const std::string& store,
                                            const std::string& path,
-                                           int64_t expires_unix_s) {
+                                           int64_t expires_unix_s,
+                                           uint32_t uses) {
   ORBWEAVE_ASSIGN_OR_RETURN(const CertificateAuthority authority, LoadAuthority(store));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string key,
                             ReadSecretFile(AuthorityFolder(store).TokenKeyPath()));
@@ -142,6 +143,7 @@ absl::StatusOr<std::string> WriteJoinToken(const std::string& store,
                                           {.fleet = authority.fleet(),
                                            .role = Role::kWorker,
                                            .expires_unix_s = expires_unix_s,
+                                           .uses = uses,
                                            .authority_pem = authority.certificate_pem()});
   ORBWEAVE_RETURN_IF_ERROR(WriteSecretFile(path, token));
   ORBWEAVE_ASSIGN_OR_RETURN(const JoinClaims claims, ReadJoinToken(token));

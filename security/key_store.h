@@ -39,10 +39,11 @@ struct NewKeys {
 /// token can be, or it is a coordinator's, whose callers would not ask. NotFound: no key store.
 [[nodiscard]] absl::Status Revoke(const std::string& store, const Revocations& more);
 
-/// A join token for a worker, written to `path`; its nonce, by which it can be revoked. NotFound:
-/// no key store.
+/// A join token for so many workers, written to `path`; its nonce, by which it can be revoked.
+/// NotFound: no key store.
 [[nodiscard]] absl::StatusOr<std::string> WriteJoinToken(const std::string& store,
                                                          const std::string& path,
-                                                         int64_t expires_unix_s);
+                                                         int64_t expires_unix_s,
+                                                         uint32_t uses = 1);
 
 }  // namespace orbweave

@@ -11,7 +11,7 @@
 namespace orbweave {
 
 absl::StatusOr<CertificateFacts> CheckTlsFolder(const TlsFolder& folder) {
-  ORBWEAVE_RETURN_IF_ERROR(ReadSecretFile(folder.AuthorityPath()).status());
+  ORBWEAVE_RETURN_IF_ERROR(ReadTrustedFile(folder.AuthorityPath()).status());
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string key_pem, ReadSecretFile(folder.KeyPath()));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string own_pem, ReadSecretFile(folder.CertificatePath()));
   ORBWEAVE_ASSIGN_OR_RETURN(const KeyHandle key, KeyFromPem(key_pem));

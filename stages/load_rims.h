@@ -12,7 +12,8 @@
 
 namespace orbweave {
 
-/// The submodels that boundaries of clusters hold, by cluster and then by size.
+/// The submodels that boundaries of clusters hold, by cluster and then by size. DataLoss: the
+/// clusters are not in order.
 [[nodiscard]] absl::StatusOr<std::vector<Submodel>> LoadBoundaries(
     std::span<const Digest> boundaries, BlobAccess& blobs);
 

@@ -25,11 +25,15 @@ absl::StatusOr<PlacedMaps> PlaceMaps(const DensePlan& plan,
 
 absl::StatusOr<DepthMap> FetchMap(const PlacedMap& placed, BlobAccess& blobs) {
   ORBWEAVE_ASSIGN_OR_RETURN(DepthMap map, FetchBlob<DepthMap>(placed.map, blobs));
+  constexpr float kFarthest_m = 1e9F;
   const auto unit = static_cast<float>(placed.unit_m);
   const auto reach = static_cast<float>(placed.reach_m);
   for (size_t i = 0; i < map.size(); ++i) {
     map.range_m[i] *= unit;
     map.sigma_m[i] *= unit;
+    if (!(map.range_m[i] <= kFarthest_m) || !(map.sigma_m[i] <= kFarthest_m))
+      return BlameBlob(absl::DataLossError("a depth map sees farther than anything can be"),
+                       placed.map);
     if (reach > 0.0F && map.range_m[i] > reach) map.range_m[i] = 0.0F;
   }
   return map;

@@ -25,7 +25,8 @@ enum class MapUnit { kOwn, kModel };
                                                    const std::vector<Digest>& maps,
                                                    MapUnit unit);
 
-/// The map in units of the model, without what lies beyond its reach where it has one.
+/// The map in units of the model, without what lies beyond its reach where it has one. DataLoss: it
+/// sees farther than anything can be.
 [[nodiscard]] absl::StatusOr<DepthMap> FetchMap(const PlacedMap& placed, BlobAccess& blobs);
 
 /// The same of several, in their order. Cancelled when asked to stop.

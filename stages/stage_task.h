@@ -13,17 +13,26 @@
 #include "core/base/stage_context.h"
 #include "core/base/status.h"
 #include "core/pipeline/blob_access.h"
+#include "core/pipeline/damaged_blob.h"
 #include "core/pipeline/task.h"
 #include "stages/port.h"
 #include "stages/stage_facts.h"
 
 namespace orbweave {
 
-/// The value of a blob that is named in another one. Errors of `blobs` and of the codec.
+/// The value of the bytes of a blob. Errors of the codec; DataLoss names the blob (BlobToBlame).
+template <typename T>
+absl::StatusOr<T> DecodeBlob(const Digest& digest, const std::string& bytes) {
+  absl::StatusOr<T> value = Codec<T>::Decode(bytes);
+  if (!value.ok()) return BlameBlob(value.status(), digest);
+  return value;
+}
+
+/// The value of a blob that is named in another one. Errors of `blobs` and of DecodeBlob.
 template <typename T>
 absl::StatusOr<T> FetchBlob(const Digest& digest, BlobAccess& blobs) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(digest));
-  return Codec<T>::Decode(bytes);
+  return DecodeBlob<T>(digest, bytes);
 }
 
 template <typename T>
@@ -74,7 +83,7 @@ class StageTask {
   [[nodiscard]] absl::StatusOr<T> Read(RoundBefore<One<T>> Stage::*port) {
     ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs_.Get(DigestOf(port)));
     if (bytes.empty()) return T{};
-    return Codec<T>::Decode(bytes);
+    return DecodeBlob<T>(DigestOf(port), bytes);
   }
   template <typename T>
   [[nodiscard]] absl::StatusOr<std::vector<Digest>> Read(EachPart<T> Stage::*port) {

@@ -6,7 +6,13 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/security/tls_certificate_provider.h>
+#include <grpcpp/security/tls_certificate_verifier.h>
 #include <grpcpp/security/tls_credentials_options.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "security/identity.h"
 
 namespace orbweave {
 namespace {
@@ -25,8 +31,46 @@ grpc::ChannelArguments Arguments() {
   return arguments;
 }
 
-std::shared_ptr<grpc::ChannelCredentials> CredentialsFrom(const TlsFolder& folder) {
+/// Takes the certificate of any coordinator of a fleet; that it is by the fleet's authority has
+/// been checked before.
+class CoordinatorOfFleet final : public grpc::experimental::ExternalCertificateVerifier {
+ public:
+  explicit CoordinatorOfFleet(std::string fleet) : fleet_(std::move(fleet)) {}
+
+  bool Verify(grpc::experimental::TlsCustomVerificationCheckRequest* request,
+              std::function<void(grpc::Status)>,
+              grpc::Status* outcome) override {
+    const bool is_one = std::ranges::any_of(request->uri_names(), [this](grpc::string_ref uri) {
+      const auto identity = Identity::FromUri({uri.data(), uri.size()});
+      return identity.ok() && identity->role == Role::kCoordinator && identity->fleet == fleet_;
+    });
+    if (!is_one)
+      *outcome = {grpc::StatusCode::UNAUTHENTICATED, "not a coordinator of fleet " + fleet_};
+    return true;  // decided at once
+  }
+  void Cancel(grpc::experimental::TlsCustomVerificationCheckRequest*) override {}
+
+ private:
+  std::string fleet_;
+};
+
+void KnowByFleet(grpc::experimental::TlsChannelCredentialsOptions& options,
+                 const std::string& fleet) {
+  options.set_certificate_verifier(
+      grpc::experimental::ExternalCertificateVerifier::Create<CoordinatorOfFleet>(fleet));
+  options.set_check_call_host(false);
+}
+
+/// Of the folder's own certificate; empty where there is none, and then no coordinator is known.
+std::string FleetOf(const TlsFolder& folder) {
+  const absl::StatusOr<CertificateFacts> own = CheckTlsFolder(folder);
+  return own.ok() ? own->identity.fleet : std::string();
+}
+
+std::shared_ptr<grpc::ChannelCredentials> CredentialsFrom(const TlsFolder& folder,
+                                                          KnownBy known_by) {
   grpc::experimental::TlsChannelCredentialsOptions options;
+  if (known_by == KnownBy::kFleet) KnowByFleet(options, FleetOf(folder));
   options.set_certificate_provider(
       std::make_shared<grpc::experimental::FileWatcherCertificateProvider>(
           folder.KeyPath(), folder.CertificatePath(), folder.AuthorityPath(), kLookAtFiles_s));
@@ -38,19 +82,25 @@ std::shared_ptr<grpc::ChannelCredentials> CredentialsFrom(const TlsFolder& folde
 }  // namespace
 
 std::shared_ptr<grpc::Channel> OpenChannel(const std::string& address,
-                                           const std::string& tls_folder) {
+                                           const std::string& tls_folder,
+                                           KnownBy known_by) {
   const bool is_plain = tls_folder.empty() || address.starts_with("unix:");
   return grpc::CreateCustomChannel(
       address,
-      is_plain ? grpc::InsecureChannelCredentials() : CredentialsFrom({tls_folder}),
+      is_plain ? grpc::InsecureChannelCredentials() : CredentialsFrom({tls_folder}, known_by),
       Arguments());
 }
 
 std::shared_ptr<grpc::Channel> OpenChannelAsStranger(const std::string& address,
-                                                     const std::string& authority_pem) {
-  grpc::SslCredentialsOptions options;
-  options.pem_root_certs = authority_pem;
-  return grpc::CreateCustomChannel(address, grpc::SslCredentials(options), Arguments());
+                                                     const std::string& authority_pem,
+                                                     const std::string& fleet) {
+  grpc::experimental::TlsChannelCredentialsOptions options;
+  options.set_certificate_provider(
+      std::make_shared<grpc::experimental::StaticDataCertificateProvider>(authority_pem));
+  options.watch_root_certs();
+  if (!fleet.empty()) KnowByFleet(options, fleet);
+  return grpc::CreateCustomChannel(
+      address, grpc::experimental::TlsCredentials(options), Arguments());
 }
 
 }  // namespace orbweave

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/pipeline/damaged_blob.h"
 #include "proto/codec/coordinator_codec.h"
 #include "proto/codec/garbage_codec.h"
 #include "worker/grpc_blob_transfer.h"
@@ -54,21 +55,37 @@ v1::JobRequest RequestFor(const Digest& job) {
 
 GrpcCoordinatorClient::GrpcCoordinatorClient(const std::string& address,
                                              const ClientOptions& options)
-    : handshake_(address, options.tls_folder),
-      channel_(OpenChannel(address, options.tls_folder)),
-      stub_(v1::Coordinator::NewStub(channel_)),
+    : address_(address),
+      tls_folder_(options.tls_folder),
+      handshake_(address, options.tls_folder),
       roots_(options.roots) {}
 
-void GrpcCoordinatorClient::AwaitHandshake() {
-  constexpr std::chrono::seconds kHandshake{2};
-  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return;
-  channel_->WaitForConnected(std::chrono::system_clock::now() + kHandshake);
+absl::StatusOr<GrpcCoordinatorClient::LinkHandle> GrpcCoordinatorClient::FindLink() {
+  const std::lock_guard lock(mutex_);
+  if (link_ && link_->channel->GetState(true) == GRPC_CHANNEL_READY) return link_;
+  const absl::StatusOr<CoordinatorAddress> to = FindCoordinator(address_);
+  if (!to.ok() && !link_) return to.status();
+  if (!to.ok() || (link_ && link_->to == *to)) return link_;
+  auto channel = OpenChannel(to->address, tls_folder_, to->known_by);
+  auto stub = v1::Coordinator::NewStub(channel);
+  link_ = std::make_shared<const Link>(*to, std::move(channel), std::move(stub));
+  return link_;
 }
 
-void GrpcCoordinatorClient::Begin(grpc::ClientContext& context, double timeout_s) {
-  AwaitHandshake();
+absl::StatusOr<GrpcCoordinatorClient::LinkHandle> GrpcCoordinatorClient::Connect() {
+  constexpr std::chrono::seconds kHandshake{2};
+  ORBWEAVE_ASSIGN_OR_RETURN(LinkHandle link, FindLink());
+  if (link->channel->GetState(true) != GRPC_CHANNEL_READY)
+    link->channel->WaitForConnected(std::chrono::system_clock::now() + kHandshake);
+  return link;
+}
+
+absl::StatusOr<GrpcCoordinatorClient::LinkHandle> GrpcCoordinatorClient::Begin(
+    grpc::ClientContext& context, double timeout_s) {
+  ORBWEAVE_ASSIGN_OR_RETURN(LinkHandle link, Connect());
   context.set_deadline(std::chrono::system_clock::now() +
                        std::chrono::milliseconds(static_cast<int64_t>(1000.0 * timeout_s)));
+  return link;
 }
 
 template <typename Request, typename Reply>
@@ -76,9 +93,9 @@ absl::StatusOr<Reply> GrpcCoordinatorClient::Call(Method<Request, Reply> method,
                                                   const Request& request,
                                                   double timeout_s) {
   grpc::ClientContext context;
-  Begin(context, timeout_s);
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, timeout_s));
   Reply reply;
-  ORBWEAVE_RETURN_IF_ERROR(FromWire((*stub_.*method)(&context, request, &reply)));
+  ORBWEAVE_RETURN_IF_ERROR(FromWire((*link->stub.*method)(&context, request, &reply)));
   return reply;
 }
 
@@ -98,15 +115,15 @@ absl::StatusOr<Digest> GrpcCoordinatorClient::Put(std::string_view bytes) {
 }
 
 absl::Status GrpcCoordinatorClient::Read(const Digest& digest, const TakePiece& take) {
-  AwaitHandshake();
-  return ReceiveBlob(*stub_, digest, take);
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Connect());
+  return ReceiveBlob(*link->stub, digest, take);
 }
 
 absl::Status GrpcCoordinatorClient::Write(const Digest& digest,
                                           uint64_t size_bytes,
                                           const NextPiece& next) {
-  AwaitHandshake();
-  return SendBlob(*stub_, digest, size_bytes, next);
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Connect());
+  return SendBlob(*link->stub, digest, size_bytes, next);
 }
 
 absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) {
@@ -125,11 +142,11 @@ absl::StatusOr<std::optional<Lease>> GrpcCoordinatorClient::LeaseTask(uint64_t s
   request.set_slot(slot);
   request.set_wait_s(wait_s);
   grpc::ClientContext context;
-  Begin(context, wait_s + kQuick_s);
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, wait_s + kQuick_s));
   const std::stop_callback on_left(left, [&context] { context.TryCancel(); });
   v1::LeaseTaskReply reply;
   ORBWEAVE_RETURN_IF_ERROR(
-      handshake_.Explain(FromWire(stub_->LeaseTask(&context, request, &reply))));
+      handshake_.Explain(FromWire(link->stub->LeaseTask(&context, request, &reply))));
   if (!reply.has_lease()) return std::nullopt;
   ORBWEAVE_ASSIGN_OR_RETURN(Lease lease, FromProto(reply.lease()));
   return lease;
@@ -163,6 +180,7 @@ absl::Status GrpcCoordinatorClient::FailTask(uint64_t session,
   *request.mutable_lease() = ToProto(lease);
   request.set_code(static_cast<uint32_t>(error.code()));
   request.set_message(std::string(error.message()));
+  if (const std::optional<Digest> blob = BlobToBlame(error)) request.set_damaged(ToProto(*blob));
   return Call(&Stub::FailTask, request, kQuick_s).status();
 }
 
@@ -172,10 +190,17 @@ absl::Status GrpcCoordinatorClient::Leave(uint64_t session) {
   return Call(&Stub::Leave, request, kQuick_s).status();
 }
 
-absl::Status GrpcCoordinatorClient::DrainWorker(const std::string& name) {
-  v1::DrainWorkerRequest request;
+absl::StatusOr<std::vector<std::string>> GrpcCoordinatorClient::DrainWorkers(
+    const std::string& name) {
+  v1::DrainWorkersRequest request;
   request.set_name(name);
-  return Call(&Stub::DrainWorker, request, kQuick_s).status();
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::DrainWorkersReply reply,
+                            Call(&Stub::DrainWorkers, request, kQuick_s));
+  return std::vector<std::string>(reply.names().begin(), reply.names().end());
+}
+
+absl::Status GrpcCoordinatorClient::StopCoordinator() {
+  return Call(&Stub::StopCoordinator, v1::Empty(), kQuick_s).status();
 }
 
 absl::StatusOr<Digest> GrpcCoordinatorClient::SubmitJob(const JobSpec& job) {
@@ -191,13 +216,15 @@ absl::StatusOr<JobStatus> GrpcCoordinatorClient::GetJob(const Digest& job) {
 }
 
 absl::StatusOr<std::vector<JobStatus>> GrpcCoordinatorClient::ListJobs() {
-  ORBWEAVE_ASSIGN_OR_RETURN(const v1::ListJobsReply reply,
-                            Call(&Stub::ListJobs, v1::Empty(), kQuick_s));
-  std::vector<JobStatus> jobs;
-  for (const v1::JobStatus& job : reply.jobs()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(), FromProto(job));
-  }
-  return jobs;
+  grpc::ClientContext context;
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, kFile_s));
+  return ReadAll<JobStatus>(*link->stub->ListJobs(&context, v1::Empty()));
+}
+
+absl::StatusOr<std::vector<WorkerStatus>> GrpcCoordinatorClient::ListWorkers() {
+  grpc::ClientContext context;
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, kFile_s));
+  return ReadAll<WorkerStatus>(*link->stub->ListWorkers(&context, v1::Empty()));
 }
 
 absl::Status GrpcCoordinatorClient::CancelJob(const Digest& job) {
@@ -216,20 +243,20 @@ absl::StatusOr<GarbageReport> GrpcCoordinatorClient::CollectGarbage(const Garbag
 
 absl::StatusOr<std::vector<TaskOutcome>> GrpcCoordinatorClient::GetOutcomes(const Digest& job) {
   grpc::ClientContext context;
-  Begin(context, kFile_s);
-  return ReadAll<TaskOutcome>(*stub_->GetOutcomes(&context, RequestFor(job)));
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, kFile_s));
+  return ReadAll<TaskOutcome>(*link->stub->GetOutcomes(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<TaskTiming>> GrpcCoordinatorClient::GetTimings(const Digest& job) {
   grpc::ClientContext context;
-  Begin(context, kFile_s);
-  return ReadAll<TaskTiming>(*stub_->GetTimings(&context, RequestFor(job)));
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, kFile_s));
+  return ReadAll<TaskTiming>(*link->stub->GetTimings(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<MeasuredTask>> GrpcCoordinatorClient::GetCosts(const Digest& job) {
   grpc::ClientContext context;
-  Begin(context, kFile_s);
-  return ReadAll<MeasuredTask>(*stub_->GetCosts(&context, RequestFor(job)));
+  ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Begin(context, kFile_s));
+  return ReadAll<MeasuredTask>(*link->stub->GetCosts(&context, RequestFor(job)));
 }
 
 absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(

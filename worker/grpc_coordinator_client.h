@@ -4,11 +4,13 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <stop_token>
 #include <string>
 
 #include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
+#include "worker/coordinator_address.h"
 #include "worker/refused_handshake.h"
 
 namespace orbweave {
@@ -24,7 +26,8 @@ struct ClientOptions {
 /// Unauthenticated when it will never be, see RefusedHandshake. Thread-safe.
 class GrpcCoordinatorClient final : public CoordinatorApi {
  public:
-  /// `address` as the server prints it.
+  /// `address` as the server prints it, or "@FILE" as FindCoordinator reads it, again whenever the
+  /// connection is lost: the coordinator may have been started elsewhere.
   explicit GrpcCoordinatorClient(const std::string& address, const ClientOptions& options = {});
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
@@ -51,7 +54,10 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   [[nodiscard]] absl::StatusOr<Digest> SubmitJob(const JobSpec& job) override;
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
-  [[nodiscard]] absl::Status DrainWorker(const std::string& name) override;
+  [[nodiscard]] absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() override;
+  [[nodiscard]] absl::StatusOr<std::vector<std::string>> DrainWorkers(
+      const std::string& name) override;
+  [[nodiscard]] absl::Status StopCoordinator() override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(
@@ -71,20 +77,33 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
                                                          const Request&,
                                                          Reply*);
 
-  /// Gives a connection that was lost time to come back: gRPC drives a handshake only while
-  /// somebody waits for the channel, so calls that fail at once, with pauses between them, never
-  /// end one that takes several round trips.
-  void AwaitHandshake();
+  /// The way to where the coordinator is now.
+  struct Link {
+    CoordinatorAddress to{};
+    std::shared_ptr<grpc::Channel> channel{};
+    std::unique_ptr<v1::Coordinator::Stub> stub{};
+  };
+  using LinkHandle = std::shared_ptr<const Link>;
+
+  /// The present link, or another one where the coordinator has moved. Unavailable: it cannot be
+  /// found.
+  [[nodiscard]] absl::StatusOr<LinkHandle> FindLink();
+  /// The same, with time for a connection that was lost to come back: gRPC drives a handshake only
+  /// while somebody waits for the channel, so calls that fail at once, with pauses between them,
+  /// never end one that takes several round trips.
+  [[nodiscard]] absl::StatusOr<LinkHandle> Connect();
   /// Begins a call of at most `timeout_s`, once connected.
-  void Begin(grpc::ClientContext& context, double timeout_s);
+  [[nodiscard]] absl::StatusOr<LinkHandle> Begin(grpc::ClientContext& context, double timeout_s);
   template <typename Request, typename Reply>
   [[nodiscard]] absl::StatusOr<Reply> Call(Method<Request, Reply> method,
                                            const Request& request,
                                            double timeout_s);
 
+  const std::string address_;
+  const std::string tls_folder_;
   RefusedHandshake handshake_;
-  std::shared_ptr<grpc::Channel> channel_;
-  std::unique_ptr<v1::Coordinator::Stub> stub_;
+  std::mutex mutex_;
+  LinkHandle link_;
   std::map<std::string, std::string> roots_;
 };
 

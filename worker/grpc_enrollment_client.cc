@@ -12,6 +12,7 @@
 #include "security/certificate_request.h"
 #include "security/join_token.h"
 #include "security/secret_file.h"
+#include "worker/coordinator_address.h"
 #include "worker/grpc_channel.h"
 #include "worker/grpc_status.h"
 
@@ -30,6 +31,7 @@ absl::Status Enroll(const std::string& address,
                     const std::string& name,
                     const TlsFolder& folder) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JoinClaims claims, ReadJoinToken(token));
+  ORBWEAVE_ASSIGN_OR_RETURN(const CoordinatorAddress to, FindCoordinator(address));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string key, MakePrivateKey());
   // What can fail here does so before the token is spent.
   if (::mkdir(folder.path.c_str(), S_IRWXU) != 0 && errno != EEXIST)
@@ -40,7 +42,9 @@ absl::Status Enroll(const std::string& address,
   request.set_token(token);
   request.set_name(name);
   ORBWEAVE_ASSIGN_OR_RETURN(*request.mutable_request(), MakeCertificateRequest(key));
-  const auto stub = v1::Enrollment::NewStub(OpenChannelAsStranger(address, claims.authority_pem));
+  const std::string fleet = to.known_by == KnownBy::kFleet ? claims.fleet : std::string();
+  const auto stub =
+      v1::Enrollment::NewStub(OpenChannelAsStranger(to.address, claims.authority_pem, fleet));
   grpc::ClientContext context;
   SetDeadline(context);
   v1::CertificateReply reply;
@@ -49,10 +53,11 @@ absl::Status Enroll(const std::string& address,
 }
 
 absl::Status RenewCertificate(const std::string& address, const TlsFolder& folder) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const CoordinatorAddress to, FindCoordinator(address));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string key, ReadSecretFile(folder.KeyPath()));
   v1::RenewRequest request;
   ORBWEAVE_ASSIGN_OR_RETURN(*request.mutable_request(), MakeCertificateRequest(key));
-  const auto stub = v1::Enrollment::NewStub(OpenChannel(address, folder.path));
+  const auto stub = v1::Enrollment::NewStub(OpenChannel(to.address, folder.path, to.known_by));
   grpc::ClientContext context;
   SetDeadline(context);
   v1::CertificateReply reply;

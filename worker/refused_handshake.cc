@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "security/unix_time.h"
+#include "worker/coordinator_address.h"
 
 namespace orbweave {
 namespace {
@@ -22,9 +23,7 @@ bool HasEnded(const TlsFolder& folder) {
 }  // namespace
 
 RefusedHandshake::RefusedHandshake(std::string address, std::string tls_folder, Caller caller)
-    : address_(std::move(address)),
-      tls_folder_(address_.starts_with("unix:") ? "" : std::move(tls_folder)),
-      caller_(caller) {}
+    : address_(std::move(address)), tls_folder_(std::move(tls_folder)), caller_(caller) {}
 
 absl::Status RefusedHandshake::Explain(const absl::Status& status) {
   if (!absl::IsUnavailable(status) || tls_folder_.empty()) return status;
@@ -36,11 +35,13 @@ absl::Status RefusedHandshake::Explain(const absl::Status& status) {
 }
 
 absl::Status RefusedHandshake::Look() {
+  const absl::StatusOr<CoordinatorAddress> to = FindCoordinator(address_);
+  if (!to.ok() || to->address.starts_with("unix:")) return absl::OkStatus();
   if (caller_ == Caller::kCertified && HasEnded({tls_folder_})) {
     return absl::UnauthenticatedError(absl::StrCat(
         "the certificate in ", tls_folder_, " has ended: renew it, or join by a new token"));
   }
-  const Handshake outcome = ProbeHandshake(address_, {tls_folder_}, caller_);
+  const Handshake outcome = ProbeHandshake(to->address, {tls_folder_}, caller_, to->known_by);
   const bool is_refusal =
       outcome == Handshake::kServerRefused || outcome == Handshake::kCallerRefused;
   refusals_ = is_refusal ? refusals_ + 1 : 0;

@@ -15,7 +15,7 @@ namespace orbweave {
 /// both that they are unavailable. Thread-safe.
 class RefusedHandshake {
  public:
-  /// `tls_folder` empty: there are no handshakes.
+  /// `address`: see FindCoordinator. `tls_folder` empty: there are no handshakes.
   RefusedHandshake(std::string address, std::string tls_folder, Caller caller = Caller::kCertified);
 
   /// `status` of a call as it is; but instead of Unavailable Unauthenticated, with what to do, when

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/pipeline/damaged_blob.h"
 #include "orbweave/v1/task_process.pb.h"
 #include "proto/codec/coordinator_codec.h"
 #include "worker/message_channel.h"
@@ -36,6 +37,7 @@ v1::FromTaskProcess EndMessage(const absl::StatusOr<TaskResult>& result) {
   v1::TaskEnd& end = *message.mutable_end();
   end.set_code(static_cast<uint32_t>(result.status().code()));
   end.set_message(std::string(result.status().message()));
+  if (const auto blob = BlobToBlame(result.status())) end.set_damaged(ToProto(*blob));
   if (result.ok()) *end.mutable_result() = ToProto(*result);
   return message;
 }

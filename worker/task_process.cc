@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/pipeline/damaged_blob.h"
 #include "proto/codec/coordinator_codec.h"
 
 namespace orbweave {
@@ -61,7 +62,10 @@ v1::ToTaskProcess BlobMessage(const absl::Status& status) {
 
 absl::StatusOr<TaskResult> ResultOf(const v1::TaskEnd& end) {
   if (end.code() == 0) return FromProto(end.result());
-  return absl::Status(static_cast<absl::StatusCode>(end.code()), end.message());
+  const absl::Status error(static_cast<absl::StatusCode>(end.code()), end.message());
+  if (end.damaged().empty()) return error;
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest blob, DigestFromProto(end.damaged()));
+  return BlameBlob(error, blob);
 }
 
 }  // namespace

@@ -3,8 +3,13 @@
 
 #include "worker/worker_loop.h"
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
 #include <latch>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <thread>
 #include <vector>
@@ -68,22 +73,28 @@ class Worker {
       : api_(api),
         make_executor_(make_executor),
         options_(options),
+        started_(Steady::now()),
+        last_heard_(started_),
+        last_held_(started_),
         store_(blobs, options.blob_folder),
-        session_(api,
-                 store_,
-                 {.name = options.name,
-                  .version = std::string(BuildVersion()),
-                  .slots = options.slots,
-                  .process = NameOfProcess(),
-                  .offers = options.offers},
-                 leases_,
-                 [this](const absl::Status& why) { SayAway(why); }),
+        session_(
+            api,
+            store_,
+            {.name = options.name,
+             .version = std::string(BuildVersion()),
+             .slots = options.slots,
+             .process = NameOfProcess(),
+             .offers = options.offers},
+            leases_,
+            [this] { return StaysFor_s(); },
+            [this](const absl::Status& why) { return Waits(why); }),
         blobs_(store_, options.cache_bytes, ending_.get_token()) {}
 
-  absl::Status Run(const std::stop_token& stop) {
+  absl::StatusOr<WorkerEnd> Run(const std::stop_token& stop) {
     const std::stop_callback on_stop(stop, [this] { Drain(); });
     {
       const std::jthread heartbeat([this] { BeatUntilEnd(); });
+      const std::jthread term([this] { EndInTime(); });
       std::vector<std::jthread> slots;
       for (uint32_t slot = 0; slot < options_.slots; ++slot) {
         slots.emplace_back([this, slot] { StartLanes(slot); });
@@ -93,29 +104,58 @@ class Worker {
     }
     session_.Leave();
     const std::lock_guard lock(mutex_);
-    return reason_;
+    return *end_;
   }
 
  private:
+  using Steady = std::chrono::steady_clock;
+  static double Since(Steady::time_point then) {
+    return std::chrono::duration<double>(Steady::now() - then).count();
+  }
+
   /// Takes no more tasks; what runs has the grace.
   void Drain() {
-    draining_.request_stop();
+    TakeNoMore(WorkerEnd::kStopped);
+    const std::lock_guard lock(mutex_);
+    if (grace_.joinable()) return;
     grace_ = std::jthread([this] {
       WaitUntilAllIsIn(options_.grace_s);
-      End(absl::OkStatus());
+      End(WorkerEnd::kStopped);
     });
   }
 
-  /// The first reason is kept: OK when told to stop or to leave.
-  void End(const absl::Status& reason) {
+  /// Finishes what runs, and leaves.
+  void TakeNoMore(const absl::StatusOr<WorkerEnd>& end) {
     {
       const std::lock_guard lock(mutex_);
-      if (ending_.stop_requested()) return;
-      reason_ = reason;
+      if (!end_) end_ = end;
     }
     draining_.request_stop();
-    ending_.request_stop();
-    leases_.StopAll();
+  }
+
+  /// Gives back what runs. The first reason is kept.
+  void End(const absl::StatusOr<WorkerEnd>& end) {
+    TakeNoMore(end);
+    if (ending_.request_stop()) leases_.StopAll();
+  }
+
+  /// What the engine that started it has said of its time.
+  void EndInTime() {
+    const double gone_s = options_.term.stays_s - options_.grace_s;
+    const double alone_s = options_.term.lifetime_s;
+    WaitUntilAllIsIn(std::min(gone_s, alone_s));
+    if (beating_.stop_requested()) return;
+    if (alone_s < gone_s) {
+      TakeNoMore(WorkerEnd::kStopped);
+      WaitUntilAllIsIn(gone_s - Since(started_));
+    }
+    if (!beating_.stop_requested()) Drain();
+  }
+
+  /// Nothing: it does not know of an end.
+  std::optional<double> StaysFor_s() const {
+    const double stays_s = options_.term.stays_s - Since(started_);
+    return std::isinf(stays_s) ? std::nullopt : std::optional(std::max(0.0, stays_s));
   }
 
   void Log(LogEvent event) const {
@@ -124,17 +164,33 @@ class Worker {
     options_.log(event);
   }
 
-  void SayAway(const absl::Status& why) const {
+  /// Whether a coordinator that does not answer is waited for.
+  bool Waits(const absl::Status& why) {
+    is_away_ = true;
     Log({.level = LogLevel::kWarning,
          .event = "coordinator_away",
          .message = std::string(why.message())});
+    return Since(last_heard_) < options_.term.patience_s;
+  }
+
+  /// Whether there was nothing to do for too long, of what was asked: a coordinator that is away
+  /// may have something.
+  bool IsIdle() {
+    if (is_away_.exchange(false) || !leases_.List().empty()) last_held_ = Steady::now();
+    return Since(last_held_) >= options_.term.idle_s;
+  }
+
+  /// There is no session, nor will there be one; but who is told to end need not have one.
+  void EndWithout(const absl::Status& session) {
+    if (absl::IsCancelled(session)) return;
+    End(absl::IsUnavailable(session) ? GivenUp(session) : session);
   }
 
   /// The session, or nothing when the work is over.
   std::optional<JoinReply> Session() {
     const absl::StatusOr<JoinReply> reply = session_.Get(draining_.get_token());
     if (reply.ok()) return *reply;
-    if (!absl::IsCancelled(reply.status())) End(reply.status());
+    EndWithout(reply.status());
     return std::nullopt;
   }
 
@@ -152,10 +208,7 @@ class Worker {
   void WorkUntilEnd(Slot& slot) {
     const RetryRule until_told{.stop = draining_.get_token(),
                                .is_passing = MayPass,
-                               .goes_on = [this](const absl::Status& why) {
-                                 SayAway(why);
-                                 return true;
-                               }};
+                               .goes_on = [this](const absl::Status& why) { return Waits(why); }};
     while (!draining_.stop_requested()) {
       const std::optional<JoinReply> session = Session();
       if (!session) return;
@@ -166,11 +219,23 @@ class Worker {
       } else if (absl::IsNotFound(lease.status())) {
         session_.Forget(session->session);
       } else if (IsToLeave(lease.status())) {
-        draining_.request_stop();
+        TakeNoMore(WorkerEnd::kDismissed);
       } else if (IsRefusal(lease.status())) {
         End(lease.status());
+      } else if (IsGivenUp(lease.status())) {
+        End(GivenUp(lease.status()));
       }
     }
+  }
+
+  /// Whether this was said of a coordinator that is waited for no more.
+  [[nodiscard]] bool IsGivenUp(const absl::Status& status) const {
+    return !status.ok() && MayPass(status) && Since(last_heard_) >= options_.term.patience_s;
+  }
+
+  absl::Status GivenUp(const absl::Status& why) const {
+    return absl::UnavailableError(absl::StrCat(
+        "no coordinator answered for ", options_.term.patience_s, " s: ", why.message()));
   }
 
   /// Nothing when there is none, or the other hand asked until this one need not any more.
@@ -207,6 +272,7 @@ class Worker {
     };
     if (ending_.stop_requested())
       leases_.StopAll();  // the end may have come between leasing and adding
+    last_held_ = Steady::now();
     Log(Describe(lease, "task_leased"));
     const absl::StatusOr<TaskResult> result = Run(slot, lease.spec, context);
     const absl::Status handed_in = result.ok() ? HandIn(lease, *result) : result.status();
@@ -215,6 +281,7 @@ class Worker {
       GiveBack(lease, given_up ? absl::CancelledError("the worker gave it up") : handed_in);
     }
     leases_.Remove(lease.epoch);
+    last_held_ = Steady::now();
   }
 
   /// Calls `call(session)` through times without a coordinator; joins again when it was restarted.
@@ -261,23 +328,31 @@ class Worker {
     const std::stop_source& over = holds_nothing ? draining_ : ending_;
     const absl::StatusOr<JoinReply> session = session_.Get(over.get_token());
     if (!session.ok()) {
-      if (!absl::IsCancelled(session.status())) End(session.status());
+      EndWithout(session.status());
       return kSoon;
     }
     const absl::StatusOr<HeartbeatReply> reply = api_.Heartbeat(session->session, leases_.List());
     if (absl::IsNotFound(reply.status())) session_.Forget(session->session);
     if (IsRefusal(reply.status())) End(reply.status());
+    if (IsGivenUp(reply.status())) End(GivenUp(reply.status()));
     if (!reply.ok()) return kSoon;
+    last_heard_ = Steady::now();
     for (const Digest& task : reply->cancelled) leases_.StopTask(task);
-    if (reply->shutdown) End(absl::OkStatus());
-    return session->heartbeat_s;
+    if (reply->shutdown) End(WorkerEnd::kDismissed);
+    if (IsIdle()) TakeNoMore(WorkerEnd::kIdle);
+    return std::min(session->heartbeat_s,
+                    std::max(kSoon, options_.term.idle_s - Since(last_held_)));
   }
 
   WorkerApi& api_;
   const MakeTaskExecutor& make_executor_;
   const WorkerOptions& options_;
+  const Steady::time_point started_;
+  std::atomic<Steady::time_point> last_heard_;  ///< the coordinator
+  std::atomic<Steady::time_point> last_held_;   ///< a lease
+  std::atomic<bool> is_away_{true};             ///< the coordinator, when it was last called
   std::mutex mutex_;
-  absl::Status reason_;
+  std::optional<absl::StatusOr<WorkerEnd>> end_;
   std::stop_source draining_;  ///< take no more
   std::stop_source ending_;    ///< give back what runs
   std::stop_source beating_;   ///< all is handed in
@@ -290,11 +365,11 @@ class Worker {
 
 }  // namespace
 
-absl::Status RunWorker(WorkerApi& coordinator,
-                       BlobAccess& blobs,
-                       const MakeTaskExecutor& make_executor,
-                       const WorkerOptions& options,
-                       const std::stop_token& stop) {
+absl::StatusOr<WorkerEnd> RunWorker(WorkerApi& coordinator,
+                                    BlobAccess& blobs,
+                                    const MakeTaskExecutor& make_executor,
+                                    const WorkerOptions& options,
+                                    const std::stop_token& stop) {
   return Worker(coordinator, blobs, make_executor, options).Run(stop);
 }
 

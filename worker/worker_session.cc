@@ -11,12 +11,8 @@ absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
   const std::lock_guard lock(mutex_);
   if (reply_.session != 0) return reply_;
   if (stop.stop_requested()) return absl::CancelledError("the worker is stopping");
-  const auto say = [this](const absl::Status& why) {
-    away_(why);
-    return true;
-  };
   absl::StatusOr<JoinReply> joined =
-      Retry({.stop = stop, .goes_on = say}, [this] { return Join(); });
+      Retry({.stop = stop, .goes_on = away_}, [this] { return Join(); });
   if (!joined.ok())
     return stop.stop_requested() ? absl::CancelledError("the worker is stopping") : joined.status();
   reply_ = *joined;
@@ -25,6 +21,7 @@ absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
 
 absl::StatusOr<JoinReply> WorkerSession::Join() {
   info_.held = leases_.List();
+  info_.stays_s = stays_s_();
   ORBWEAVE_ASSIGN_OR_RETURN(const JoinReply reply, api_.Join(info_));
   ORBWEAVE_RETURN_IF_ERROR(store_.Check());
   return reply;

@@ -16,18 +16,25 @@ namespace orbweave {
 /// was restarted, or it heard nothing for too long). Thread-safe.
 class WorkerSession {
  public:
-  /// `store` is checked with each session. `away` is told whenever the coordinator could not be
-  /// joined, and why.
+  /// `store` is checked with each session. `stays_s`: see WorkerInfo. `away` is told whenever the
+  /// coordinator could not be joined, and why; false: it is waited for no more.
   WorkerSession(WorkerApi& api,
                 SharedStore& store,
                 WorkerInfo info,
                 HeldLeases& leases,
-                std::function<void(const absl::Status& why)> away)
-      : api_(api), store_(store), info_(std::move(info)), leases_(leases), away_(std::move(away)) {}
+                std::function<std::optional<double>()> stays_s,
+                std::function<bool(const absl::Status& why)> away)
+      : api_(api),
+        store_(store),
+        info_(std::move(info)),
+        leases_(leases),
+        stays_s_(std::move(stays_s)),
+        away_(std::move(away)) {}
 
   /// The present session, joining first when there is none; waits while the coordinator is
-  /// Unavailable. Cancelled: stopped before it could join. FailedPrecondition: the coordinator does
-  /// not want this worker. Errors of SharedStore::Check.
+  /// Unavailable, which it is in the end only when `away` says so. Cancelled: stopped before it
+  /// could join. FailedPrecondition: the coordinator does not want this worker. Errors of
+  /// SharedStore::Check.
   [[nodiscard]] absl::StatusOr<JoinReply> Get(const std::stop_token& stop);
   /// `session` is over: the next Get joins again, with the leases that are held then.
   void Forget(uint64_t session);
@@ -41,7 +48,8 @@ class WorkerSession {
   SharedStore& store_;
   WorkerInfo info_;
   HeldLeases& leases_;
-  std::function<void(const absl::Status& why)> away_;
+  std::function<std::optional<double>()> stays_s_;
+  std::function<bool(const absl::Status& why)> away_;
   std::mutex mutex_;
   JoinReply reply_{};  ///< session 0: none
 };

@@ -3,6 +3,7 @@
 
 #include "core/base/sleep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -10,10 +11,13 @@
 namespace orbweave {
 
 bool SleepUnlessStopped(double seconds, const std::stop_token& stop) {
+  constexpr double kLongest_s = 1e8;  // three years: longer ones overflow the clock
   std::mutex mutex;
   std::condition_variable_any never;
   std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; });
+  never.wait_for(lock, stop, std::chrono::duration<double>(std::min(seconds, kLongest_s)), [] {
+    return false;
+  });
   return !stop.stop_requested();
 }
 

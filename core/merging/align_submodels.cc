@@ -77,6 +77,12 @@ Outlines OutlinesOf(std::span<const SeamsOfCluster> clusters) {
   return outlines;
 }
 
+// Every submodel once, in the order of their names.
+bool AreInOrder(const Outlines& outlines) {
+  return std::ranges::adjacent_find(
+             outlines, std::ranges::greater_equal{}, &SubmodelOutline::name) == outlines.end();
+}
+
 // All seams, sorted by the positions of their submodels.
 absl::StatusOr<std::vector<Candidate>> FindCandidates(std::span<const SeamsOfCluster> clusters,
                                                       const Outlines& outlines,
@@ -189,6 +195,8 @@ absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> cluster
                                          const AlignOptions& options,
                                          const StageContext& context) {
   const Outlines outlines = OutlinesOf(clusters);
+  if (!AreInOrder(outlines))
+    return absl::DataLossError("align_submodels: submodels are not in order, or there twice");
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Candidate> candidates,
                             FindCandidates(clusters, outlines, options));
   ORBWEAVE_ASSIGN_OR_RETURN(AveragedSimilarities averaged,

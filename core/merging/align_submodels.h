@@ -27,8 +27,9 @@ namespace orbweave {
 ///
 /// World 0 holds most images; submodels that no used seam joins are worlds of their own. A world
 /// has the frame and scale of its submodel with most images. GNSS enters when they are joined.
-/// `clusters`: in order; memory grows with images and seams, not with points. InvalidArgument: a
-/// seam of a submodel that is not there. Cancelled when asked to stop.
+/// `clusters`: in order; memory grows with images and seams, not with points. DataLoss: submodels
+/// out of order. InvalidArgument: a seam of a submodel that is not there. Cancelled when asked to
+/// stop.
 [[nodiscard]] absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> clusters,
                                                        const AlignOptions& options,
                                                        const StageContext& context);

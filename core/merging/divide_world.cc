@@ -99,7 +99,8 @@ void DealTracks(Reconstruction& scene,
   }
 }
 
-/// Priors and biases to the subproblems that own their images; a bias is the first user's.
+/// Priors and biases to the subproblems that own their images; a bias is the first user's, and one
+/// that there shall not be (its sigma is zero) everybody's.
 void DealPriors(const GlobalProblem& problem,
                 const Owners& owners,
                 std::vector<Subproblem>& subproblems) {
@@ -125,8 +126,9 @@ void DealPriors(const GlobalProblem& problem,
     for (const uint32_t group : groups[b]) {
       SubproblemBias& bias = subproblem.biases.emplace_back();
       bias.group = group;
-      bias.is_separator = times_used.at(group) > 1;
-      if (counted.insert(group).second) bias.sigma_m = problem.bundle.bias_sigma_m[group];
+      const double sigma_m = problem.bundle.bias_sigma_m[group];
+      bias.is_separator = times_used.at(group) > 1 && sigma_m > 0.0;
+      if (counted.insert(group).second || sigma_m == 0.0) bias.sigma_m = sigma_m;
     }
   }
   for (const DirectionPrior& prior : problem.bundle.direction_priors) {

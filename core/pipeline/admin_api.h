@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 
@@ -33,9 +34,15 @@ struct GarbageReport {
 class AdminApi {
  public:
   virtual ~AdminApi() = default;
-  /// Gives a worker no more tasks: it finishes what it has and leaves. It may join anew. NotFound:
-  /// no such worker is there.
-  [[nodiscard]] virtual absl::Status DrainWorker(const std::string& name) = 0;
+  /// Gives workers no more tasks: they finish what they have and leave. They may join anew. `name`
+  /// is that of one, or how that of one alone begins, or with '*' at its end how those of any
+  /// number begin. Returns their names. NotFound: no such worker is there. InvalidArgument: several
+  /// begin so.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<std::string>> DrainWorkers(
+      const std::string& name) = 0;
+  /// Ends the coordinator and sends its workers home. Its jobs go on when it is started again on
+  /// the same state.
+  [[nodiscard]] virtual absl::Status StopCoordinator() = 0;
   /// Removes blobs that no job on the list needs: to run, to go on after it failed or was
   /// cancelled, or to show its results. May end at any moment, and be repeated. FailedPrecondition:
   /// what a job needs cannot be told; nothing was removed. InvalidArgument: no number of seconds.

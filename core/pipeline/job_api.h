@@ -82,8 +82,8 @@ struct JobStatus {
   std::string unmet{};
   JobSpec spec{};
   double elapsed_s = 0.0;
+  uint32_t slots = 0;  ///< of all workers that are given tasks
   std::vector<StageStatus> stages{};
-  std::vector<WorkerStatus> workers{};
 };
 
 /// Jobs of a coordinator: how they come in, how they are, and what came of them. Every method is
@@ -99,6 +99,8 @@ class JobApi {
   /// NotFound: no such job.
   [[nodiscard]] virtual absl::StatusOr<JobStatus> GetJob(const Digest& job) = 0;
   [[nodiscard]] virtual absl::StatusOr<std::vector<JobStatus>> ListJobs() = 0;
+  /// Who works for the coordinator, and who did until a while ago, by name.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() = 0;
   [[nodiscard]] virtual absl::Status CancelJob(const Digest& job) = 0;
   /// Takes a job that has ended off the list: nothing is kept for it any more (see CollectGarbage).
   /// FailedPrecondition: it runs.

@@ -106,14 +106,6 @@ double WorkLeft(const StageStatus& stage, double rate, double rounds_left) {
   return tasks_left * mean_s + rounds_left * stage.busy_s / std::max(1U, stage.runs);
 }
 
-double SlotsOf(const JobStatus& job) {
-  uint32_t slots = 0;
-  for (const WorkerStatus& worker : job.workers) {
-    if (worker.alive && !worker.set_aside && !worker.draining) slots += worker.slots;
-  }
-  return std::max(1U, slots);
-}
-
 /// How many tasks of a stage can be at work at a time.
 double WidthOf(const StageStatus& stage, double slots) {
   if (!stage.has_parts) return 1.0;
@@ -125,7 +117,7 @@ double WidthOf(const StageStatus& stage, double slots) {
 double TimeLeft(const JobStatus& job, size_t past, const Loop& loop) {
   const double rate = RateOf(job, loop);
   if (rate <= 0.0) return -1.0;
-  const double slots = SlotsOf(job);
+  const double slots = std::max(1U, job.slots);
   const double rounds_left = loop.is_at_work ? std::max(0.0, loop.usual_runs - loop.runs) : 0.0;
   double left_s = 0.0;
   for (size_t s = 0; s < job.stages.size(); ++s) {

@@ -29,6 +29,8 @@ struct WorkerInfo {
   std::vector<LeaseProgress> held{};  ///< leases of its last session that it goes on with
   uint64_t process = 0;  ///< a random number that names its process; 0: another one every time
   WorkerOffers offers{};
+  /// How long it will be there yet, where that is known: it gets no task that usually takes longer.
+  std::optional<double> stays_s{};
 };
 
 struct JoinReply {
@@ -54,14 +56,16 @@ struct HeartbeatReply {
 class WorkerApi {
  public:
   virtual ~WorkerApi() = default;
-  /// FailedPrecondition: another version. A known name begins a new session; the worker goes on
+  /// FailedPrecondition: another version. InvalidArgument: a name, a number of slots or offers that
+  /// no worker has. A known name begins a new session; the worker goes on
   /// with the leases it lists (the next heartbeat tells which are not its own any more), and its
   /// others are void.
   [[nodiscard]] virtual absl::StatusOr<JoinReply> Join(const WorkerInfo& worker) = 0;
   /// A task to do, or nullopt when none became ready within wait_s (or a minute, so that nobody is
   /// waited for who has gone). Ends once `left` is requested, where the task would go to nobody.
-  /// InvalidArgument: no number of seconds. NotFound: unknown session (join again). Cancelled: the
-  /// worker is to finish what it has, and to leave; or `left`.
+  /// InvalidArgument: no number of seconds, or no slot of this worker. NotFound: unknown session
+  /// (join again). Aborted: it was asked again for the same slot meanwhile. Cancelled: the worker
+  /// is to finish what it has, and to leave; or `left`.
   [[nodiscard]] virtual absl::StatusOr<std::optional<Lease>> LeaseTask(
       uint64_t session, uint32_t slot, double wait_s, const std::stop_token& left) = 0;
   [[nodiscard]] absl::StatusOr<std::optional<Lease>> LeaseTask(uint64_t session,
@@ -79,7 +83,8 @@ class WorkerApi {
                                                   const TaskResult& result) = 0;
   /// The error's code decides what becomes of the task (coordinator/retry_policy.cc has the table):
   /// InvalidArgument and its like are permanent and fail the job; Cancelled gives the task back;
-  /// others are tried again, so often. Answers as CompleteTask.
+  /// others are tried again, so often. Where the error names a damaged blob (BlobToBlame), what
+  /// made it is done again. Answers as CompleteTask.
   [[nodiscard]] virtual absl::Status FailTask(uint64_t session,
                                               const Lease& lease,
                                               const absl::Status& error) = 0;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <span>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -14,46 +13,12 @@ namespace {
 
 constexpr double kFarthest = 1e9;  // a model's centres are from its origin, in metres or units
 
-absl::Status DoesNotFit(const std::string& what) {
-  return absl::DataLossError("the results of this job do not fit together: " + what);
-}
-
-/// `whose`: who names them.
-absl::Status CheckImages(std::span<const ImageId> ids,
-                         const ImageManifest& manifest,
-                         const std::string& whose) {
-  const size_t count = manifest.images.size();
-  const auto foreign = std::ranges::find_if(ids, [count](ImageId id) { return id.value >= count; });
-  if (foreign == ids.end()) return absl::OkStatus();
-  return DoesNotFit(absl::StrCat(whose, " has image ", foreign->value, " of ", count));
-}
-
-absl::Status CheckNumber(size_t number, size_t count, const std::string& what) {
-  if (number < count) return absl::OkStatus();
-  return DoesNotFit(absl::StrCat(what, " ", number, " of ", count));
-}
-
 }  // namespace
 
 absl::Status CheckManifest(const ImageManifest& manifest) {
   for (size_t i = 0; i < manifest.images.size(); ++i) {
     if (manifest.images[i].id.value != i)
       return DoesNotFit(absl::StrCat("image ", i, " is called ", manifest.images[i].id.value));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status CheckPartition(const Partition& partition, const ImageManifest& manifest) {
-  for (size_t c = 0; c < partition.clusters.size(); ++c) {
-    const std::string whose = absl::StrCat("cluster ", c);
-    ORBWEAVE_RETURN_IF_ERROR(CheckImages(partition.clusters[c].images, manifest, whose));
-    ORBWEAVE_RETURN_IF_ERROR(CheckImages(partition.clusters[c].interior, manifest, whose));
-  }
-  for (const Seam& seam : partition.seams) {
-    if (seam.cluster_a >= seam.cluster_b)
-      return DoesNotFit("a seam of a cluster with itself or an earlier one");
-    ORBWEAVE_RETURN_IF_ERROR(
-        CheckNumber(seam.cluster_b, partition.clusters.size(), "a seam names cluster"));
   }
   return absl::OkStatus();
 }

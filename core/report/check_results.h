@@ -5,21 +5,18 @@
 #include <map>
 #include <vector>
 
+#include "core/artifacts/check_bounds.h"
 #include "core/artifacts/dense_records.h"
 #include "core/base/status.h"
 #include "core/report/job_results.h"
 
 namespace orbweave {
 
-/// Results of a job come from many workers, and each names what others left by number. These look
-/// whether such numbers name anything, before anybody counts on it. DataLoss says what does not.
+/// The same as check_bounds.h for results of a job, before outputs are written. DataLoss says what
+/// does not fit.
 
 /// Images lie where their ids say.
 [[nodiscard]] absl::Status CheckManifest(const ImageManifest& manifest);
-
-/// Clusters have images of the manifest alone, seams two different clusters.
-[[nodiscard]] absl::Status CheckPartition(const Partition& partition,
-                                          const ImageManifest& manifest);
 
 /// Each is one of the partition's, and speaks of images of the manifest.
 [[nodiscard]] absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,

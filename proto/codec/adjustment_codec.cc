@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/adjustment_codec.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "orbweave/v1/adjustment.pb.h"
 #include "proto/codec/adjustment_messages.h"
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
@@ -17,7 +19,11 @@ void ToProto(const StepControl& control, v1::StepControl* proto) {
   proto->set_is_bent(control.is_bent);
 }
 
-StepControl FromProto(const v1::StepControl& proto) { return {proto.lambda(), proto.is_bent()}; }
+absl::StatusOr<StepControl> FromProto(const v1::StepControl& proto) {
+  if (!(proto.lambda() > 0.0) || !codec::IsNumber(proto.lambda()))
+    return absl::DataLossError("adjustment: a damping that is none");
+  return StepControl{proto.lambda(), proto.is_bent()};
+}
 
 void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   codec::ToProto(report.gnss, proto->mutable_gnss());
@@ -43,8 +49,8 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
 }
 
 absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& report) {
-  report.gnss = codec::FromProto(proto.gnss());
-  report.uncertainty = codec::FromProto(proto.uncertainty());
+  ORBWEAVE_ASSIGN_OR_RETURN(report.gnss, codec::FromProto(proto.gnss()));
+  ORBWEAVE_ASSIGN_OR_RETURN(report.uncertainty, codec::FromProto(proto.uncertainty()));
   report.num_observations = proto.num_observations();
   report.removed_observations = proto.removed_observations();
   report.removed_tracks = proto.removed_tracks();
@@ -53,6 +59,11 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
   report.residual_px_mean = proto.residual_px_mean();
   report.residual_px_rms = proto.residual_px_rms();
   report.pattern_px = proto.pattern_px();
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(codec::IsAmount(report.residual_px_mean) &&
+                                             codec::IsAmount(report.residual_px_rms) &&
+                                             codec::IsAmount(report.pattern_px),
+                                         "adjustment report",
+                                         "a residual is none"));
   for (const v1::CrossCheck& check : proto.checks()) {
     ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
     report.checks.push_back(std::move(decoded));
@@ -65,6 +76,8 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
   }
   for (const std::string& bytes : proto.accepted_costs()) {
     ORBWEAVE_ASSIGN_OR_RETURN(auto costs, codec::Unpack<double>(bytes, "accepted costs"));
+    ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+        std::ranges::all_of(costs, codec::IsAmount), "adjustment report", "a cost is none"));
     report.accepted_costs.push_back(std::move(costs));
   }
   ORBWEAVE_ASSIGN_OR_RETURN(
@@ -83,14 +96,36 @@ void ToProto(const SeamCertificate& seam, v1::SeamCertificate* proto) {
   proto->set_rotation_noise_deg(seam.rotation_noise_deg);
 }
 
-SeamCertificate FromProto(const v1::SeamCertificate& proto) {
-  return {.cluster_a = proto.cluster_a(),
-          .cluster_b = proto.cluster_b(),
-          .num_images = proto.num_images(),
-          .position_jump_m = proto.position_jump_m(),
-          .rotation_jump_deg = proto.rotation_jump_deg(),
-          .position_noise_m = proto.position_noise_m(),
-          .rotation_noise_deg = proto.rotation_noise_deg()};
+absl::StatusOr<SeamCertificate> FromProto(const v1::SeamCertificate& proto) {
+  const SeamCertificate seam{.cluster_a = proto.cluster_a(),
+                             .cluster_b = proto.cluster_b(),
+                             .num_images = proto.num_images(),
+                             .position_jump_m = proto.position_jump_m(),
+                             .rotation_jump_deg = proto.rotation_jump_deg(),
+                             .position_noise_m = proto.position_noise_m(),
+                             .rotation_noise_deg = proto.rotation_noise_deg()};
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      seam.cluster_a < seam.cluster_b, "concluded model", "a seam is not between two clusters"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      codec::IsAmount(seam.position_jump_m) && codec::IsAmount(seam.rotation_jump_deg) &&
+          codec::IsAmount(seam.position_noise_m) && codec::IsAmount(seam.rotation_noise_deg),
+      "concluded model",
+      "the jump of a seam is none"));
+  return seam;
+}
+
+/// Steps and phases are counted up to what options allow, each at most a few times.
+bool IsCount(int count) { return count >= 0 && count <= 1'000'000; }
+
+absl::Status CheckProgress(const WorldProgress& world) {
+  const LevenbergMarquardt& steps = world.path.steps;
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      IsCount(world.phase) && IsCount(steps.iterations), "adjustment progress", "a count is none"));
+  return codec::Expect(steps.growth > 0.0 && codec::IsNumber(steps.growth) &&
+                           codec::IsAmount(steps.cost) &&
+                           codec::IsNumber(world.path.separators_decrease),
+                       "adjustment progress",
+                       "a cost is none");
 }
 
 void ToProto(const WorldProgress& path, v1::WorldProgress* proto) {
@@ -112,21 +147,22 @@ void ToProto(const WorldProgress& path, v1::WorldProgress* proto) {
 
 absl::StatusOr<LmRequest::Work> WorkOf(uint32_t number) {
   if (number > static_cast<uint32_t>(LmRequest::Work::kFilter))
-    return absl::InvalidArgumentError("block order: unknown work");
+    return absl::DataLossError("block order: unknown work");
   return static_cast<LmRequest::Work>(number);
 }
 
 absl::StatusOr<WorldProgress> FromProto(const v1::WorldProgress& proto) {
   WorldProgress path{.phase = proto.phase(),
                      .is_done = proto.is_done(),
-                     .path = {.steps = {.control = FromProto(proto.control()),
-                                        .growth = proto.growth(),
+                     .path = {.steps = {.growth = proto.growth(),
                                         .cost = proto.cost(),
                                         .iterations = proto.iterations(),
                                         .converged = proto.converged(),
                                         .accepted = proto.accepted()},
                               .separators_decrease = proto.separators_decrease()}};
   ORBWEAVE_ASSIGN_OR_RETURN(path.asked, WorkOf(proto.asked()));
+  ORBWEAVE_ASSIGN_OR_RETURN(path.path.steps.control, FromProto(proto.control()));
+  ORBWEAVE_RETURN_IF_ERROR(CheckProgress(path));
   ORBWEAVE_ASSIGN_OR_RETURN(path.path.shortened, codec::FromProto(proto.shortened()));
   for (const v1::SeparatorIds& ids : proto.separators_of_subproblem()) {
     ORBWEAVE_ASSIGN_OR_RETURN(auto separators, codec::FromProto(ids));
@@ -160,14 +196,14 @@ absl::StatusOr<std::string> EncodeSubproblemTask(const SubproblemTask& task) {
 absl::StatusOr<SubproblemTask> DecodeSubproblemTask(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::SubproblemTask proto,
                             codec::Parse<v1::SubproblemTask>(bytes, "block task"));
-  SubproblemTask task{.request = {.takes_trial = proto.takes_trial(),
-                                  .control = FromProto(proto.control()),
-                                  .evaluates_again = proto.evaluates_again()}};
+  SubproblemTask task{
+      .request = {.takes_trial = proto.takes_trial(), .evaluates_again = proto.evaluates_again()}};
+  ORBWEAVE_ASSIGN_OR_RETURN(task.request.control, FromProto(proto.control()));
   ORBWEAVE_ASSIGN_OR_RETURN(task.subproblem, codec::UnpackDigest(proto.subproblem()));
   ORBWEAVE_ASSIGN_OR_RETURN(task.state, codec::UnpackDigest(proto.state()));
   ORBWEAVE_ASSIGN_OR_RETURN(task.request.work, WorkOf(proto.work()));
   if (proto.loss() > static_cast<uint32_t>(BundleLoss::kHuber))
-    return absl::InvalidArgumentError("block order: unknown loss");
+    return absl::DataLossError("block order: unknown loss");
   task.request.loss = static_cast<BundleLoss>(proto.loss());
   ORBWEAVE_ASSIGN_OR_RETURN(task.request.shortened, codec::FromProto(proto.shortened()));
   ORBWEAVE_ASSIGN_OR_RETURN(task.request.step.variables, codec::FromProto(proto.step_variables()));
@@ -175,7 +211,11 @@ absl::StatusOr<SubproblemTask> DecodeSubproblemTask(std::string_view bytes) {
       const auto steps,
       (codec::UnpackExactly<std::array<double, 6>>(
           proto.steps(), task.request.step.variables.size(), "separator steps")));
-  for (const auto& step : steps) task.request.step.steps.emplace_back(Vector6(step.data()));
+  for (const auto& step : steps) {
+    task.request.step.steps.emplace_back(Vector6(step.data()));
+    ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+        codec::AreNumbers(task.request.step.steps.back()), "block order", "a step is none"));
+  }
   return task;
 }
 
@@ -203,6 +243,8 @@ absl::StatusOr<SubproblemResult> DecodeSubproblemResult(std::string_view bytes) 
                                     .num_observations = proto.num_observations(),
                                     .removed_observations = proto.removed_observations(),
                                     .removed_tracks = proto.removed_tracks()}};
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::IsAmount(proto.cost()), "block result", "a cost is none"));
   ORBWEAVE_ASSIGN_OR_RETURN(result.reply.separators, codec::FromProto(proto.separators()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.reply.system, codec::FromProto(proto.system()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.reply.trial, codec::FromProto(proto.trial()));
@@ -246,13 +288,17 @@ absl::StatusOr<AdjustmentProgress> DecodeAdjustmentProgress(std::string_view byt
     SubproblemPlace& place = progress.subproblems.emplace_back();
     place.world = subproblem.world();
     if (place.world >= progress.worlds.size())
-      return absl::InvalidArgumentError("adjustment progress: a block of no world");
+      return absl::DataLossError("adjustment progress: a block of no world");
     ORBWEAVE_ASSIGN_OR_RETURN(place.subproblem, codec::UnpackDigest(subproblem.subproblem()));
     ORBWEAVE_ASSIGN_OR_RETURN(place.state, codec::UnpackDigest(subproblem.state()));
     ORBWEAVE_ASSIGN_OR_RETURN(place.trial, codec::UnpackDigest(subproblem.trial()));
     ORBWEAVE_ASSIGN_OR_RETURN(place.summary, codec::FromProto(subproblem.summary()));
     ORBWEAVE_ASSIGN_OR_RETURN(place.inspection, codec::UnpackDigest(subproblem.inspection()));
   }
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(std::ranges::is_sorted(progress.subproblems, {}, &SubproblemPlace::world),
+                    "adjustment progress",
+                    "blocks are not in order"));
   return progress;
 }
 
@@ -277,7 +323,8 @@ absl::StatusOr<FinalisedModel> DecodeFinalisedModel(std::string_view bytes) {
   FinalisedModel model;
   for (const v1::FinalisedWorld& world : proto.worlds()) {
     FinalisedWorld& out = model.worlds.emplace_back();
-    ORBWEAVE_ASSIGN_OR_RETURN(out.model_from_world, codec::FromProto(world.model_from_world()));
+    ORBWEAVE_ASSIGN_OR_RETURN(out.model_from_world,
+                              codec::PlacementFromProto(world.model_from_world()));
     ORBWEAVE_ASSIGN_OR_RETURN(Reconstruction poses, codec::FromProto(world.poses()));
     out.images = std::move(poses.images);
     ORBWEAVE_RETURN_IF_ERROR(FromProto(world.report(), out.report));
@@ -286,7 +333,9 @@ absl::StatusOr<FinalisedModel> DecodeFinalisedModel(std::string_view bytes) {
       ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(bytes_of_digest));
       subproblems.push_back(digest);
     }
-    for (const v1::SeamCertificate& seam : world.seams()) out.seams.push_back(FromProto(seam));
+    for (const v1::SeamCertificate& seam : world.seams()) {
+      ORBWEAVE_ASSIGN_OR_RETURN(out.seams.emplace_back(), FromProto(seam));
+    }
   }
   return model;
 }

@@ -8,8 +8,8 @@
 #include "core/artifacts/adjustment_records.h"
 #include "core/base/status.h"
 
-/// What passes between the rounds of the global adjustment. Decoders: DataLoss or InvalidArgument
-/// for arrays that do not match.
+/// What passes between the rounds of the global adjustment. Decoders: DataLoss for arrays
+/// that do not match, numbers that are none, and lists out of order.
 
 namespace orbweave {
 

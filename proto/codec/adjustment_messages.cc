@@ -3,12 +3,12 @@
 #include "proto/codec/adjustment_messages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
+#include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave::codec {
@@ -28,6 +28,47 @@ bool IsUpperTriangle(const SymmetricBlockMatrix& S) {
     }
   }
   return true;
+}
+
+/// The sigma of a bias that another subproblem counts is infinite; that of one that there shall not
+/// be is zero.
+absl::Status CheckBiases(const std::vector<SubproblemBias>& biases) {
+  const auto is_bias = [](const SubproblemBias& bias) {
+    return bias.sigma_m >= 0.0 && IsPlace(bias.value_m);
+  };
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(Ascends(biases, &SubproblemBias::group), "biases", "drives are not in order"));
+  return Expect(std::ranges::all_of(biases, is_bias), "biases", "a sigma or a value is none");
+}
+
+absl::Status CheckNumbers(const NormalSystem& system) {
+  const auto are_numbers = [](const auto& matrix) { return AreNumbers(matrix); };
+  return Expect(std::ranges::all_of(system.S.values, are_numbers) &&
+                    std::ranges::all_of(system.rhs, are_numbers) &&
+                    std::ranges::all_of(system.gradient, are_numbers) &&
+                    std::ranges::all_of(system.trace, are_numbers),
+                "separator system",
+                "no numbers");
+}
+
+absl::Status CheckPattern(const ResidualPattern& pattern) {
+  return Expect(std::ranges::all_of(pattern.sum_px, IsNumber) &&
+                    std::ranges::all_of(pattern.sum_up_px, IsNumber) &&
+                    std::ranges::all_of(pattern.band_up_px, IsNumber),
+                "pattern",
+                "no numbers");
+}
+
+/// No number at all is a step that led nowhere, which nobody takes; a cost below zero would be one
+/// that everybody takes.
+absl::Status CheckTrial(const TrialCost& trial) {
+  const auto is_negative = [](const RetainedPointTrial& point) {
+    return point.cost_before < 0.0 ||
+           std::ranges::any_of(point.after, [](const PointCost& cost) { return cost.cost < 0.0; });
+  };
+  return Expect(!(trial.cost < 0.0) && std::ranges::none_of(trial.retained_points, is_negative),
+                "trial",
+                "a cost below zero");
 }
 
 }  // namespace
@@ -65,6 +106,8 @@ absl::StatusOr<std::vector<SubproblemBias>> FromProto(const v1::Biases& proto) {
                       .sigma_m = sigmas_m[i],
                       .value_m = ToVector(values_m[i])});
   }
+  ORBWEAVE_RETURN_IF_ERROR(Expect(AreFlags(is_separator, 1), "biases", "unknown flags"));
+  ORBWEAVE_RETURN_IF_ERROR(CheckBiases(biases));
   return biases;
 }
 
@@ -86,10 +129,10 @@ absl::StatusOr<std::vector<SeparatorId>> FromProto(const v1::SeparatorIds& proto
   std::vector<SeparatorId> ids;
   for (size_t i = 0; i < indices.size(); ++i) {
     if (kinds[i] > static_cast<uint8_t>(SeparatorId::Kind::kPoint))
-      return absl::InvalidArgumentError("separators: an unknown kind");
+      return absl::DataLossError("separators: an unknown kind");
     ids.push_back({static_cast<SeparatorId::Kind>(kinds[i]), indices[i]});
   }
-  if (!std::ranges::is_sorted(ids)) return absl::InvalidArgumentError("separators: not in order");
+  ORBWEAVE_RETURN_IF_ERROR(Expect(Ascends(ids), "separators", "not in order"));
   return ids;
 }
 
@@ -114,8 +157,7 @@ absl::StatusOr<SeparatorSystem> FromProto(const v1::SeparatorSystem& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(S.column_start, Unpack<uint32_t>(proto.column_start(), "columns"));
   if (count == 0) S.column_start.assign(1, 0);
   ORBWEAVE_ASSIGN_OR_RETURN(S.rows, Unpack<uint32_t>(proto.rows(), "rows"));
-  if (!IsUpperTriangle(S))
-    return absl::InvalidArgumentError("separator system: not an upper triangle");
+  if (!IsUpperTriangle(S)) return absl::DataLossError("separator system: not an upper triangle");
   ORBWEAVE_ASSIGN_OR_RETURN(S.values,
                             UnpackMatrices<Block6>(proto.values(), S.rows.size(), "values"));
   system.normal = MakeNormalSystem(std::move(S));
@@ -124,6 +166,7 @@ absl::StatusOr<SeparatorSystem> FromProto(const v1::SeparatorSystem& proto) {
                             UnpackMatrices<Vector6>(proto.gradient(), count, "gradient"));
   ORBWEAVE_ASSIGN_OR_RETURN(system.normal.trace,
                             UnpackMatrices<Eigen::Vector2d>(proto.trace(), count, "trace"));
+  ORBWEAVE_RETURN_IF_ERROR(CheckNumbers(system.normal));
   return system;
 }
 
@@ -142,6 +185,9 @@ absl::StatusOr<std::vector<ShortenedPoint>> FromProto(const v1::ShortenedPoints&
   ORBWEAVE_ASSIGN_OR_RETURN(const auto ids, Unpack<uint32_t>(proto.points(), "shortened points"));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto shares,
                             UnpackExactly<double>(proto.shares(), ids.size(), "shares"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(Ascends(ids), "shortened points", "not in order"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::all_of(shares, IsShare), "shortened points", "a share is none"));
   std::vector<ShortenedPoint> points;
   for (size_t i = 0; i < ids.size(); ++i) points.push_back({ids[i], shares[i]});
   return points;
@@ -178,6 +224,11 @@ absl::StatusOr<SubproblemSummary> FromProto(const v1::SubproblemSummary& proto) 
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto counts,
       UnpackExactly<uint32_t>(proto.observation_counts(), images.size(), "counts"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(Ascends(images), "block summary", "images are not in order"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(IsAmount(summary.residual_px_sum) && IsAmount(summary.residual_px2_sum),
+             "block summary",
+             "a residual is none"));
   for (size_t i = 0; i < images.size(); ++i) summary.observations_of_image[images[i]] = counts[i];
   ORBWEAVE_ASSIGN_OR_RETURN(summary.biases, FromProto(proto.biases()));
   if (proto.pattern_counts().empty()) return summary;
@@ -200,6 +251,7 @@ absl::StatusOr<SubproblemSummary> FromProto(const v1::SubproblemSummary& proto) 
   std::ranges::copy(ups, summary.pattern.sum_up_px.begin());
   std::ranges::copy(band_ups, summary.pattern.band_up_px.begin());
   std::ranges::copy(band_counts, summary.pattern.band_count.begin());
+  ORBWEAVE_RETURN_IF_ERROR(CheckPattern(summary.pattern));
   return summary;
 }
 
@@ -213,9 +265,9 @@ void ToProto(const CrossCheck& check, v1::CrossCheck* proto) {
 }
 
 absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
-  if (proto.level() > static_cast<uint32_t>(CheckLevel::kBad) || !std::isfinite(proto.value()) ||
-      !std::isfinite(proto.limit())) {
-    return absl::InvalidArgumentError("cross check: unknown level, or not a number");
+  if (proto.level() > static_cast<uint32_t>(CheckLevel::kBad) || !IsNumber(proto.value()) ||
+      !IsNumber(proto.limit())) {
+    return absl::DataLossError("cross check: unknown level, or not a number");
   }
   return CrossCheck{.name = proto.name(),
                     .value = proto.value(),
@@ -261,6 +313,8 @@ absl::StatusOr<TrialCost> FromProto(const v1::TrialCost& proto) {
     for (size_t k = 0; k < shares; ++k)
       point.after[k] = {after[shares * i + k], behind[shares * i + k] != 0};
   }
+  ORBWEAVE_RETURN_IF_ERROR(Expect(AreFlags(behind, 1), "trial", "unknown flags"));
+  ORBWEAVE_RETURN_IF_ERROR(CheckTrial(trial));
   return trial;
 }
 

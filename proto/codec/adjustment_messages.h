@@ -20,7 +20,8 @@ void ToProto(const std::vector<SeparatorId>& ids, v1::SeparatorIds* proto);
 [[nodiscard]] absl::StatusOr<std::vector<SeparatorId>> FromProto(const v1::SeparatorIds& proto);
 
 void ToProto(const SeparatorSystem& system, v1::SeparatorSystem* proto);
-/// InvalidArgument also for a matrix whose blocks are not an upper triangle in order.
+/// DataLoss also for a matrix whose blocks are not an upper triangle in order, or no
+/// numbers.
 [[nodiscard]] absl::StatusOr<SeparatorSystem> FromProto(const v1::SeparatorSystem& proto);
 
 void ToProto(const std::vector<ShortenedPoint>& points, v1::ShortenedPoints* proto);

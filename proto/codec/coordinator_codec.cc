@@ -4,6 +4,7 @@
 #include "proto/codec/coordinator_codec.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
 
@@ -71,26 +72,12 @@ TaskCost FromProto(const v1::TaskCost& proto) {
           .peak_memory_bytes = proto.peak_memory_bytes()};
 }
 
-v1::WorkerStatus ToProto(const WorkerStatus& worker) {
-  v1::WorkerStatus proto;
-  proto.set_name(worker.name);
-  proto.set_slots(worker.slots);
-  proto.set_tasks_done(worker.tasks_done);
-  proto.set_alive(worker.alive);
-  proto.set_set_aside(worker.set_aside);
-  proto.set_tasks_running(worker.tasks_running);
-  proto.set_draining(worker.draining);
-  return proto;
-}
-
-WorkerStatus FromProto(const v1::WorkerStatus& proto) {
-  return {.name = proto.name(),
-          .slots = proto.slots(),
-          .tasks_done = proto.tasks_done(),
-          .alive = proto.alive(),
-          .set_aside = proto.set_aside(),
-          .draining = proto.draining(),
-          .tasks_running = proto.tasks_running()};
+/// Who says how long tasks take learns from them how long the next ones will.
+absl::Status CheckCost(const TaskCost& cost) {
+  constexpr double kLongest_s = 1e9;
+  if (std::abs(cost.wall_s) <= kLongest_s && std::abs(cost.cpu_s) <= kLongest_s)
+    return absl::OkStatus();
+  return absl::InvalidArgumentError("a task took no number of seconds");
 }
 
 }  // namespace
@@ -145,6 +132,7 @@ v1::TaskResult ToProto(const TaskResult& result) {
 
 absl::StatusOr<TaskResult> FromProto(const v1::TaskResult& proto) {
   TaskResult result{.report_json = proto.report_json(), .cost = FromProto(proto.cost())};
+  ORBWEAVE_RETURN_IF_ERROR(CheckCost(result.cost));
   ORBWEAVE_ASSIGN_OR_RETURN(result.outputs, DigestsFromProto(proto.outputs()));
   ORBWEAVE_ASSIGN_OR_RETURN(result.recipes, DigestsFromProto(proto.recipes()));
   return result;
@@ -229,26 +217,48 @@ v1::JobStatus ToProto(const JobStatus& status) {
   *proto.mutable_spec() = ToProto(status.spec);
   proto.set_elapsed_s(status.elapsed_s);
   proto.set_unmet(status.unmet);
+  proto.set_slots(status.slots);
   for (const StageStatus& stage : status.stages) *proto.add_stages() = ToProto(stage);
-  for (const WorkerStatus& worker : status.workers) *proto.add_workers() = ToProto(worker);
   return proto;
 }
 
 absl::StatusOr<JobStatus> FromProto(const v1::JobStatus& proto) {
-  JobStatus status{.error = proto.error(), .unmet = proto.unmet(), .elapsed_s = proto.elapsed_s()};
+  JobStatus status{.error = proto.error(),
+                   .unmet = proto.unmet(),
+                   .elapsed_s = proto.elapsed_s(),
+                   .slots = proto.slots()};
   ORBWEAVE_ASSIGN_OR_RETURN(status.spec, FromProto(proto.spec()));
   ORBWEAVE_ASSIGN_OR_RETURN(status.id, DigestFromProto(proto.id()));
   ORBWEAVE_ASSIGN_OR_RETURN(status.state, JobStateFromProto(proto.state()));
   for (const v1::StageStatus& stage : proto.stages()) status.stages.push_back(FromProto(stage));
-  for (const v1::WorkerStatus& worker : proto.workers()) {
-    status.workers.push_back(FromProto(worker));
-  }
   return status;
 }
 
 absl::StatusOr<JobState> JobStateFromProto(uint32_t state) {
   if (state <= static_cast<uint32_t>(JobState::kCancelled)) return static_cast<JobState>(state);
   return absl::InvalidArgumentError(absl::StrCat("there is no job state ", state));
+}
+
+v1::WorkerStatus ToProto(const WorkerStatus& worker) {
+  v1::WorkerStatus proto;
+  proto.set_name(worker.name);
+  proto.set_slots(worker.slots);
+  proto.set_tasks_done(worker.tasks_done);
+  proto.set_alive(worker.alive);
+  proto.set_set_aside(worker.set_aside);
+  proto.set_tasks_running(worker.tasks_running);
+  proto.set_draining(worker.draining);
+  return proto;
+}
+
+WorkerStatus FromProto(const v1::WorkerStatus& proto) {
+  return {.name = proto.name(),
+          .slots = proto.slots(),
+          .tasks_done = proto.tasks_done(),
+          .alive = proto.alive(),
+          .set_aside = proto.set_aside(),
+          .draining = proto.draining(),
+          .tasks_running = proto.tasks_running()};
 }
 
 v1::JoinRequest ToProto(const WorkerInfo& worker) {
@@ -261,6 +271,7 @@ v1::JoinRequest ToProto(const WorkerInfo& worker) {
   proto.mutable_offers()->set_memory_bytes(worker.offers.memory_bytes);
   proto.mutable_offers()->set_threads(worker.offers.threads);
   proto.mutable_offers()->set_gpus(worker.offers.gpus);
+  if (worker.stays_s) proto.set_stays_s(*worker.stays_s);
   return proto;
 }
 
@@ -272,6 +283,11 @@ absl::StatusOr<WorkerInfo> FromProto(const v1::JoinRequest& proto) {
                     .offers = {.memory_bytes = proto.offers().memory_bytes(),
                                .threads = proto.offers().threads(),
                                .gpus = proto.offers().gpus()}};
+  if (proto.has_stays_s()) {
+    if (!std::isfinite(proto.stays_s()) || proto.stays_s() < 0.0)
+      return absl::InvalidArgumentError("a worker stays for a number of seconds");
+    worker.stays_s = proto.stays_s();
+  }
   for (const v1::LeaseProgress& lease : proto.held()) {
     ORBWEAVE_ASSIGN_OR_RETURN(worker.held.emplace_back(), FromProto(lease));
   }

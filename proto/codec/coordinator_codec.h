@@ -35,6 +35,8 @@ namespace orbweave {
 [[nodiscard]] v1::JobStatus ToProto(const JobStatus& status);
 [[nodiscard]] absl::StatusOr<JobStatus> FromProto(const v1::JobStatus& proto);
 [[nodiscard]] absl::StatusOr<JobState> JobStateFromProto(uint32_t state);
+[[nodiscard]] v1::WorkerStatus ToProto(const WorkerStatus& worker);
+[[nodiscard]] WorkerStatus FromProto(const v1::WorkerStatus& proto);
 
 [[nodiscard]] v1::JoinRequest ToProto(const WorkerInfo& worker);
 [[nodiscard]] absl::StatusOr<WorkerInfo> FromProto(const v1::JoinRequest& proto);

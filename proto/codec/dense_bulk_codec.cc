@@ -8,6 +8,7 @@
 
 #include "orbweave/v1/dense.pb.h"
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 namespace {
@@ -18,8 +19,13 @@ static_assert(sizeof(OctahedralNormal) == 4 && sizeof(Rgb) == 3, "packed as writ
 
 size_t NumPixels(uint32_t face_px) { return size_t{6} * face_px * face_px; }
 
-bool IsPositive(float value) { return std::isfinite(value) && value > 0.0F; }
-bool IsSigma(float value) { return std::isfinite(value) && value >= 0.0F; }
+constexpr float kNormalTolerance = 1e-2F;  // of a unit vector in single precision
+
+bool IsPositive(float value) { return value > 0.0F && codec::IsDistance(value); }
+bool IsSigma(float value) { return codec::IsDistance(value); }
+bool IsNormal(const Eigen::Vector3f& normal) {
+  return std::abs(normal.norm() - 1.0F) < kNormalTolerance;
+}
 
 /// Those of `values` whose pixel has a range.
 template <typename T>
@@ -42,11 +48,11 @@ std::string PackMask(const DepthMap& map) {
 /// Indices of pixels that have a range.
 absl::StatusOr<std::vector<uint32_t>> UnpackMask(const std::string& bits, size_t num_pixels) {
   if (bits.size() != (num_pixels + 7) / 8)
-    return absl::InvalidArgumentError("depth map: its mask is of another size");
+    return absl::DataLossError("depth map: its mask is of another size");
   std::vector<uint32_t> known;
   for (size_t i = 0; i < 8 * bits.size(); ++i) {
     if (((static_cast<uint8_t>(bits[i / 8]) >> (i % 8)) & 1) == 0) continue;
-    if (i >= num_pixels) return absl::InvalidArgumentError("depth map: a pixel beyond the last");
+    if (i >= num_pixels) return absl::DataLossError("depth map: a pixel beyond the last");
     known.push_back(static_cast<uint32_t>(i));
   }
   return known;
@@ -107,9 +113,9 @@ absl::StatusOr<SurfacePoints> FromProto(const v1::SurfacePoints& proto) {
                  .color = colors[i],
                  .sigma_m = sigmas[i],
                  .views = views[i]};
-    if (!points[i].position_in_world.allFinite() || !points[i].normal_in_world.allFinite() ||
+    if (!codec::IsPlace(points[i].position_in_world) || !IsNormal(points[i].normal_in_world) ||
         !IsSigma(sigmas[i])) {
-      return absl::InvalidArgumentError("surface points: a number that is none");
+      return absl::DataLossError("surface points: a number that is none");
     }
   }
   return points;
@@ -134,7 +140,7 @@ absl::StatusOr<DepthMap> DecodeDepthMap(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::DepthMap proto,
                             codec::Parse<v1::DepthMap>(bytes, "depth map", codec::Empty::kIsLegal));
   if (proto.face_px() > kMaxFace_px || NumPixels(proto.face_px()) > 8 * proto.known().size())
-    return absl::InvalidArgumentError("depth map: its mask is of another size");
+    return absl::DataLossError("depth map: its mask is of another size");
   const size_t n = NumPixels(proto.face_px());
   DepthMap map{.face_px = static_cast<int>(proto.face_px()), .problem = proto.problem()};
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<uint32_t> known, UnpackMask(proto.known(), n));
@@ -150,7 +156,7 @@ absl::StatusOr<DepthMap> DecodeDepthMap(std::string_view bytes) {
   ORBWEAVE_RETURN_IF_ERROR(UnpackKnown(proto.flags(), known, "flags", map.flags));
   for (const uint32_t i : known) {
     if (!IsPositive(map.range_m[i]) || !IsSigma(map.sigma_m[i]))
-      return absl::InvalidArgumentError("depth map: a range or sigma that is none");
+      return absl::DataLossError("depth map: a range or sigma that is none");
   }
   return map;
 }
@@ -181,6 +187,10 @@ absl::StatusOr<DenseTile> DecodeDenseTile(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::DenseTile proto,
                             codec::Parse<v1::DenseTile>(bytes, "dense tile"));
   DenseTile tile{.cell = {proto.x(), proto.y()}, .piece = proto.piece()};
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::IsCellNumber(tile.cell.x) && codec::IsCellNumber(tile.cell.y),
+                    "dense tile",
+                    "its cell is nowhere"));
   ORBWEAVE_ASSIGN_OR_RETURN(tile.points, FromProto(proto.points()));
   return tile;
 }

@@ -9,16 +9,26 @@
 #include "orbweave/v1/dense.pb.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 namespace {
 
 constexpr uint32_t kMaxWidth_px = 1 << 16;
+constexpr uint32_t kWidthStep_px = 16;
 constexpr double kUnitTolerance = 1e-4;  // seeds are rounded
 
 using SeedValues = Eigen::Matrix<double, 5, 1>;
 
-bool IsPositive(double value) { return std::isfinite(value) && value > 0.0; }
+bool IsPositive(double value) { return value > 0.0 && codec::IsLength(value); }
+
+bool IsUnit(double unit_m) {
+  return unit_m > 1.0 / codec::kMostLength && unit_m < codec::kMostLength;
+}
+
+bool IsCell(const TileCell& cell) {
+  return codec::IsCellNumber(cell.x) && codec::IsCellNumber(cell.y);
+}
 
 std::string PackSeeds(const std::vector<DepthSeed>& seeds) {
   std::vector<SeedValues> values;
@@ -38,16 +48,16 @@ absl::StatusOr<std::vector<DepthSeed>> UnpackSeeds(const std::string& bytes) {
     seeds.push_back({value.head<3>(), value[3], value[4]});
     if (!(std::abs(seeds.back().bearing.norm() - 1.0) < kUnitTolerance) || !IsPositive(value[3]) ||
         !IsPositive(value[4])) {
-      return absl::InvalidArgumentError("seeds: a bearing, range or sigma that is none");
+      return absl::DataLossError("seeds: a bearing, range or sigma that is none");
     }
   }
   return seeds;
 }
 
 absl::Status CheckRange(double min_range, double max_range) {
-  if (IsPositive(min_range) && std::isfinite(max_range) && max_range > min_range)
+  if (IsPositive(min_range) && IsPositive(max_range) && max_range > min_range)
     return absl::OkStatus();
-  return absl::InvalidArgumentError("dense: a range of depths that is none");
+  return absl::DataLossError("dense: a range of depths that is none");
 }
 
 void ToProto(const PanoramaFile& file, v1::PanoramaFile* proto) {
@@ -61,14 +71,14 @@ void ToProto(const PanoramaFile& file, v1::PanoramaFile* proto) {
 absl::StatusOr<PanoramaFile> FromProto(const v1::PanoramaFile& proto) {
   if (proto.width_px() == 0 || proto.width_px() > kMaxWidth_px || proto.height_px() == 0 ||
       proto.height_px() > kMaxWidth_px) {
-    return absl::InvalidArgumentError("dense: a panorama of no size");
+    return absl::DataLossError("dense: a panorama of no size");
   }
   PanoramaFile file{
       .image = ImageId(proto.image()),
       .camera = {static_cast<int>(proto.width_px()), static_cast<int>(proto.height_px())}};
   ORBWEAVE_ASSIGN_OR_RETURN(file.content, codec::UnpackDigest(proto.content()));
   ORBWEAVE_ASSIGN_OR_RETURN(file.mask, codec::UnpackDigest(proto.mask()));
-  if (file.content.IsZero()) return absl::InvalidArgumentError("dense: a panorama without picture");
+  if (file.content.IsZero()) return absl::DataLossError("dense: a panorama without picture");
   return file;
 }
 
@@ -90,6 +100,8 @@ absl::StatusOr<SourceChoice> FromProto(const v1::SourceChoice& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(choice.seeds, UnpackSeeds(proto.seeds()));
   if (!choice.sources.empty())
     ORBWEAVE_RETURN_IF_ERROR(CheckRange(choice.min_range_m, choice.max_range_m));
+  if (!codec::IsNumber(choice.min_range_m) || !codec::IsNumber(choice.max_range_m))
+    return absl::DataLossError("dense: a range of depths that is none");
   return choice;
 }
 
@@ -106,8 +118,8 @@ absl::StatusOr<PlacedMap> FromProto(const v1::PlacedMap& proto) {
       .image = ImageId(proto.image()), .unit_m = proto.unit_m(), .reach_m = proto.reach_m()};
   ORBWEAVE_ASSIGN_OR_RETURN(map.map, codec::UnpackDigest(proto.map()));
   ORBWEAVE_ASSIGN_OR_RETURN(map.cam_from_model, codec::FromProto(proto.cam_from_model()));
-  if (map.map.IsZero() || !IsPositive(map.unit_m) || !std::isfinite(map.reach_m))
-    return absl::InvalidArgumentError("dense: a depth map that is none");
+  if (map.map.IsZero() || !IsUnit(map.unit_m) || !codec::IsAmount(map.reach_m))
+    return absl::DataLossError("dense: a depth map that is none");
   return map;
 }
 
@@ -125,7 +137,7 @@ absl::StatusOr<std::vector<Digest>> DigestsFromProto(const Repeated& proto) {
   std::vector<Digest> digests;
   for (const std::string& bytes : proto) {
     ORBWEAVE_ASSIGN_OR_RETURN(digests.emplace_back(), codec::UnpackDigest(bytes));
-    if (digests.back().IsZero()) return absl::InvalidArgumentError("dense: points without a name");
+    if (digests.back().IsZero()) return absl::DataLossError("dense: points without a name");
   }
   return digests;
 }
@@ -144,9 +156,10 @@ absl::StatusOr<ViewRecipe> DecodeViewRecipe(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::ViewRecipe proto,
                             codec::Parse<v1::ViewRecipe>(bytes, "view recipe"));
   ViewRecipe recipe{.world = proto.world()};
-  ORBWEAVE_ASSIGN_OR_RETURN(recipe.model_from_world, codec::FromProto(proto.model_from_world()));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.model_from_world,
+                            codec::PlacementFromProto(proto.model_from_world()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.subproblem, codec::UnpackDigest(proto.subproblem()));
-  if (recipe.subproblem.IsZero()) return absl::InvalidArgumentError("view recipe: no subproblem");
+  if (recipe.subproblem.IsZero()) return absl::DataLossError("view recipe: no subproblem");
   return recipe;
 }
 
@@ -189,10 +202,12 @@ absl::StatusOr<DepthRecipe> DecodeDepthRecipe(std::string_view bytes) {
   DepthRecipe recipe{.min_range = proto.min_range(),
                      .max_range = proto.max_range(),
                      .mask_ignores_white = proto.mask_ignores_white(),
-                     .width_px = static_cast<int>(std::min(proto.width_px(), kMaxWidth_px))};
+                     .width_px = static_cast<int>(proto.width_px())};
+  if (proto.width_px() > kMaxWidth_px || proto.width_px() % kWidthStep_px != 0)
+    return absl::DataLossError("depth recipe: a width that does not halve evenly");
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.reference, FromProto(proto.reference()));
   if (proto.sources_size() != proto.sources_from_reference_size())
-    return absl::InvalidArgumentError("depth recipe: not one pose for each source");
+    return absl::DataLossError("depth recipe: not one pose for each source");
   for (int i = 0; i < proto.sources_size(); ++i) {
     DepthSourceFile& source = recipe.sources.emplace_back();
     ORBWEAVE_ASSIGN_OR_RETURN(source.panorama, FromProto(proto.sources(i)));
@@ -233,8 +248,7 @@ absl::StatusOr<DensePlan> DecodeDensePlan(std::string_view bytes) {
     ORBWEAVE_ASSIGN_OR_RETURN(panorama.file, FromProto(in.file()));
     ORBWEAVE_ASSIGN_OR_RETURN(panorama.cam_from_model, codec::FromProto(in.cam_from_model()));
     ORBWEAVE_ASSIGN_OR_RETURN(panorama.sources, codec::Unpack<ImageId>(in.sources(), "sources"));
-    if (!IsPositive(panorama.unit_m))
-      return absl::InvalidArgumentError("dense plan: a unit that is none");
+    if (!IsUnit(panorama.unit_m)) return absl::DataLossError("dense plan: a unit that is none");
   }
   for (const v1::DenseOmission& omission : proto.omitted())
     plan.omitted.push_back({ImageId(omission.image()), omission.reason()});
@@ -299,6 +313,8 @@ absl::StatusOr<TileRuns> DecodeTileRuns(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto counts, codec::UnpackExactly<uint64_t>(proto.counts(), points.size(), "counts"));
   TileRuns runs;
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      codec::Ascends(cells) && std::ranges::all_of(cells, IsCell), "tile runs", "not in order"));
   for (size_t i = 0; i < points.size(); ++i)
     runs.runs.push_back({.cell = cells[i], .count = counts[i], .points = points[i]});
   return runs;
@@ -318,6 +334,8 @@ absl::StatusOr<TileRecipe> DecodeTileRecipe(std::string_view bytes) {
                             codec::Parse<v1::TileRecipe>(bytes, "tile recipe"));
   TileRecipe recipe{.cell = {proto.x(), proto.y()}, .piece = proto.piece()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.points, DigestsFromProto(proto.points()));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(IsCell(recipe.cell), "tile recipe", "its cell is nowhere"));
   return recipe;
 }
 

@@ -9,8 +9,8 @@
 #include "core/base/status.h"
 #include "core/dense/depth_map.h"
 
-/// What the dense stages hand on. All decoders: DataLoss where bytes are no message,
-/// InvalidArgument where arrays do not match or values are none.
+/// What the dense stages hand on. All decoders: DataLoss where bytes are no message, arrays
+/// do not match or values are none.
 
 namespace orbweave {
 

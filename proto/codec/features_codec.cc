@@ -2,11 +2,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/features_codec.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 
 static_assert(sizeof(Keypoint) == 16 && sizeof(Rgb) == 3, "packed as written");
+
+namespace {
+
+constexpr float kTolerance_px = 2.0F;  // import takes what is one pixel outside
+
+bool LiesIn(const EquirectangularCamera& camera, const Keypoint& keypoint) {
+  const auto is_within = [](float value, int size_px) {
+    return value >= -kTolerance_px && value <= static_cast<float>(size_px) + kTolerance_px;
+  };
+  return is_within(keypoint.x_px, camera.width_px) && is_within(keypoint.y_px, camera.height_px) &&
+         codec::IsLength(keypoint.scale_px) && codec::IsLength(keypoint.orientation_rad);
+}
+
+bool IsAngularSigma(float sigma_rad) {
+  return codec::IsSigma(sigma_rad) && sigma_rad <= std::numbers::pi_v<float>;
+}
+
+absl::Status CheckFeatures(const Features& features) {
+  using codec::Expect;
+  const auto lies_inside = [&](const Keypoint& k) { return LiesIn(features.camera, k); };
+  if (features.size() == 0) return absl::OkStatus();
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(codec::IsSize(features.camera.width_px) && codec::IsSize(features.camera.height_px),
+             "features",
+             "the camera has no size"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(std::ranges::all_of(features.keypoints, lies_inside),
+                                  "features",
+                                  "a keypoint is not in the image"));
+  return Expect(
+      std::ranges::all_of(features.sigma_rad, IsAngularSigma), "features", "a sigma is no angle");
+}
+
+}  // namespace
 
 absl::StatusOr<std::string> EncodeFeatures(const Features& features) {
   v1::Features proto;
@@ -37,9 +74,7 @@ absl::StatusOr<Features> DecodeFeatures(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       features.descriptors,
       codec::UnpackExactly<uint8_t>(proto.descriptors(), descriptor_bytes, "descriptors"));
-  if (n > 0 && (features.camera.width_px <= 0 || features.camera.height_px <= 0)) {
-    return absl::InvalidArgumentError("features: the camera has no size");
-  }
+  ORBWEAVE_RETURN_IF_ERROR(CheckFeatures(features));
   return features;
 }
 
@@ -59,7 +94,7 @@ absl::StatusOr<PlaceSample> DecodePlaceSample(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(sample.descriptors,
                             codec::Unpack<uint8_t>(proto.descriptors(), "descriptors"));
   if (sample.descriptors.size() % kDescriptorSize != 0) {
-    return absl::InvalidArgumentError("place sample: half a descriptor");
+    return absl::DataLossError("place sample: half a descriptor");
   }
   return sample;
 }

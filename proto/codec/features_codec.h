@@ -12,8 +12,8 @@
 namespace orbweave {
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeFeatures(const Features& features);
-/// InvalidArgument or DataLoss when the bytes are not whole features: arrays of one length, a 2:1
-/// camera.
+/// DataLoss when the bytes are not whole features: arrays of one length,
+/// keypoints in the image, sigmas that are angles.
 [[nodiscard]] absl::StatusOr<Features> DecodeFeatures(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodePlaceSample(const PlaceSample& sample);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/inspection_codec.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "proto/codec/adjustment_messages.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
+#include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
@@ -53,8 +55,11 @@ absl::StatusOr<std::vector<SidePlacement>> PlacementsOf(const v1::SubproblemInsp
       const auto points,
       codec::UnpackExactly<uint32_t>(proto.placement_points(), count, "placements"));
   std::vector<SidePlacement> placements;
-  for (size_t i = 0; i < count; ++i)
+  for (size_t i = 0; i < count; ++i) {
+    if (!codec::AreNumbers(hessians[i]) || !codec::AreNumbers(gradients[i]))
+      return absl::DataLossError("block inspection: a placement that is not a number");
     placements.push_back({images[i], clusters[i], hessians[i], gradients[i], points[i]});
+  }
   return placements;
 }
 
@@ -102,8 +107,9 @@ absl::StatusOr<std::vector<PatchSupport>> SupportsOf(const v1::SubproblemInspect
       (codec::UnpackExactly<std::array<double, 2>>(proto.support_squares(), count, "support")));
   std::vector<PatchSupport> supports;
   for (size_t i = 0; i < count; ++i) {
-    if (!hessians[i].allFinite() || !gradients[i].allFinite())
-      return absl::InvalidArgumentError("block inspection: support that is not a number");
+    if (!codec::AreNumbers(hessians[i]) || !codec::AreNumbers(gradients[i]) ||
+        !codec::IsAmount(squares[i][0]) || !codec::IsNumber(squares[i][1]))
+      return absl::DataLossError("block inspection: support that is not a number");
     supports.push_back({images[i],
                         patches[i],
                         counts[i][0],
@@ -114,6 +120,26 @@ absl::StatusOr<std::vector<PatchSupport>> SupportsOf(const v1::SubproblemInspect
                         squares[i][1]});
   }
   return supports;
+}
+
+absl::Status CheckSums(const SubproblemInspection& inspection) {
+  using codec::Expect;
+  constexpr char kWhat[] = "block inspection";
+  const auto is_bias = [](const SeparatorId& id) { return id.kind == SeparatorId::Kind::kBias; };
+  const TrackCorrelation& correlation = inspection.correlation;
+  ORBWEAVE_RETURN_IF_ERROR(Expect(std::ranges::none_of(inspection.bearings.variables, is_bias),
+                                  kWhat,
+                                  "bearings that depend on a bias"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(codec::IsAmount(inspection.sum_of_squares) &&
+                                      codec::IsAmount(inspection.weighted_sum_of_squares) &&
+                                      codec::IsNumber(inspection.redundancy),
+                                  kWhat,
+                                  "a sum is none"));
+  return Expect(std::ranges::all_of(correlation.products, codec::IsNumber) &&
+                    std::ranges::all_of(correlation.squares, codec::IsAmount) &&
+                    std::ranges::all_of(correlation.tracks, codec::IsAmount),
+                kWhat,
+                "a correlation is none");
 }
 
 }  // namespace
@@ -153,12 +179,13 @@ absl::StatusOr<SubproblemInspection> DecodeSubproblemInspection(std::string_view
       const auto correlation,
       codec::UnpackExactly<CorrelationBytes>(proto.correlation(), 3, "track correlation"));
   inspection.correlation = {correlation[0], correlation[1], correlation[2]};
+  ORBWEAVE_RETURN_IF_ERROR(CheckSums(inspection));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto points_about,
                             codec::Unpack<codec::Vector3Bytes>(proto.points_about(), "points"));
   for (const codec::Vector3Bytes& coordinates : points_about) {
     const Eigen::Vector3d point = codec::ToVector(coordinates);
-    if (!point.allFinite())
-      return absl::InvalidArgumentError("block inspection: a point is not a number");
+    if (!codec::IsPoint(point))
+      return absl::DataLossError("block inspection: a point is not a number");
     inspection.points_about.push_back(point);
   }
   return inspection;

@@ -10,7 +10,7 @@
 
 namespace orbweave {
 
-/// Decoder: DataLoss or InvalidArgument for arrays that do not match.
+/// Decoder: DataLoss for arrays that do not match and numbers that are none.
 [[nodiscard]] absl::StatusOr<std::string> EncodeSubproblemInspection(
     const SubproblemInspection& inspection);
 [[nodiscard]] absl::StatusOr<SubproblemInspection> DecodeSubproblemInspection(

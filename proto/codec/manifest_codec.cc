@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 namespace {
@@ -28,7 +29,24 @@ GeodeticPosition FromProto(const v1::GeodeticPosition& proto) {
   return {proto.latitude_deg(), proto.longitude_deg(), proto.altitude_m()};
 }
 
+/// An altitude that nobody knows is not a number.
+bool IsOnEarth(const GeodeticPosition& value) {
+  return codec::IsNumber(value.latitude_deg) && codec::IsNumber(value.longitude_deg) &&
+         (std::isnan(value.altitude_m) || codec::IsLength(value.altitude_m));
+}
+
+template <typename Value>
+bool IsAbsentOrNumber(const std::optional<Value>& value) {
+  return !value || codec::IsNumber(*value);
+}
+
 /// Angles of view, the same three in metadata and priors.
+template <typename Value>
+bool HasAngles(const Value& value) {
+  return IsAbsentOrNumber(value.heading_deg) && IsAbsentOrNumber(value.pitch_deg) &&
+         IsAbsentOrNumber(value.roll_deg);
+}
+
 template <typename Value, typename Proto>
 void AnglesToProto(const Value& value, Proto* proto) {
   if (value.heading_deg) proto->set_heading_deg(*value.heading_deg);
@@ -53,13 +71,18 @@ void ToProto(const ImageMetadata& value, v1::ImageMetadata* proto) {
   if (value.capture_time_s) proto->set_capture_time_s(*value.capture_time_s);
 }
 
-ImageMetadata FromProto(const v1::ImageMetadata& proto) {
+absl::StatusOr<ImageMetadata> FromProto(const v1::ImageMetadata& proto) {
   ImageMetadata value{.width_px = proto.width_px(), .height_px = proto.height_px()};
   if (proto.has_position()) value.position = FromProto(proto.position());
   value.altitude_known = proto.altitude_known();
   if (proto.has_position_error_m()) value.position_error_m = proto.position_error_m();
   AnglesFromProto(proto, value);
   if (proto.has_capture_time_s()) value.capture_time_s = proto.capture_time_s();
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      (!value.position || IsOnEarth(*value.position)) && HasAngles(value) &&
+          IsAbsentOrNumber(value.position_error_m) && IsAbsentOrNumber(value.capture_time_s),
+      "image sources",
+      "metadata that are no numbers"));
   return value;
 }
 
@@ -82,9 +105,8 @@ void ToProto(const SourceImage& value, v1::SourceImage* proto) {
 }
 
 absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
-  SourceImage value{.name = proto.name(),
-                    .size_bytes = proto.size_bytes(),
-                    .metadata = FromProto(proto.metadata())};
+  SourceImage value{.name = proto.name(), .size_bytes = proto.size_bytes()};
+  ORBWEAVE_ASSIGN_OR_RETURN(value.metadata, FromProto(proto.metadata()));
   ORBWEAVE_ASSIGN_OR_RETURN(value.content, codec::UnpackDigest(proto.content()));
   ORBWEAVE_ASSIGN_OR_RETURN(value.mask, codec::UnpackDigest(proto.mask()));
   value.mask_path = proto.mask_name();
@@ -95,6 +117,12 @@ absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
     value.position_sigma_m = Eigen::Vector2d(proto.horizontal_sigma_m(), proto.vertical_sigma_m());
   }
   value.problem = proto.problem();
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect((!value.position_in_local || codec::IsPlace(*value.position_in_local)) &&
+                        (!value.position_sigma_m || (codec::IsSigma(value.position_sigma_m->x()) &&
+                                                     codec::IsSigma(value.position_sigma_m->y()))),
+                    "image sources",
+                    "a position or its sigma is none"));
   return value;
 }
 
@@ -119,7 +147,23 @@ PosePrior FromProto(const v1::PosePrior& proto) {
   return value;
 }
 
-bool IsSigma(double value) { return std::isfinite(value) && value > 0.0; }
+absl::Status CheckPrior(const PosePrior& prior) {
+  using codec::Expect;
+  constexpr char kWhat[] = "image manifest";
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect((!prior.geodetic || IsOnEarth(*prior.geodetic)) &&
+                 (!prior.position_in_enu || codec::IsPlace(*prior.position_in_enu)),
+             kWhat,
+             "a position that is nowhere"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(codec::IsSigma(prior.horizontal_sigma_m) && codec::IsSigma(prior.vertical_sigma_m),
+             kWhat,
+             "the sigma of a position is not positive"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(HasAngles(prior), kWhat, "a direction is no number"));
+  return Expect(codec::IsSigma(prior.heading_sigma_deg) && codec::IsSigma(prior.tilt_sigma_deg),
+                kWhat,
+                "the sigma of a direction is not positive");
+}
 
 void ToProto(const ImageRecord& value, v1::ImageRecord* proto) {
   proto->set_name(value.name);
@@ -140,12 +184,13 @@ absl::StatusOr<ImageRecord> FromProto(const v1::ImageRecord& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(value.content, codec::UnpackDigest(proto.content()));
   ORBWEAVE_ASSIGN_OR_RETURN(value.mask, codec::UnpackDigest(proto.mask()));
   if (proto.has_capture_time_s()) value.capture_time_s = proto.capture_time_s();
-  if (value.camera.width_px <= 0 || value.camera.height_px <= 0) {
-    return absl::InvalidArgumentError("image manifest: a camera has no size");
-  }
-  if (!IsSigma(value.prior.heading_sigma_deg) || !IsSigma(value.prior.tilt_sigma_deg)) {
-    return absl::InvalidArgumentError("image manifest: the sigma of a direction is not positive");
-  }
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::IsSize(value.camera.width_px) && codec::IsSize(value.camera.height_px),
+                    "image manifest",
+                    "a camera has no size"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      IsAbsentOrNumber(value.capture_time_s), "image manifest", "a time is no number"));
+  ORBWEAVE_RETURN_IF_ERROR(CheckPrior(value.prior));
   return value;
 }
 
@@ -169,7 +214,7 @@ absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes) {
     ORBWEAVE_ASSIGN_OR_RETURN(SourceImage decoded, FromProto(image));
     sources.images.push_back(std::move(decoded));
   }
-  if (sources.images.empty()) return absl::InvalidArgumentError("image sources: no image");
+  if (sources.images.empty()) return absl::DataLossError("image sources: no image");
   sources.mask_ignores_white = proto.mask_ignores_white();
   sources.gnss_text = proto.gnss_text();
   sources.gnss_name = proto.gnss_name();
@@ -191,7 +236,9 @@ absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes) {
       const v1::ClusterNames proto,
       codec::Parse<v1::ClusterNames>(bytes, "cluster names", codec::Empty::kIsLegal));
   if (proto.images_size() != proto.clusters_size())
-    return absl::InvalidArgumentError("cluster names: one cluster per image");
+    return absl::DataLossError("cluster names: one cluster per image");
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(proto.images()), "cluster names", "images are not in order"));
   ClusterNames clusters;
   for (int i = 0; i < proto.images_size(); ++i) clusters[proto.images(i)] = proto.clusters(i);
   return clusters;
@@ -224,9 +271,12 @@ absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes) {
     manifest.excluded.push_back({exclusion.name(), exclusion.reason()});
   }
   if (manifest.images.empty() && manifest.excluded.empty())
-    return absl::InvalidArgumentError("image manifest: no image");
+    return absl::DataLossError("image manifest: no image");
   manifest.warnings.assign(proto.warnings().begin(), proto.warnings().end());
   if (proto.has_origin()) manifest.origin = FromProto(proto.origin());
+  if (manifest.origin &&
+      !(IsOnEarth(*manifest.origin) && std::isfinite(manifest.origin->altitude_m)))
+    return absl::DataLossError("image manifest: its frame is not on earth");
   manifest.mask_ignores_white = proto.mask_ignores_white();
   return manifest;
 }

@@ -17,10 +17,11 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<ImageSources> DecodeImageSources(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeClusterNames(const ClusterNames& clusters);
-/// InvalidArgument unless there is one cluster per image.
+/// DataLoss unless there is one cluster per image.
 [[nodiscard]] absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeImageManifest(const ImageManifest& manifest);
+/// DataLoss: a camera without a size, priors that are no numbers.
 [[nodiscard]] absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes);
 
 }  // namespace orbweave

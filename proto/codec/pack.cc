@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/pack.h"
 
+#include "proto/codec/plausible.h"
+
 namespace orbweave::codec {
 
 std::string PackDigest(const Digest& digest) {
@@ -11,8 +13,7 @@ std::string PackDigest(const Digest& digest) {
 absl::StatusOr<Digest> UnpackDigest(const std::string& bytes) {
   Digest digest;
   if (bytes.empty()) return digest;
-  if (bytes.size() != digest.bytes.size())
-    return absl::InvalidArgumentError("a digest has 32 bytes");
+  if (bytes.size() != digest.bytes.size()) return absl::DataLossError("a digest has 32 bytes");
   std::memcpy(digest.bytes.data(), bytes.data(), bytes.size());
   return digest;
 }
@@ -31,8 +32,8 @@ absl::StatusOr<Rigid3> FromProto(const v1::Rigid3& proto) {
   const auto& t = proto.translation();
   const Rigid3 value{Eigen::Quaterniond(proto.qw(), proto.qx(), proto.qy(), proto.qz()),
                      Eigen::Vector3d(t.x(), t.y(), t.z())};
-  if (!value.translation.allFinite() || !(std::abs(value.rotation.norm() - 1.0) < 1e-6)) {
-    return absl::InvalidArgumentError("a pose is not a rigid motion");
+  if (!IsPlace(value.translation) || !(std::abs(value.rotation.norm() - 1.0) < 1e-6)) {
+    return absl::DataLossError("a pose is not a rigid motion, or leads nowhere");
   }
   return value;
 }
@@ -43,11 +44,22 @@ void ToProto(const Sim3& value, v1::Sim3* proto) {
 }
 
 absl::StatusOr<Sim3> FromProto(const v1::Sim3& proto) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const Rigid3 rigid, FromProto(proto.rigid()));
-  if (!(proto.scale() > 0.0) || !std::isfinite(proto.scale())) {
-    return absl::InvalidArgumentError("the scale of a similarity is not positive");
-  }
-  return Sim3{proto.scale(), rigid.rotation, rigid.translation};
+  const v1::Rigid3& rigid = proto.rigid();
+  const v1::Vector3& t = rigid.translation();
+  const Sim3 value{proto.scale(),
+                   Eigen::Quaterniond(rigid.qw(), rigid.qx(), rigid.qy(), rigid.qz()),
+                   Eigen::Vector3d(t.x(), t.y(), t.z())};
+  if (!(std::abs(value.rotation.norm() - 1.0) < 1e-6) || !AreNumbers(value.translation))
+    return absl::DataLossError("a similarity does not turn, or leads nowhere");
+  if (!(value.scale > 0.0) || !IsNumber(value.scale))
+    return absl::DataLossError("the scale of a similarity is not positive");
+  return value;
+}
+
+absl::StatusOr<Sim3> PlacementFromProto(const v1::Sim3& proto) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 value, FromProto(proto));
+  if (IsPlacement(value)) return value;
+  return absl::DataLossError("a similarity puts a model where nothing can be");
 }
 
 }  // namespace orbweave::codec

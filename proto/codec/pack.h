@@ -38,26 +38,26 @@ std::string Pack(const std::vector<T>& values) {
   return Pack(std::span<const T>(values));
 }
 
-/// InvalidArgument unless the size is a multiple of the element's.
+/// DataLoss unless the size is a multiple of the element's.
 template <typename T>
 absl::StatusOr<std::vector<T>> Unpack(const std::string& bytes, const char* what) {
   static_assert(std::is_trivially_copyable_v<T>);
   if (bytes.size() % sizeof(T) != 0) {
-    return absl::InvalidArgumentError(std::string(what) + ": packed array of a wrong size");
+    return absl::DataLossError(std::string(what) + ": packed array of a wrong size");
   }
   std::vector<T> values(bytes.size() / sizeof(T));
   if (!bytes.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
   return values;
 }
 
-/// The same, and InvalidArgument unless there are `count`.
+/// The same, and DataLoss unless there are `count`.
 template <typename T>
 absl::StatusOr<std::vector<T>> UnpackExactly(const std::string& bytes,
                                              size_t count,
                                              const char* what) {
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<T> values, Unpack<T>(bytes, what));
   if (values.size() != count) {
-    return absl::InvalidArgumentError(std::string(what) + ": array does not match its neighbours");
+    return absl::DataLossError(std::string(what) + ": array does not match its neighbours");
   }
   return values;
 }
@@ -66,11 +66,14 @@ std::string PackDigest(const Digest& digest);  ///< empty for the zero digest
 absl::StatusOr<Digest> UnpackDigest(const std::string& bytes);
 
 void ToProto(const Rigid3& value, v1::Rigid3* proto);
-/// InvalidArgument unless finite and of unit quaternion norm (1e-6).
+/// DataLoss unless of unit quaternion norm (1e-6), and not too far (kMostLength).
 absl::StatusOr<Rigid3> FromProto(const v1::Rigid3& proto);
 
 void ToProto(const Sim3& value, v1::Sim3* proto);
+/// DataLoss unless it is one, of numbers that can be computed with.
 absl::StatusOr<Sim3> FromProto(const v1::Sim3& proto);
+/// The same of where something lies (IsPlacement).
+absl::StatusOr<Sim3> PlacementFromProto(const v1::Sim3& proto);
 
 /// Protobuf refuses to write or read more, and says so with no bytes at all.
 inline constexpr size_t kMaxMessageBytes = std::numeric_limits<int>::max();

@@ -6,6 +6,7 @@
 
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 namespace {
@@ -17,6 +18,8 @@ absl::StatusOr<std::vector<FeatureFile>> FilesFromProto(const Repeated& proto) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(file.features()));
     files.push_back({ImageId(file.image()), digest});
   }
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      codec::Ascends(files, &FeatureFile::image), "recipe", "images are not in order"));
   return files;
 }
 
@@ -30,8 +33,11 @@ void FilesToProto(const std::vector<FeatureFile>& files, Repeated* proto) {
 }
 
 bool Lists(const std::vector<FeatureFile>& files, ImageId id) {
-  return std::any_of(
-      files.begin(), files.end(), [&](const FeatureFile& file) { return file.image == id; });
+  return std::ranges::binary_search(files, id, {}, &FeatureFile::image);
+}
+
+bool ListsPair(const std::vector<FeatureFile>& files, const ImagePair& pair) {
+  return pair.a < pair.b && Lists(files, pair.a) && Lists(files, pair.b);
 }
 
 using FixValues = Eigen::Matrix<double, 5, 1>;
@@ -58,10 +64,13 @@ absl::StatusOr<std::vector<PositionFix>> FixesFromProto(const v1::ClusterRecipe&
   std::vector<PositionFix> fixes;
   for (size_t i = 0; i < images.size(); ++i) {
     const FixValues& value = values[i];
-    if (!value.allFinite() || !(value[3] > 0.0) || !(value[4] > 0.0) || !Lists(files, images[i]))
-      return absl::InvalidArgumentError("cluster recipe: a position that is none, or of no image");
+    if (!codec::IsPlace(value.head<3>()) || !codec::IsSigma(value[3]) ||
+        !codec::IsSigma(value[4]) || !Lists(files, images[i]))
+      return absl::DataLossError("cluster recipe: a position that is none, or of no image");
     fixes.push_back({images[i], value.head<3>(), value[3], value[4]});
   }
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(images), "cluster recipe", "positions are not in order"));
   return fixes;
 }
 
@@ -80,7 +89,7 @@ absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes) {
                             codec::Parse<v1::ExtractRecipe>(bytes, "extract recipe"));
   ExtractRecipe recipe{.mask_ignores_white = proto.mask_ignores_white()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.image, codec::UnpackDigest(proto.image()));
-  if (recipe.image.IsZero()) return absl::InvalidArgumentError("extract recipe: no image");
+  if (recipe.image.IsZero()) return absl::DataLossError("extract recipe: no image");
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.mask, codec::UnpackDigest(proto.mask()));
   return recipe;
 }
@@ -105,9 +114,8 @@ absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
   for (const v1::MatchRecipe::Pair& in : proto.pairs()) {
     MatchRecipe::Pair pair{.pair = {ImageId(in.a()), ImageId(in.b())}};
     ORBWEAVE_ASSIGN_OR_RETURN(pair.matches, codec::Unpack<FeatureMatch>(in.matches(), "matches"));
-    if (!(pair.pair.a < pair.pair.b) || !Lists(recipe.images, pair.pair.a) ||
-        !Lists(recipe.images, pair.pair.b)) {
-      return absl::InvalidArgumentError("match recipe: a pair out of order or without its images");
+    if (!ListsPair(recipe.images, pair.pair)) {
+      return absl::DataLossError("match recipe: a pair out of order or without its images");
     }
     recipe.pairs.push_back(std::move(pair));
   }
@@ -132,6 +140,16 @@ absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.pairs, codec::Unpack<ImagePair>(proto.pairs(), "pairs"));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.shared, codec::Unpack<ImageId>(proto.shared(), "shared images"));
+  const auto lists_pair = [&](const ImagePair& pair) { return ListsPair(recipe.images, pair); };
+  const auto lists = [&](ImageId id) { return Lists(recipe.images, id); };
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(recipe.pairs) && std::ranges::all_of(recipe.pairs, lists_pair),
+                    "cluster recipe",
+                    "a pair out of order or without its images"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(recipe.shared) && std::ranges::all_of(recipe.shared, lists),
+                    "cluster recipe",
+                    "a shared image out of order or not its own"));
   for (const std::string& blob : proto.matches()) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, codec::UnpackDigest(blob));
     recipe.matches.push_back(digest);

@@ -14,10 +14,11 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeMatchRecipe(const MatchRecipe& recipe);
-/// InvalidArgument: a pair out of order or of an image the recipe does not list.
+/// DataLoss: a pair out of order or of an image the recipe does not list.
 [[nodiscard]] absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeClusterRecipe(const ClusterRecipe& recipe);
+/// DataLoss: the same; a shared image or a position of an image that it does not list.
 [[nodiscard]] absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes);
 
 }  // namespace orbweave

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/reconstruction_codec.h"
 
+#include <algorithm>
+
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
@@ -60,7 +63,7 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
   }
   for (const v1::ContradictedPair& pair : proto.contradicted_pairs()) {
     if (pair.image_a() >= pair.image_b())
-      return absl::InvalidArgumentError("cluster reconstruction: images of a pair out of order");
+      return absl::DataLossError("cluster reconstruction: images of a pair out of order");
     result.reconstruction.contradicted_pairs.push_back(
         {ImageId(pair.image_a()), ImageId(pair.image_b())});
   }
@@ -68,13 +71,18 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
                             codec::Unpack<ImagePair>(proto.explained_pairs(), "explained pairs"));
   for (const ImagePair& pair : result.reconstruction.explained_pairs) {
     if (!(pair.a < pair.b))
-      return absl::InvalidArgumentError("cluster reconstruction: images of a pair out of order");
+      return absl::DataLossError("cluster reconstruction: images of a pair out of order");
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();
   result.reconstruction.num_local_adjustments = proto.num_local_adjustments();
   result.reconstruction.residual_rms_px = proto.residual_rms_px();
   result.reconstruction.started_globally = proto.started_globally();
   result.reconstruction.start_remark = proto.start_remark();
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(codec::IsAmount(result.reconstruction.residual_rms_px) &&
+                                             result.reconstruction.num_global_adjustments >= 0 &&
+                                             result.reconstruction.num_local_adjustments >= 0,
+                                         "cluster reconstruction",
+                                         "a residual or a count is none"));
   return result;
 }
 
@@ -101,18 +109,42 @@ absl::StatusOr<std::string> EncodeAlignment(const Alignment& alignment) {
   return codec::Serialize(proto, "alignment", codec::Empty::kIsLegal);
 }
 
+namespace {
+
+/// A condition of infinity is one that nobody used.
+bool IsSeamOf(const SeamReport& seam, size_t num_submodels) {
+  return seam.submodel_a < seam.submodel_b && seam.submodel_b < num_submodels &&
+         seam.condition_number >= 0.0 && codec::IsAmount(seam.position_jump_m) &&
+         codec::IsAmount(seam.rotation_jump_deg);
+}
+
+absl::Status CheckAlignment(const Alignment& alignment) {
+  const size_t count = alignment.world.size();
+  const auto is_world = [count](uint32_t world) { return world < count; };
+  const auto is_seam = [count](const SeamReport& seam) { return IsSeamOf(seam, count); };
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      std::ranges::all_of(alignment.world, is_world), "alignment", "more worlds than submodels"));
+  return codec::Expect(std::ranges::all_of(alignment.seams, is_seam),
+                       "alignment",
+                       "a seam of no submodels, or of no numbers");
+}
+
+bool IsRequest(const OverlapRequest& request) { return request.cluster_a < request.cluster_b; }
+
+}  // namespace
+
 absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const v1::Alignment proto,
       codec::Parse<v1::Alignment>(bytes, "alignment", codec::Empty::kIsLegal));
   Alignment alignment;
   for (const v1::Sim3& sim : proto.world_from_submodel()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 decoded, codec::FromProto(sim));
+    ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 decoded, codec::PlacementFromProto(sim));
     alignment.world_from_submodel.push_back(decoded);
   }
   alignment.world.assign(proto.world().begin(), proto.world().end());
   if (alignment.world.size() != alignment.world_from_submodel.size()) {
-    return absl::InvalidArgumentError("alignment: one world per submodel");
+    return absl::DataLossError("alignment: one world per submodel");
   }
   ORBWEAVE_ASSIGN_OR_RETURN(
       alignment.submodels,
@@ -130,6 +162,7 @@ absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
                                .position_jump_m = seam.position_jump_m(),
                                .rotation_jump_deg = seam.rotation_jump_deg()});
   }
+  ORBWEAVE_RETURN_IF_ERROR(CheckAlignment(alignment));
   return alignment;
 }
 
@@ -155,6 +188,9 @@ absl::StatusOr<PartitionReview> DecodePartitionReview(std::string_view bytes) {
     review.requests.push_back(
         {request.cluster_a(), request.cluster_b(), request.images(), request.reason()});
   }
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(std::ranges::all_of(review.requests, IsRequest),
+                                         "partition review",
+                                         "a request is not for two clusters"));
   return review;
 }
 

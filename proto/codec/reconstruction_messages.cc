@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proto/codec/reconstruction_messages.h"
 
+#include <algorithm>
+
+#include "proto/codec/plausible.h"
+
 namespace orbweave::codec {
 namespace {
 
 absl::StatusOr<Rigid3> ToPose(const PoseBytes& a) {
   const Rigid3 pose{Eigen::Quaterniond(a[0], a[1], a[2], a[3]), Eigen::Vector3d(a[4], a[5], a[6])};
-  if (!pose.translation.allFinite() || !(std::abs(pose.rotation.norm() - 1.0) < 1e-6)) {
-    return absl::InvalidArgumentError("reconstruction: a pose is not a rigid motion");
+  if (!IsPlace(pose.translation) || !(std::abs(pose.rotation.norm() - 1.0) < 1e-6)) {
+    return absl::DataLossError("reconstruction: a pose is not a rigid motion, or leads nowhere");
   }
   return pose;
 }
@@ -23,8 +27,8 @@ UncertaintyBytes PackUncertainty(const PoseUncertainty& uncertainty) {
 absl::StatusOr<PoseUncertainty> ToUncertainty(const UncertaintyBytes& a) {
   PoseUncertainty uncertainty{.rotation_sigma_rad = a[6]};
   uncertainty.position_covariance << a[0], a[3], a[4], a[3], a[1], a[5], a[4], a[5], a[2];
-  if (!uncertainty.position_covariance.allFinite() || !std::isfinite(a[6]) || a[6] < 0.0) {
-    return absl::InvalidArgumentError("reconstruction: an uncertainty is not a number");
+  if (!AreNumbers(uncertainty.position_covariance) || !IsAmount(a[6])) {
+    return absl::DataLossError("reconstruction: an uncertainty is not a number");
   }
   return uncertainty;
 }
@@ -87,6 +91,9 @@ absl::Status ImagesFromProto(const v1::Reconstruction& proto, Reconstruction& re
                             UnpackExactly<PoseBytes>(proto.cams_from_world(), ids.size(), "poses"));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto loose,
                             UnpackExactly<uint8_t>(proto.loose(), ids.size(), "flags"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(Ascends(ids), "reconstruction", "images are not in order"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(AreFlags(loose, 1), "reconstruction", "an image is neither loose nor not"));
   for (size_t i = 0; i < ids.size(); ++i) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Rigid3 pose, ToPose(poses[i]));
     reconstruction.images[ids[i]] = {.cam_from_world = pose, .loose = loose[i] != 0};
@@ -101,10 +108,12 @@ absl::Status UncertaintiesFromProto(const v1::Reconstruction& proto,
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto uncertainties,
       UnpackExactly<UncertaintyBytes>(proto.uncertainties(), ids.size(), "uncertainties"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(Ascends(ids), "reconstruction", "uncertainties are not in order"));
   for (size_t i = 0; i < ids.size(); ++i) {
     const auto image = reconstruction.images.find(ids[i]);
     if (image == reconstruction.images.end()) {
-      return absl::InvalidArgumentError(
+      return absl::DataLossError(
           "reconstruction: the uncertainty of an image that is not registered");
     }
     ORBWEAVE_ASSIGN_OR_RETURN(image->second.uncertainty, ToUncertainty(uncertainties[i]));
@@ -137,24 +146,26 @@ absl::Status TracksFromProto(const v1::Reconstruction& proto, Reconstruction& re
     Track& track = reconstruction.tracks[i];
     track.point_in_world = ToVector(points[i]);
     track.color = colors[i];
+    ORBWEAVE_RETURN_IF_ERROR(
+        Expect(IsPoint(track.point_in_world), "reconstruction", "a point is nowhere"));
     if (lengths[i] == 0 || lengths[i] > num_observations - next) {
-      return absl::InvalidArgumentError(
-          "reconstruction: track lengths do not match the observations");
+      return absl::DataLossError("reconstruction: track lengths do not match the observations");
     }
     for (const size_t end = next + lengths[i]; next < end; ++next) {
       const Eigen::Vector3d bearing = ToVector(bearings[next]);
-      if (!(std::abs(bearing.norm() - 1.0) < 1e-6)) {
-        return absl::InvalidArgumentError("reconstruction: a bearing is not a unit vector");
-      }
+      ORBWEAVE_RETURN_IF_ERROR(
+          Expect(IsDirection(bearing), "reconstruction", "a bearing is not a unit vector"));
+      ORBWEAVE_RETURN_IF_ERROR(
+          Expect(IsSigma(sigmas[next]), "reconstruction", "a sigma is not positive"));
       if (!reconstruction.images.contains(images[next])) {
-        return absl::InvalidArgumentError(
+        return absl::DataLossError(
             "reconstruction: an observation of an image that is not registered");
       }
       track.observations.push_back({{images[next], features[next]}, bearing, sigmas[next]});
     }
   }
   if (next != num_observations)
-    return absl::InvalidArgumentError("reconstruction: observations without a track");
+    return absl::DataLossError("reconstruction: observations without a track");
   return absl::OkStatus();
 }
 
@@ -173,6 +184,9 @@ absl::StatusOr<std::vector<Eigen::Vector3d>> UnpackVectors(const std::string& by
   std::vector<Eigen::Vector3d> vectors;
   vectors.reserve(arrays.size());
   for (const Vector3Bytes& array : arrays) vectors.push_back(ToVector(array));
+  const auto are_numbers = [](const Eigen::Vector3d& vector) { return AreNumbers(vector); };
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::all_of(vectors, are_numbers), what, "they are no numbers"));
   return vectors;
 }
 
@@ -200,15 +214,24 @@ void ToProto(const GnssReport& gnss, v1::GnssReport* proto) {
   for (const std::string& name : gnss.outliers) proto->add_outliers(name);
 }
 
-GnssReport FromProto(const v1::GnssReport& proto) {
-  return {.used = proto.used(),
-          .reason = proto.reason(),
-          .num_priors = proto.num_priors(),
-          .num_inliers = proto.num_inliers(),
-          .residual_median_m = proto.residual_median_m(),
-          .residual_rms_inliers_m = proto.residual_rms_inliers_m(),
-          .deformation_m = proto.deformation_m(),
-          .outliers = {proto.outliers().begin(), proto.outliers().end()}};
+absl::StatusOr<GnssReport> FromProto(const v1::GnssReport& proto) {
+  GnssReport report{.used = proto.used(),
+                    .reason = proto.reason(),
+                    .num_priors = proto.num_priors(),
+                    .num_inliers = proto.num_inliers(),
+                    .residual_median_m = proto.residual_median_m(),
+                    .residual_rms_inliers_m = proto.residual_rms_inliers_m(),
+                    .deformation_m = proto.deformation_m(),
+                    .outliers = {proto.outliers().begin(), proto.outliers().end()}};
+  ORBWEAVE_RETURN_IF_ERROR(Expect(IsAmount(report.residual_median_m) &&
+                                      IsAmount(report.residual_rms_inliers_m) &&
+                                      IsAmount(report.deformation_m),
+                                  "GNSS report",
+                                  "a distance is none"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(report.num_inliers <= report.num_priors,
+                                  "GNSS report",
+                                  "more positions agree than there are"));
+  return report;
 }
 
 void ToProto(const UncertaintyReport& report, v1::UncertaintyReport* proto) {
@@ -221,14 +244,20 @@ void ToProto(const UncertaintyReport& report, v1::UncertaintyReport* proto) {
   proto->set_vertical_gnss_sigma_factor(report.vertical_gnss_sigma_factor);
 }
 
-UncertaintyReport FromProto(const v1::UncertaintyReport& proto) {
-  return {.known = proto.known(),
-          .reason = proto.reason(),
-          .held_image = proto.held_image(),
-          .held_distance_to = proto.held_distance_to(),
-          .bearing_sigma_factor = proto.bearing_sigma_factor(),
-          .horizontal_gnss_sigma_factor = proto.horizontal_gnss_sigma_factor(),
-          .vertical_gnss_sigma_factor = proto.vertical_gnss_sigma_factor()};
+absl::StatusOr<UncertaintyReport> FromProto(const v1::UncertaintyReport& proto) {
+  UncertaintyReport report{.known = proto.known(),
+                           .reason = proto.reason(),
+                           .held_image = proto.held_image(),
+                           .held_distance_to = proto.held_distance_to(),
+                           .bearing_sigma_factor = proto.bearing_sigma_factor(),
+                           .horizontal_gnss_sigma_factor = proto.horizontal_gnss_sigma_factor(),
+                           .vertical_gnss_sigma_factor = proto.vertical_gnss_sigma_factor()};
+  ORBWEAVE_RETURN_IF_ERROR(Expect(IsAmount(report.bearing_sigma_factor) &&
+                                      IsAmount(report.horizontal_gnss_sigma_factor) &&
+                                      IsAmount(report.vertical_gnss_sigma_factor),
+                                  "uncertainty report",
+                                  "a factor is none"));
+  return report;
 }
 
 void ToProto(const BundleReport& report, v1::BundleReport* proto) {
@@ -245,6 +274,10 @@ absl::StatusOr<BundleReport> FromProto(const v1::BundleReport& proto) {
                       .iterations = proto.iterations(),
                       .converged = proto.converged()};
   ORBWEAVE_ASSIGN_OR_RETURN(report.biases_m, UnpackVectors(proto.biases_m(), "biases"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(IsAmount(report.initial_cost) && IsAmount(report.final_cost) && report.iterations >= 0,
+             "adjustment report",
+             "a cost or a count is none"));
   return report;
 }
 

@@ -22,6 +22,7 @@ inline Vector3Bytes ToArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.
 inline Eigen::Vector3d ToVector(const Vector3Bytes& a) { return {a[0], a[1], a[2]}; }
 
 [[nodiscard]] std::string PackVectors(const std::vector<Eigen::Vector3d>& vectors);
+/// DataLoss also for what is no number.
 [[nodiscard]] absl::StatusOr<std::vector<Eigen::Vector3d>> UnpackVectors(const std::string& bytes,
                                                                          const char* what);
 
@@ -29,10 +30,10 @@ void ToProto(const Reconstruction& reconstruction, v1::Reconstruction* proto);
 [[nodiscard]] absl::StatusOr<Reconstruction> FromProto(const v1::Reconstruction& proto);
 
 void ToProto(const GnssReport& gnss, v1::GnssReport* proto);
-[[nodiscard]] GnssReport FromProto(const v1::GnssReport& proto);
+[[nodiscard]] absl::StatusOr<GnssReport> FromProto(const v1::GnssReport& proto);
 
 void ToProto(const UncertaintyReport& report, v1::UncertaintyReport* proto);
-[[nodiscard]] UncertaintyReport FromProto(const v1::UncertaintyReport& proto);
+[[nodiscard]] absl::StatusOr<UncertaintyReport> FromProto(const v1::UncertaintyReport& proto);
 
 void ToProto(const BundleReport& report, v1::BundleReport* proto);
 [[nodiscard]] absl::StatusOr<BundleReport> FromProto(const v1::BundleReport& proto);

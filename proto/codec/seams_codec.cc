@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 namespace {
@@ -26,6 +27,11 @@ void ToProto(const SubmodelOutline& outline, v1::SubmodelOutline* proto) {
 absl::StatusOr<SubmodelOutline> FromProto(const v1::SubmodelOutline& proto) {
   SubmodelOutline outline{.name = {proto.cluster(), proto.submodel()}, .length = proto.length()};
   ORBWEAVE_ASSIGN_OR_RETURN(outline.images, codec::Unpack<ImageId>(proto.images(), "images"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(outline.images), "seams", "images are not in order"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(outline.length > 0.0 && codec::IsLength(outline.length),
+                                         "seams",
+                                         "a submodel has no length"));
   return outline;
 }
 
@@ -42,6 +48,28 @@ void ToProto(const SeamFit& fit, v1::FittedSeam* proto) {
   proto->set_inlier_cameras(fit.inlier_cameras);
 }
 
+/// A similarity that the evidence leaves open has a condition of up to infinity, and nobody looks
+/// at its covariance.
+absl::Status CheckFit(const SeamFit& fit) {
+  using codec::Expect;
+  constexpr double kWorstCondition = 1e9;
+  const Matrix7d& C = fit.covariance;
+  ORBWEAVE_RETURN_IF_ERROR(Expect(codec::AreNumbers(fit.chart.anchor_in_b) &&
+                                      fit.chart.length_in_a > 0.0 &&
+                                      codec::IsNumber(fit.chart.length_in_a),
+                                  "seam",
+                                  "its chart is none"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(fit.condition_number >= 0.0, "seam", "its condition is no number"));
+  if (fit.condition_number > kWorstCondition) return absl::OkStatus();
+  ORBWEAVE_RETURN_IF_ERROR(Expect(codec::AreNumbers(C) &&
+                                      (C - C.transpose()).norm() <= 1e-6 * C.norm() &&
+                                      (C.diagonal().array() > 0.0).all(),
+                                  "seam",
+                                  "its covariance is none"));
+  return absl::OkStatus();
+}
+
 absl::StatusOr<SeamFit> FitFromProto(const v1::FittedSeam& proto) {
   SeamFit fit{.condition_number = proto.condition_number(),
               .inlier_tracks = proto.inlier_tracks(),
@@ -53,6 +81,7 @@ absl::StatusOr<SeamFit> FitFromProto(const v1::FittedSeam& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<double> covariance,
                             codec::UnpackExactly<double>(proto.covariance(), 49, "covariance"));
   fit.covariance = Eigen::Map<const Matrix7d>(covariance.data());
+  ORBWEAVE_RETURN_IF_ERROR(CheckFit(fit));
   return fit;
 }
 
@@ -70,7 +99,7 @@ void ToProto(const FittedSeam& seam, v1::FittedSeam* proto) {
 
 absl::StatusOr<std::vector<SharedPose>> SharedFromProto(const v1::FittedSeam& proto) {
   if (proto.cams_from_a_size() != proto.cams_from_b_size())
-    return absl::InvalidArgumentError("seam: shared images need a pose on both sides");
+    return absl::DataLossError("seam: shared images need a pose on both sides");
   std::vector<SharedPose> shared;
   for (int i = 0; i < proto.cams_from_a_size(); ++i) {
     SharedPose& pose = shared.emplace_back();
@@ -90,6 +119,12 @@ absl::StatusOr<FittedSeam> FromProto(const v1::FittedSeam& proto) {
                   .extent_b = proto.extent_b()};
   ORBWEAVE_ASSIGN_OR_RETURN(seam.shared, SharedFromProto(proto));
   ORBWEAVE_ASSIGN_OR_RETURN(seam.fit, FitFromProto(proto));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(seam.a < seam.b, "seam", "it is not between two submodels in order"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::IsAmount(seam.extent_a) && codec::IsAmount(seam.extent_b),
+                    "seam",
+                    "an extent is none"));
   return seam;
 }
 
@@ -110,6 +145,9 @@ absl::StatusOr<SeamsOfCluster> DecodeSeamsOfCluster(std::string_view bytes) {
   for (const v1::SubmodelOutline& outline : proto.submodels()) {
     ORBWEAVE_ASSIGN_OR_RETURN(seams.submodels.emplace_back(), FromProto(outline));
   }
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(codec::Ascends(seams.submodels, &SubmodelOutline::name),
+                                         "seams",
+                                         "submodels are not in order"));
   for (const v1::FittedSeam& seam : proto.seams()) {
     ORBWEAVE_ASSIGN_OR_RETURN(seams.seams.emplace_back(), FromProto(seam));
   }

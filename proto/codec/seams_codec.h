@@ -11,8 +11,8 @@
 namespace orbweave {
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeSeamsOfCluster(const SeamsOfCluster& seams);
-/// InvalidArgument or DataLoss: arrays that do not match, a pose that is no rigid motion, a
-/// similarity that is none.
+/// DataLoss: arrays that do not match, a pose that is no rigid motion, a
+/// similarity or a covariance that is none, submodels out of order.
 [[nodiscard]] absl::StatusOr<SeamsOfCluster> DecodeSeamsOfCluster(std::string_view bytes);
 
 }  // namespace orbweave

@@ -9,6 +9,7 @@
 #include "orbweave/v1/adjustment.pb.h"
 #include "proto/codec/adjustment_messages.h"
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
@@ -45,6 +46,13 @@ absl::Status ImagesFromProto(const v1::Subproblem& proto, Subproblem& subproblem
                             codec::UnpackExactly<uint8_t>(proto.flags(), count, "image flags"));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto owners,
                             codec::UnpackExactly<uint32_t>(proto.owners(), count, "image owners"));
+  const auto has_size = [](const std::array<int32_t, 2>& camera) {
+    return codec::IsSize(camera[0]) && codec::IsSize(camera[1]);
+  };
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(std::ranges::all_of(cameras, has_size), "world block", "a camera has no size"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      codec::AreFlags(flags, kSeparator | kHeld), "world block", "unknown flags of an image"));
   size_t i = 0;
   for (const auto& [id, image] : subproblem.scene.images) {
     subproblem.images.push_back({.id = id,
@@ -74,6 +82,11 @@ absl::Status SplitFromProto(const v1::Subproblem& proto, Subproblem& subproblem)
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto ids,
       codec::UnpackExactly<uint32_t>(proto.split_ids(), parts.tracks.size(), "split tracks"));
+  constexpr uint32_t kMostSplit = 0x7fffffffU;  // what is above names inner points
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(ids) && (ids.empty() || ids.back() <= kMostSplit),
+                    "world block",
+                    "split tracks are not in order"));
   for (size_t i = 0; i < ids.size(); ++i)
     subproblem.split.push_back({ids[i], std::move(parts.tracks[i])});
   return absl::OkStatus();
@@ -115,7 +128,12 @@ absl::Status PriorsFromProto(const v1::Subproblem& proto, Subproblem& subproblem
                           .sigma_m = ToVector(sigmas[i])};
     if (groups[i] >= 0) prior.bias_group = static_cast<uint32_t>(groups[i]);
     if (!subproblem.scene.images.contains(prior.image))
-      return absl::InvalidArgumentError("world block: a prior of an image it does not hold");
+      return absl::DataLossError("world block: a prior of an image it does not hold");
+    const auto is_sigma = [](double sigma_m) { return codec::IsSigma(sigma_m); };
+    ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+        codec::IsPlace(prior.position_in_world) && std::ranges::all_of(sigmas[i], is_sigma),
+        "world block",
+        "a prior is no position"));
     subproblem.priors.push_back(prior);
   }
   return absl::OkStatus();
@@ -151,9 +169,10 @@ absl::Status DirectionsFromProto(const v1::Subproblem& proto, Subproblem& subpro
   for (size_t i = 0; i < images.size(); ++i) {
     const DirectionBytes& d = directions[i];
     if (!subproblem.scene.images.contains(images[i]))
-      return absl::InvalidArgumentError("world block: a direction of an image it does not hold");
-    if (!std::ranges::all_of(d, [](double value) { return std::isfinite(value); }) || !(d[6] > 0.0))
-      return absl::InvalidArgumentError("world block: a direction is not a number");
+      return absl::DataLossError("world block: a direction of an image it does not hold");
+    if (!codec::AreNumbers(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(d.data())) ||
+        !codec::IsSigma(d[6]))
+      return absl::DataLossError("world block: a direction is not a number");
     subproblem.directions.push_back({.image = images[i],
                                      .direction_in_world = {d[0], d[1], d[2]},
                                      .direction_in_cam = {d[3], d[4], d[5]},
@@ -193,8 +212,9 @@ absl::Status ErrorsFromProto(const v1::Georeference& proto, Georeference& georef
       codec::UnpackExactly<DriveErrorBytes>(proto.drive_errors(), drives.size(), "drive errors"));
   for (size_t i = 0; i < drives.size(); ++i) {
     const DriveErrorBytes& v = values[i];
-    if (!std::ranges::all_of(v, [](double value) { return std::isfinite(value); }))
-      return absl::InvalidArgumentError("drive errors: not a number");
+    if (!std::ranges::all_of(v, codec::IsLength) || v[2] < 0.0 || v[3] < 0.0)
+      return absl::DataLossError("drive errors: not a number");
+    if (drives[i][1] > 1) return absl::DataLossError("drive errors: unknown flags");
     georeference.drive_errors.push_back({.drive = drives[i][0],
                                          .has_times = drives[i][1] != 0,
                                          .ahead = v[0],
@@ -203,8 +223,10 @@ absl::Status ErrorsFromProto(const v1::Georeference& proto, Georeference& georef
                                          .left_sigma_m = v[3],
                                          .offset_m = {v[4], v[5], v[6]}});
   }
-  if (!std::isfinite(proto.gnss_inflation()) || !(proto.gnss_inflation() >= 1.0))
-    return absl::InvalidArgumentError("georeference: positions worth more than they are");
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      codec::Ascends(georeference.drive_errors, &DriveErrors::drive), "drive errors", "no order"));
+  if (!codec::IsNumber(proto.gnss_inflation()) || !(proto.gnss_inflation() >= 1.0))
+    return absl::DataLossError("georeference: positions worth more than they are");
   georeference.gnss_inflation = proto.gnss_inflation();
   for (const v1::CrossCheck& check : proto.checks()) {
     ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
@@ -225,6 +247,68 @@ void ToProto(const Subproblem& subproblem, v1::Subproblem* proto) {
   if (subproblem.farthest) proto->set_farthest(subproblem.farthest->value);
 }
 
+/// Whether terms of the adjustment can depend on its pose.
+bool IsFirm(const Subproblem& subproblem, ImageId id) {
+  const auto image = subproblem.scene.images.find(id);
+  return image != subproblem.scene.images.end() && !image->second.loose;
+}
+
+absl::Status CheckGauge(const Subproblem& subproblem) {
+  using codec::Expect;
+  const auto is_both = [](const SubproblemImage& image) {
+    return image.is_held && image.is_separator;
+  };
+  ORBWEAVE_RETURN_IF_ERROR(Expect(std::ranges::none_of(subproblem.images, is_both),
+                                  "world block",
+                                  "an image is held and moves"));
+  const auto held = std::ranges::find_if(subproblem.images, &SubproblemImage::is_held);
+  const bool holds = held != subproblem.images.end();
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::count_if(subproblem.images, &SubproblemImage::is_held) <= 1 &&
+                 (!holds || IsFirm(subproblem, held->id)),
+             "world block",
+             "it holds more than one image, or one without a place"));
+  const std::optional<ImageId>& farthest = subproblem.farthest;
+  return Expect(!farthest || (holds && *farthest != held->id && IsFirm(subproblem, *farthest)),
+                "world block",
+                "a distance that it cannot hold");
+}
+
+/// What its terms name is there.
+absl::Status CheckTerms(const Subproblem& subproblem) {
+  using codec::Expect;
+  constexpr char kWhat[] = "world block";
+  const auto is_firm = [&](ImageId id) { return IsFirm(subproblem, id); };
+  const auto is_seen_firmly = [&](const Track& track) {
+    return std::ranges::all_of(track.observations,
+                               [&](const Observation& seen) { return is_firm(seen.ref.image); });
+  };
+  const auto has_bias = [&](const SubproblemPrior& prior) {
+    return !prior.bias_group ||
+           std::ranges::binary_search(
+               subproblem.biases, *prior.bias_group, {}, &SubproblemBias::group);
+  };
+  const auto moves_nothing = [](const SubproblemBias& bias) {
+    return bias.is_separator && bias.sigma_m == 0.0;
+  };
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::all_of(subproblem.scene.tracks, is_seen_firmly) &&
+                 std::ranges::all_of(subproblem.split, is_seen_firmly, &SplitTrack::part),
+             kWhat,
+             "a track is seen by an image without a place"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::all_of(subproblem.priors, is_firm, &SubproblemPrior::image) &&
+                 std::ranges::all_of(subproblem.directions, is_firm, &SubproblemDirection::image),
+             kWhat,
+             "a prior of an image without a place"));
+  ORBWEAVE_RETURN_IF_ERROR(Expect(std::ranges::all_of(subproblem.priors, has_bias),
+                                  kWhat,
+                                  "a prior of a drive whose bias it does not have"));
+  return Expect(std::ranges::none_of(subproblem.biases, moves_nothing),
+                kWhat,
+                "a bias that cannot move and shall");
+}
+
 absl::StatusOr<Subproblem> FromProto(const v1::Subproblem& proto) {
   Subproblem subproblem{.world = proto.world(), .cluster = proto.cluster()};
   ORBWEAVE_ASSIGN_OR_RETURN(subproblem.scene, codec::FromProto(proto.scene()));
@@ -234,6 +318,8 @@ absl::StatusOr<Subproblem> FromProto(const v1::Subproblem& proto) {
   ORBWEAVE_RETURN_IF_ERROR(DirectionsFromProto(proto, subproblem));
   ORBWEAVE_ASSIGN_OR_RETURN(subproblem.biases, codec::FromProto(proto.biases()));
   if (proto.has_farthest()) subproblem.farthest = ImageId(proto.farthest());
+  ORBWEAVE_RETURN_IF_ERROR(CheckGauge(subproblem));
+  ORBWEAVE_RETURN_IF_ERROR(CheckTerms(subproblem));
   return subproblem;
 }
 
@@ -270,11 +356,17 @@ absl::StatusOr<AssembleRecipe> DecodeAssembleRecipe(std::string_view bytes) {
   AssembleRecipe recipe;
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.joined.subproblem, FromProto(proto.subproblem()));
   for (const v1::PlacedSubmodel& placed : proto.submodels()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 pose, codec::FromProto(placed.world_from_submodel()));
+    ORBWEAVE_ASSIGN_OR_RETURN(const Sim3 pose,
+                              codec::PlacementFromProto(placed.world_from_submodel()));
     recipe.joined.submodels.push_back({placed.submodel(), pose});
   }
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.cluster_result, codec::UnpackDigest(proto.cluster_result()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.shared, codec::Unpack<ImageId>(proto.shared(), "shared images"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(codec::Ascends(recipe.shared) &&
+                        codec::Ascends(recipe.joined.submodels, &PlacedSubmodel::submodel),
+                    "assemble recipe",
+                    "shared images or submodels are not in order"));
   return recipe;
 }
 
@@ -299,6 +391,28 @@ absl::StatusOr<std::string> EncodeJoinedWorlds(const std::vector<JoinedWorld>& w
   return codec::Serialize(proto, "joined worlds", codec::Empty::kIsLegal);
 }
 
+namespace {
+
+/// Of a model without extent the uncertainty of its scale is no number.
+absl::Status CheckGeoreference(const Georeference& georeference) {
+  return codec::Expect(
+      codec::IsAmount(georeference.horizontal_scatter_m) &&
+          codec::IsAmount(georeference.vertical_scatter_m) &&
+          codec::IsAmount(georeference.deformation_m) &&
+          (!georeference.enu_from_world || codec::IsAmount(georeference.scale_uncertainty)),
+      "georeference",
+      "a distance or a share is none");
+}
+
+absl::Status CheckCosts(const PointCosts& costs) {
+  return codec::Expect(
+      codec::IsAmount(costs.total) && std::ranges::all_of(costs.per_point, codec::IsAmount),
+      "block state",
+      "a cost is none");
+}
+
+}  // namespace
+
 absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const v1::JoinedWorlds proto,
@@ -309,7 +423,7 @@ absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view byt
     JoinedWorld& out = worlds.emplace_back();
     if (georeference.has_enu_from_world()) {
       ORBWEAVE_ASSIGN_OR_RETURN(out.georeference.enu_from_world,
-                                codec::FromProto(georeference.enu_from_world()));
+                                codec::PlacementFromProto(georeference.enu_from_world()));
     }
     out.georeference.reason = georeference.reason();
     out.georeference.horizontal_scatter_m = georeference.horizontal_scatter_m();
@@ -317,6 +431,7 @@ absl::StatusOr<std::vector<JoinedWorld>> DecodeJoinedWorlds(std::string_view byt
     out.georeference.scale_uncertainty = georeference.scale_uncertainty();
     out.georeference.deformation_m = georeference.deformation_m();
     ORBWEAVE_RETURN_IF_ERROR(ErrorsFromProto(georeference, out.georeference));
+    ORBWEAVE_RETURN_IF_ERROR(CheckGeoreference(out.georeference));
     out.merge = {world.united_tracks(), world.conflicting_tracks()};
     out.num_images = world.num_images();
     out.num_subproblems = world.num_subproblems();
@@ -349,14 +464,16 @@ absl::StatusOr<EvaluatedState> DecodeSubproblemState(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto poses, codec::Unpack<PoseBytes>(proto.poses(), "poses"));
   for (const PoseBytes& a : poses) {
     const Eigen::Quaterniond q(a[0], a[1], a[2], a[3]);
-    if (!(std::abs(q.norm() - 1.0) < 1e-6))
-      return absl::InvalidArgumentError("block state: a pose is not a rigid motion");
+    if (!(std::abs(q.norm() - 1.0) < 1e-6) || !codec::IsLength(a[4]) || !codec::IsLength(a[5]) ||
+        !codec::IsLength(a[6]))
+      return absl::DataLossError("block state: a pose is not a rigid motion");
     state.variables.poses.push_back(MakePoseState(q, {a[4], a[5], a[6]}));
   }
   ORBWEAVE_ASSIGN_OR_RETURN(state.variables.points, codec::UnpackVectors(proto.points(), "points"));
   ORBWEAVE_ASSIGN_OR_RETURN(state.variables.biases, codec::UnpackVectors(proto.biases(), "biases"));
   ORBWEAVE_ASSIGN_OR_RETURN(state.costs.per_point, codec::Unpack<double>(proto.costs(), "costs"));
   state.costs.total = proto.total_cost();
+  ORBWEAVE_RETURN_IF_ERROR(CheckCosts(state.costs));
   ORBWEAVE_ASSIGN_OR_RETURN(state.retained_points_before,
                             codec::UnpackVectors(proto.retained_before(), "kept points"));
   return state;

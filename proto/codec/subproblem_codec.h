@@ -10,8 +10,8 @@
 #include "core/base/status.h"
 #include "core/partitioned_ba/subproblem_eliminator.h"
 
-/// Subproblems of the global adjustment and their states. Decoders: DataLoss or InvalidArgument for
-/// arrays that do not match.
+/// Subproblems of the global adjustment and their states. Decoders: DataLoss for arrays
+/// that do not match, numbers that are none, and terms of what is not there.
 
 namespace orbweave {
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "proto/codec/pack.h"
+#include "proto/codec/plausible.h"
 
 namespace orbweave {
 
@@ -14,13 +16,35 @@ static_assert(sizeof(FeatureMatch) == 8 && sizeof(ImagePair) == 8 && sizeof(Imag
 
 namespace {
 
+constexpr double kLongestDirection = 1.0 + 1e-6;  // zero where there is none
+constexpr double kLargestAngle_rad = std::numbers::pi + 1e-6;
+
+bool IsOrdered(const ImagePair& pair) { return pair.a < pair.b; }
+
+absl::Status CheckGeometry(const TwoViewGeometry& geometry) {
+  using codec::Expect;
+  constexpr char kWhat[] = "two-view geometry";
+  ORBWEAVE_RETURN_IF_ERROR(Expect(geometry.b_from_a.translation.norm() <= kLongestDirection,
+                                  kWhat,
+                                  "its translation is no direction"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::is_sorted(geometry.inliers), kWhat, "matches are not in order"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(geometry.median_angle_rad >= 0.0 && geometry.median_angle_rad <= kLargestAngle_rad,
+             kWhat,
+             "its angle is none"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(codec::IsShare(geometry.spread), kWhat, "its spread is no share"));
+  return Expect(codec::IsNumber(geometry.log10_false_alarms), kWhat, "its evidence is no number");
+}
+
 absl::StatusOr<TwoViewGeometry> FromProto(const v1::TwoViewGeometry& proto) {
   TwoViewGeometry geometry;
   geometry.pair = {ImageId(proto.a()), ImageId(proto.b())};
   if (!(geometry.pair.a < geometry.pair.b))
-    return absl::InvalidArgumentError("two-view geometry: pair out of order");
+    return absl::DataLossError("two-view geometry: pair out of order");
   if (proto.kind() > static_cast<uint32_t>(TwoViewKind::kPlanar)) {
-    return absl::InvalidArgumentError("two-view geometry: unknown kind");
+    return absl::DataLossError("two-view geometry: unknown kind");
   }
   geometry.kind = static_cast<TwoViewKind>(proto.kind());
   ORBWEAVE_ASSIGN_OR_RETURN(geometry.b_from_a, codec::FromProto(proto.b_from_a()));
@@ -30,11 +54,50 @@ absl::StatusOr<TwoViewGeometry> FromProto(const v1::TwoViewGeometry& proto) {
   geometry.median_angle_rad = proto.median_angle_rad();
   geometry.spread = proto.spread();
   geometry.log10_false_alarms = proto.log10_false_alarms();
-  if (!std::isfinite(geometry.log10_false_alarms) || proto.rung() >= kNumMatchRungs) {
-    return absl::InvalidArgumentError("two-view geometry: unknown rung, or evidence is no number");
-  }
+  if (proto.rung() >= kNumMatchRungs) return absl::DataLossError("two-view geometry: unknown rung");
   geometry.rung = static_cast<MatchRung>(proto.rung());
+  ORBWEAVE_RETURN_IF_ERROR(CheckGeometry(geometry));
   return geometry;
+}
+
+absl::Status CheckCluster(const Cluster& cluster) {
+  using codec::Ascends;
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(Ascends(cluster.images) && Ascends(cluster.interior),
+                                         "partition",
+                                         "images of a cluster are not in order"));
+  return codec::Expect(std::ranges::includes(cluster.images, cluster.interior),
+                       "partition",
+                       "a cluster lacks an image of its interior");
+}
+
+absl::Status CheckSeam(const Seam& seam, const std::vector<Cluster>& clusters) {
+  using codec::Expect;
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(seam.cluster_a < seam.cluster_b && seam.cluster_b < clusters.size(),
+             "partition",
+             "a seam is not between two clusters"));
+  return Expect(codec::Ascends(seam.shared) &&
+                    std::ranges::includes(clusters[seam.cluster_a].images, seam.shared) &&
+                    std::ranges::includes(clusters[seam.cluster_b].images, seam.shared),
+                "partition",
+                "a seam shares an image that its clusters do not");
+}
+
+absl::Status CheckEdges(const DividedViewGraph& divided) {
+  using codec::Expect;
+  const auto is_dropped_pair = [](const DroppedEdge& edge) { return IsOrdered(edge.pair); };
+  ORBWEAVE_RETURN_IF_ERROR(Expect(std::ranges::all_of(divided.edges, IsOrdered) &&
+                                      codec::Ascends(divided.edges) &&
+                                      std::ranges::all_of(divided.dropped, is_dropped_pair),
+                                  "partition",
+                                  "edges are not in order"));
+  const auto most_kind = static_cast<uint8_t>(TwoViewKind::kPlanar);
+  return Expect(
+      std::ranges::all_of(divided.edge_kinds, [=](uint8_t kind) { return kind <= most_kind; }) &&
+          std::ranges::all_of(divided.edge_rungs,
+                              [](uint8_t rung) { return rung < kNumMatchRungs; }),
+      "partition",
+      "unknown kind or rung of an edge");
 }
 
 }  // namespace
@@ -106,17 +169,19 @@ absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) 
     Cluster cluster;
     ORBWEAVE_ASSIGN_OR_RETURN(cluster.images, codec::Unpack<ImageId>(in.images(), "cluster"));
     ORBWEAVE_ASSIGN_OR_RETURN(cluster.interior, codec::Unpack<ImageId>(in.interior(), "cluster"));
+    ORBWEAVE_RETURN_IF_ERROR(CheckCluster(cluster));
     divided.partition.clusters.push_back(std::move(cluster));
   }
   for (const v1::Seam& in : proto.seams()) {
     Seam seam{.cluster_a = in.cluster_a(), .cluster_b = in.cluster_b()};
     ORBWEAVE_ASSIGN_OR_RETURN(seam.shared, codec::Unpack<ImageId>(in.shared(), "seam"));
     seam.weakness = in.weakness();
+    ORBWEAVE_RETURN_IF_ERROR(CheckSeam(seam, divided.partition.clusters));
     divided.partition.seams.push_back(std::move(seam));
   }
   for (const v1::DroppedEdge& in : proto.dropped()) {
     if (in.cause() > static_cast<uint32_t>(DropCause::kSequence))
-      return absl::InvalidArgumentError("partition: an edge dropped for an unknown cause");
+      return absl::DataLossError("partition: an edge dropped for an unknown cause");
     divided.dropped.push_back(
         {{ImageId(in.a()), ImageId(in.b())}, in.reason(), static_cast<DropCause>(in.cause())});
   }
@@ -127,10 +192,7 @@ absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes) 
   ORBWEAVE_ASSIGN_OR_RETURN(
       divided.edge_rungs,
       codec::UnpackExactly<uint8_t>(proto.edge_rungs(), divided.edges.size(), "rungs of edges"));
-  if (std::ranges::any_of(divided.edge_rungs,
-                          [](uint8_t rung) { return rung >= kNumMatchRungs; })) {
-    return absl::InvalidArgumentError("partition: unknown rung of an edge");
-  }
+  ORBWEAVE_RETURN_IF_ERROR(CheckEdges(divided));
   return divided;
 }
 

@@ -14,11 +14,12 @@ namespace orbweave {
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeTwoViewGeometries(
     const std::vector<TwoViewGeometry>& pairs);
-/// InvalidArgument or DataLoss: not a list of ordered pairs with proper poses.
+/// DataLoss: not a list of ordered pairs with proper poses and numbers.
 [[nodiscard]] absl::StatusOr<std::vector<TwoViewGeometry>> DecodeTwoViewGeometries(
     std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeDividedViewGraph(const DividedViewGraph& divided);
+/// DataLoss: images not in order, seams that are not between the clusters.
 [[nodiscard]] absl::StatusOr<DividedViewGraph> DecodeDividedViewGraph(std::string_view bytes);
 
 }  // namespace orbweave

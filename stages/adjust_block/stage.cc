@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/artifacts/check_adjustment.h"
 #include "core/merging/inspect_subproblem.h"
 #include "stages/codecs.h"
 
@@ -30,6 +31,7 @@ absl::StatusOr<SubproblemSolver> MakeWorker(const SubproblemTask& request,
   std::optional<EvaluatedState> state;
   if (!request.state.IsZero()) {
     ORBWEAVE_ASSIGN_OR_RETURN(state, task.Fetch<EvaluatedState>(request.state));
+    ORBWEAVE_RETURN_IF_ERROR(BlameBlob(CheckState(subproblem, *state), request.state));
   }
   return SubproblemSolver(
       std::move(subproblem),
@@ -75,6 +77,8 @@ absl::Status AdjustBlockStage::RunWith(SubproblemCache& cache, StageTask<AdjustB
     ready = SubproblemCache::Ready{std::move(worker), request.request};
   }
   SubproblemSolver& worker = ready->worker;
+  ORBWEAVE_RETURN_IF_ERROR(
+      CheckRequest(worker.subproblem(), request.request, !request.state.IsZero()));
   SubproblemResult done{.reply = worker.Execute(ready->request)};
   ORBWEAVE_RETURN_IF_ERROR(LeaveBulk(request.request, worker, done, task));
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::reply, done).status());

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/artifacts/check_adjustment.h"
+#include "core/artifacts/check_bounds.h"
 #include "core/merging/attach_loose_images.h"
 #include "core/merging/finalise_adjustment.h"
 #include "core/merging/inspect_subproblem.h"
@@ -21,6 +23,8 @@ absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& ta
                             task.Read(&ConcludeAdjustmentStage::progress));
   ORBWEAVE_ASSIGN_OR_RETURN(const DividedViewGraph divided,
                             task.Read(&ConcludeAdjustmentStage::divided));
+  ORBWEAVE_RETURN_IF_ERROR(CheckFinished(progress, worlds));
+  ORBWEAVE_RETURN_IF_ERROR(CheckPartition(divided.partition, manifest));
   const GlobalAdjustOptions& options = task.options<GlobalAdjustOptions>();
   FinalisedModel model;
   for (uint32_t world = 0; world < worlds.size(); ++world) {
@@ -34,6 +38,7 @@ absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& ta
       ORBWEAVE_ASSIGN_OR_RETURN(adjusted.inspections.emplace_back(),
                                 task.Fetch<SubproblemInspection>(place.inspection));
     }
+    ORBWEAVE_RETURN_IF_ERROR(CheckAdjustedWorld(adjusted, worlds[world].georeference, manifest));
     model.worlds.push_back(FinaliseAdjustment(std::move(adjusted),
                                               divided.partition.seams,
                                               worlds[world].georeference,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/artifacts/check_bounds.h"
 #include "core/graph/shared_images.h"
 #include "core/merging/join_submodels.h"
 #include "stages/codecs.h"
@@ -23,8 +24,10 @@ absl::Status JoinSubmodelsStage::Run(StageTask<JoinSubmodelsStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Submodel> boundaries,
                             LoadBoundaries(boundary_blobs, task.blobs()));
   ORBWEAVE_ASSIGN_OR_RETURN(const Alignment alignment, task.Read(&JoinSubmodelsStage::alignment));
-  if (alignment.world.size() != boundaries.size())
-    return absl::InvalidArgumentError("join_submodels: the alignment is of other submodels");
+  ORBWEAVE_RETURN_IF_ERROR(CheckPartition(divided.partition, manifest));
+  ORBWEAVE_RETURN_IF_ERROR(CheckSubmodels(boundaries, alignment, divided.partition));
+  if (clusters.size() != divided.partition.clusters.size())
+    return DoesNotFit("not one reconstruction for each cluster");
   // Options of later steps do not change what is drawn, so that subproblems keep their names.
   StageContext seeded = task.context();
   seeded.seed = task.DigestOf(&JoinSubmodelsStage::boundaries).ToSeed();
@@ -40,7 +43,7 @@ absl::Status JoinSubmodelsStage::Run(StageTask<JoinSubmodelsStage>& task) {
   for (JoinedSubproblem& subproblem : joined.subproblems) {
     const uint32_t cluster = subproblem.subproblem.cluster;
     const AssembleRecipe recipe{
-        std::move(subproblem), clusters.at(cluster), SharedImages(divided.partition, cluster)};
+        std::move(subproblem), clusters[cluster], SharedImages(divided.partition, cluster)};
     ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::subproblems, recipe));
   }
   task.Report(

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/artifacts/check_bounds.h"
 #include "core/graph/choose_edges.h"
 #include "core/graph/partition_view_graph.h"
 #include "core/scene/view_edge_of.h"
@@ -23,13 +24,14 @@ struct CollectedEdges {
   std::map<ImagePair, Digest> blob_of_pair{};
 };
 
-absl::StatusOr<CollectedEdges> CollectEdges(Task& task) {
+absl::StatusOr<CollectedEdges> CollectEdges(const ImageManifest& manifest, Task& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Digest> blobs,
                             task.Read(&PartitionViewGraphStage::verified));
   CollectedEdges collected;
   for (const Digest& digest : blobs) {
     ORBWEAVE_ASSIGN_OR_RETURN(const auto geometries,
                               task.Fetch<std::vector<TwoViewGeometry>>(digest));
+    ORBWEAVE_RETURN_IF_ERROR(BlameBlob(CheckPairs(geometries, manifest), digest));
     for (const TwoViewGeometry& geometry : geometries) {
       collected.edges.push_back(ViewEdgeOf(geometry));
       collected.blob_of_pair[geometry.pair] = digest;
@@ -61,6 +63,8 @@ absl::StatusOr<Partition> DivideOrWiden(const ViewGraph& graph,
                             task.Read(&PartitionViewGraphStage::before));
   ORBWEAVE_ASSIGN_OR_RETURN(const PartitionReview review,
                             task.Read(&PartitionViewGraphStage::review));
+  ORBWEAVE_RETURN_IF_ERROR(CheckPartition(before.partition, manifest));
+  ORBWEAVE_RETURN_IF_ERROR(CheckRequests(review.requests, before.partition));
   if (!review.requests.empty())
     return WidenOverlaps(graph, before.partition, review.requests, options);
   if (by_hand.empty()) return PartitionViewGraph(graph, options);
@@ -76,7 +80,9 @@ absl::Status PartitionViewGraphStage::Run(StageTask<PartitionViewGraphStage>& ta
                             task.Read(&PartitionViewGraphStage::manifest));
   ORBWEAVE_ASSIGN_OR_RETURN(const InterleavedDigests features,
                             task.Read(&PartitionViewGraphStage::features));
-  ORBWEAVE_ASSIGN_OR_RETURN(const CollectedEdges collected, CollectEdges(task));
+  if (features.first.size() != manifest.images.size())
+    return DoesNotFit("not one Features blob for each image");
+  ORBWEAVE_ASSIGN_OR_RETURN(const CollectedEdges collected, CollectEdges(manifest, task));
   ChosenEdges chosen = ChooseEdges(collected.edges, manifest, task.options<ViewGraphOptions>());
   DividedViewGraph divided{.dropped = std::move(chosen.dropped)};
   ORBWEAVE_ASSIGN_OR_RETURN(divided.partition, DivideOrWiden(chosen.graph, manifest, task));

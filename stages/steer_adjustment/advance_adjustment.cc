@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/artifacts/check_adjustment.h"
+
 namespace orbweave {
 namespace {
 
@@ -83,8 +85,9 @@ absl::StatusOr<AdvancedAdjustment> AdvanceAdjustment(AdjustmentProgress progress
       return absl::InvalidArgumentError("steer_adjustment: " + std::to_string(results.size()) +
                                         " results are too few");
     }
-    const std::span<SubproblemResult> own(&results[first], places.size());
+    const std::span<SubproblemResult> own = std::span(results).subspan(first, places.size());
     first += places.size();
+    ORBWEAVE_RETURN_IF_ERROR(CheckReplies(path, own, options));
     TakePlaces(path.asked, places, own);
     std::vector<LmReply> replies;
     for (SubproblemResult& result : own) replies.push_back(std::move(result.reply));

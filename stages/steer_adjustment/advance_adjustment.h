@@ -22,7 +22,7 @@ struct AdvancedAdjustment {
                                                  const BundleOptions& bundle);
 
 /// The next round, from the results of all tasks of the last one, in their order. InvalidArgument:
-/// another number of them.
+/// another number of them. DataLoss: they are not what was asked for (CheckReplies).
 [[nodiscard]] absl::StatusOr<AdvancedAdjustment> AdvanceAdjustment(
     AdjustmentProgress progress,
     std::vector<SubproblemResult> results,

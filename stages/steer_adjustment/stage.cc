@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/artifacts/check_bounds.h"
 #include "core/merging/inspect_subproblem.h"
 #include "core/partitioned_ba/adjust_subproblems.h"
 #include "stages/codecs.h"
@@ -36,6 +37,8 @@ absl::StatusOr<GlobalAdjustReport> AdjustHere(uint32_t world,
   std::vector<Subproblem> own;
   for (const Digest& subproblem : subproblems) {
     ORBWEAVE_ASSIGN_OR_RETURN(own.emplace_back(), task.Fetch<Subproblem>(subproblem));
+    if (own.back().world != world)
+      return BlameBlob(DoesNotFit("a block is of another world"), subproblem);
   }
   ORBWEAVE_ASSIGN_OR_RETURN(AdjustedSubproblems adjusted,
                             AdjustSubproblems(std::move(own),
@@ -77,6 +80,8 @@ absl::StatusOr<AdvancedAdjustment> FirstRound(Task& task) {
       ORBWEAVE_ASSIGN_OR_RETURN(reports[world], AdjustHere(world, own, places, task));
     }
   }
+  if (!rest.empty())
+    return absl::InvalidArgumentError("steer_adjustment: the blocks are of other worlds");
   AdvancedAdjustment advanced = StartAdjustment(std::move(places),
                                                 is_distributed,
                                                 task.options<GlobalAdjustOptions>(),

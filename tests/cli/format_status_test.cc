@@ -18,9 +18,12 @@ JobStatus Example() {
           .error = "stage align, part 0: \"no seam\"",
           .spec = {.label = "street"},
           .elapsed_s = 61.0,
-          .stages = {{.stage = "align", .tasks_total = 1, .retries = 2}, {.stage = "merge"}},
-          .workers = {{.name = "a", .tasks_done = 4, .set_aside = true, .draining = true},
-                      {.name = "b", .alive = false}}};
+          .stages = {{.stage = "align", .tasks_total = 1, .retries = 2}, {.stage = "merge"}}};
+}
+
+std::vector<WorkerStatus> Workers() {
+  return {{.name = "a", .tasks_done = 4, .set_aside = true, .draining = true},
+          {.name = "b", .alive = false}};
 }
 
 TEST(FormatJobStatus, ShowsWhatWentWrongAndWhoIsThere) {
@@ -67,20 +70,24 @@ TEST(FormatJobStatus, ShowsStrangersTextWithoutObeyingIt) {
   JobStatus job = Example();
   job.spec.label = kHostile;
   job.stages[0].stage = kHostile;
-  job.workers[0].name = kHostile;
-  const std::string text = FormatJobStatus(job) + FormatWorkers(job.workers);
+  std::vector<WorkerStatus> workers = Workers();
+  workers[0].name = kHostile;
+  const std::string text = FormatJobStatus(job) + FormatWorkers(workers);
   EXPECT_EQ(text.find_first_of("\x1b\r\x7f\x9b"), std::string::npos) << text;
   EXPECT_EQ(std::ranges::count(text, '\n'),
-            std::ranges::count(FormatJobStatus(Example()) + FormatWorkers(job.workers), '\n'));
+            std::ranges::count(FormatJobStatus(Example()) + FormatWorkers(Workers()), '\n'));
 }
 
 TEST(JobStatusToJson, IsOneLineOfAsciiWhateverStrangersWrite) {
   JobStatus job = Example();
   job.spec.label = std::string(kHostile) + "\xff";
-  job.workers[0].name = kHostile;
-  const std::string json = JobStatusToJson(job);
-  EXPECT_TRUE(std::ranges::all_of(json, [](char c) { return c >= 0x20 && c < 0x7f; })) << json;
-  EXPECT_EQ(nlohmann::json::parse(json)["workers"][0]["name"], kHostile);
+  std::vector<WorkerStatus> workers = Workers();
+  workers[0].name = kHostile;
+  for (const std::string& json : {JobStatusToJson(job), WorkersToJson(workers)}) {
+    EXPECT_TRUE(std::ranges::all_of(json, [](char c) { return c >= 0x20 && c < 0x7f; })) << json;
+    EXPECT_TRUE(nlohmann::json::accept(json)) << json;
+  }
+  EXPECT_EQ(nlohmann::json::parse(WorkersToJson(workers))["workers"][0]["name"], kHostile);
 }
 
 TEST(JobStatusToJson, NamesEverything) {
@@ -91,9 +98,16 @@ TEST(JobStatusToJson, NamesEverything) {
   EXPECT_TRUE(job["eta_s"].is_null()) << "nothing to go by";
   EXPECT_EQ(job["stages"].size(), 2U);
   EXPECT_EQ(job["stages"][0]["retries"], 2);
-  EXPECT_EQ(job["workers"][1]["alive"], false);
-  EXPECT_EQ(job["workers"][0]["set_aside"], true);
-  EXPECT_EQ(job["workers"][0]["draining"], true);
+}
+
+TEST(WorkersToJson, NamesEverythingAlsoWhenNobodyIsThere) {
+  const nlohmann::json workers = nlohmann::json::parse(WorkersToJson(Workers()))["workers"];
+  EXPECT_EQ(workers[0]["set_aside"], true);
+  EXPECT_EQ(workers[0]["draining"], true);
+  EXPECT_EQ(workers[1]["name"], "b");
+  EXPECT_EQ(workers[1]["alive"], false);
+  EXPECT_EQ(WorkersToJson({}), R"({"workers":[]})");
+  EXPECT_EQ(FormatWorkers({}), "no workers\n");
 }
 
 }  // namespace

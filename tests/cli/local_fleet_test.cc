@@ -72,9 +72,9 @@ TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
   EXPECT_EQ(status->state, JobState::kDone) << status->error;
   EXPECT_GT(updates, 0);
   EXPECT_EQ(*ToyAnswer((*fleet)->coordinator(), status->id), "204");
-  ASSERT_EQ(status->workers.size(), 2U);
-  for (const WorkerStatus& worker : status->workers)
-    EXPECT_GT(worker.tasks_done, 0U) << worker.name;
+  const auto workers = (*fleet)->coordinator().ListWorkers();
+  ASSERT_EQ(workers->size(), 2U);
+  for (const WorkerStatus& worker : *workers) EXPECT_GT(worker.tasks_done, 0U) << worker.name;
   EXPECT_EQ((*fleet)->restarts(), 0U);
 }
 
@@ -143,14 +143,14 @@ class Leaver : public ::testing::Test {
   ClientApi& Api() { return fleet_->coordinator(); }
   StageStatus Squares() { return Api().GetJob(job_)->stages[1]; }
 
-  void ExpectThatItFinishedAndLeft() {
+  void ExpectThatItFinishedAndLeft(int exit_code) {
     const testing::CommandOutcome outcome = worker_->Wait();
-    EXPECT_EQ(outcome.exit_code, kExitOk) << outcome.err;
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_GT(Squares().tasks_done, 0U) << "what ran\n" << outcome.err;
     EXPECT_LT(Squares().tasks_done, 20U) << "and no more";
     EXPECT_EQ(Squares().tasks_running, 0U);
     EXPECT_EQ(Squares().retries, 0U);
-    EXPECT_FALSE(Api().GetJob(job_)->workers.at(0).alive);
+    EXPECT_FALSE(Api().ListWorkers()->at(0).alive);
   }
 
   TemporaryFolder folder_;
@@ -161,14 +161,14 @@ class Leaver : public ::testing::Test {
 
 TEST_F(Leaver, FinishesItsTaskAfterSigterm) {
   worker_->Signal(SIGTERM);
-  ExpectThatItFinishedAndLeft();
+  ExpectThatItFinishedAndLeft(kExitStopped);
 }
 
 TEST_F(Leaver, FinishesItsTaskWhenItIsDrained) {
   const testing::CommandOutcome drained = testing::RunCommand(
       {"/proc/self/exe", "drain", "--coordinator", fleet_->address(), "leaver"});
   EXPECT_EQ(drained.exit_code, kExitOk) << drained.err;
-  ExpectThatItFinishedAndLeft();
+  ExpectThatItFinishedAndLeft(kExitOk);
   const testing::CommandOutcome again = testing::RunCommand(
       {"/proc/self/exe", "drain", "--coordinator", fleet_->address(), "leaver"});
   EXPECT_EQ(again.exit_code, kExitUsage);

@@ -96,7 +96,7 @@ TEST_F(SecuredCommands, AWorkerJoinsWithNothingButATokenAndLaterWithoutIt) {
     EXPECT_TRUE(CoordinatorSays("worker_joined")) << worker.ErrSoFar();
     EXPECT_TRUE(CoordinatorSays("certificate_given"));
     worker.Signal(SIGTERM);
-    EXPECT_EQ(worker.Wait().exit_code, kExitOk);
+    EXPECT_EQ(worker.Wait().exit_code, kExitStopped);
     EXPECT_TRUE(CoordinatorSays("worker_left"));
     EXPECT_THAT(worker.ErrSoFar(), Not(HasSubstr(ReadAll(token))));
   }

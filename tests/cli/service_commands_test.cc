@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "cli/cancel_command.h"
 #include "cli/drain_command.h"
 #include "cli/exec_tasks_command.h"
@@ -17,10 +19,10 @@
 #include "cli/retry_command.h"
 #include "cli/serve_command.h"
 #include "cli/status_command.h"
+#include "cli/stop_command.h"
 #include "cli/work_command.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"
-#include "tests/support/http_get.h"
 #include "tests/support/toy_job.h"
 #include "worker/grpc_coordinator_client.h"
 
@@ -73,23 +75,6 @@ TEST_F(ServiceCommands, ServeRefusesAnAddressThatOthersCanReach) {
   EXPECT_THAT(open.err, HasSubstr("without TLS"));
 }
 
-TEST_F(ServiceCommands, ServesMetricsWhereItIsAskedTo) {
-  Command serve(Orbweave({"serve",
-                          "--listen",
-                          "127.0.0.1:0",
-                          "--state",
-                          folder_ / "other",
-                          "--metrics",
-                          "127.0.0.1:0"}));
-  ASSERT_TRUE(WaitUntil(
-      [&] { return serve.ErrSoFar().find("coordinator_ready") != std::string::npos; }, 60.0));
-  const std::string log = serve.ErrSoFar();
-  const size_t begin = log.find("address=127.0.0.1:") + sizeof("address=") - 1;
-  const std::string address = log.substr(begin, log.find('"', begin) - begin);
-  EXPECT_THAT(testing::HttpGet(address, "/metrics"),
-              HasSubstr("orbweave_events_total{event=\"coordinator_ready\",level=\"info\"} 1\n"));
-}
-
 TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
   Command worker(Orbweave({"work", "--join", address_, "--name", "w", "--slots", "2"}));
   EXPECT_TRUE(WaitUntil(
@@ -99,7 +84,7 @@ TEST_F(ServiceCommands, AWorkerJoinsAndLeavesWhenAskedTo) {
       },
       60.0));
   worker.Signal(SIGTERM);
-  EXPECT_EQ(worker.Wait().exit_code, kExitOk);
+  EXPECT_EQ(worker.Wait().exit_code, kExitStopped) << "an engine may have more for it to do";
   EXPECT_TRUE(WaitUntil(
       [this] {
         return serve_.ErrSoFar().find(R"("event":"worker_left","worker":"w")") != std::string::npos;
@@ -131,12 +116,84 @@ TEST(WorkCommand, SaysSoWhileItsCoordinatorIsAwayAndWaitsNoLongerThanItIsToldTo)
   EXPECT_TRUE(WaitUntil(
       [&] { return worker.ErrSoFar().find("coordinator_away") != std::string::npos; }, 60.0));
   worker.Signal(SIGTERM);
+  EXPECT_EQ(worker.Wait().exit_code, kExitStopped);
+}
+
+TEST(WorkCommand, GivesUpACoordinatorAfterItsPatience) {
+  const TemporaryFolder folder;
+  const CommandOutcome outcome =
+      RunCommand(Orbweave({"work", "--join", "unix:" + (folder / "nobody"), "--patience", "1"}));
+  EXPECT_EQ(outcome.exit_code, kExitUnavailable);
+  EXPECT_THAT(outcome.err, HasSubstr("no coordinator answered for 1 s"));
+}
+
+TEST(WorkCommand, RefusesATimeThatIsOver) {
+  const CommandOutcome outcome =
+      RunCommand(Orbweave({"work", "--join", "unix:/nobody", "--until", "2020-01-01T00:00:00Z"}));
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("is over"));
+}
+
+TEST_F(ServiceCommands, AnIdleWorkerEndsByItself) {
+  const CommandOutcome outcome =
+      RunCommand(Orbweave({"work", "--join", address_, "--idle-exit", "0.5"}));
+  EXPECT_EQ(outcome.exit_code, kExitOk) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("there was nothing to do"));
+}
+
+TEST_F(ServiceCommands, AnInterruptedWorkerSaysSo) {
+  Command worker(Orbweave({"work", "--join", address_, "--name", "w"}));
+  ASSERT_TRUE(WaitUntil(
+      [this] { return serve_.ErrSoFar().find("worker_joined") != std::string::npos; }, 60.0));
+  worker.Signal(SIGINT);
+  EXPECT_EQ(worker.Wait().exit_code, kExitInterrupted);
+}
+
+TEST_F(ServiceCommands, StopEndsTheCoordinatorAndSendsItsWorkersHome) {
+  Command worker(Orbweave({"work", "--join", address_, "--name", "w"}));
+  ASSERT_TRUE(WaitUntil(
+      [this] { return serve_.ErrSoFar().find("worker_joined") != std::string::npos; }, 60.0));
+  const CommandOutcome stopped = RunCommand(Orbweave({"stop", "--coordinator", address_}));
+  EXPECT_EQ(stopped.exit_code, kExitOk) << stopped.err;
+  EXPECT_EQ(serve_.Wait().exit_code, kExitOk);
   EXPECT_EQ(worker.Wait().exit_code, kExitOk);
 }
 
+TEST(AnnouncedCoordinator, IsFoundWhereverItIsStarted) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "coordinator.json";
+  const auto serve = [&](const std::string& socket) {
+    return Orbweave({"serve",
+                     "--listen",
+                     "unix:" + (folder / socket),
+                     "--state",
+                     folder / "state",
+                     "--lease",
+                     "10",
+                     "--announce",
+                     file});
+  };
+  const auto joined = [](const Command& coordinator) {
+    return WaitUntil(
+        [&] { return coordinator.ErrSoFar().find("worker_joined") != std::string::npos; }, 60.0);
+  };
+  Command worker(Orbweave({"work", "--join", "@" + file, "--name", "w"}));
+  Command first(serve("first"));
+  ASSERT_TRUE(joined(first)) << worker.ErrSoFar();
+  first.Signal(SIGTERM);
+  EXPECT_EQ(first.Wait().exit_code, kExitOk);
+  Command second(serve("second"));
+  ASSERT_TRUE(joined(second)) << worker.ErrSoFar();
+  const CommandOutcome stopped = RunCommand(Orbweave({"stop", "--coordinator", "@" + file}));
+  EXPECT_EQ(stopped.exit_code, kExitOk) << stopped.err;
+  EXPECT_EQ(second.Wait().exit_code, kExitOk);
+  EXPECT_EQ(worker.Wait().exit_code, kExitOk) << "sent home";
+  EXPECT_FALSE(std::filesystem::exists(file)) << "there is none any more";
+}
+
 TEST_F(ServiceCommands, StatusAndCancelFollowAJob) {
-  EXPECT_THAT(RunCommand(Orbweave({"status", "--coordinator", address_})).out,
-              HasSubstr("no jobs"));
+  EXPECT_EQ(RunCommand(Orbweave({"status", "--coordinator", address_})).out,
+            "no jobs\nno workers\n");
   GrpcCoordinatorClient client(address_);
   JobSpec spec{.kind = "sparse", .label = "street"};
   spec.inputs.push_back(*client.Put("sources"));
@@ -177,10 +234,21 @@ TEST_F(ServiceCommands, RetryLetsAnEndedJobGoOn) {
   EXPECT_TRUE(listed("job " + id->ToShortHex() + "  running"));
 }
 
+TEST_F(ServiceCommands, StatusShowsWorkersWithoutAJob) {
+  Command worker(Orbweave({"work", "--join", address_, "--name", "lone"}));
+  const std::vector<std::string> status = Orbweave({"status", "--coordinator", address_});
+  EXPECT_TRUE(
+      WaitUntil([&] { return RunCommand(status).out.find("lone") != std::string::npos; }, 60.0));
+  EXPECT_THAT(RunCommand(Orbweave({"status", "--coordinator", address_, "--json"})).out,
+              HasSubstr(R"("name":"lone")"));
+  worker.Signal(SIGTERM);
+  (void)worker.Wait();
+}
+
 TEST_F(ServiceCommands, ADrainedWorkerEndsByItself) {
-  const std::vector<std::string> drain = Orbweave({"drain", "--coordinator", address_, "w"});
+  const std::vector<std::string> drain = Orbweave({"drain", "--coordinator", address_, "node/*"});
   EXPECT_EQ(RunCommand(drain).exit_code, kExitUsage) << "there is no such worker yet";
-  Command worker(Orbweave({"work", "--join", address_, "--name", "w"}));
+  Command worker(Orbweave({"work", "--join", address_, "--name", "node/7"}));
   ASSERT_TRUE(WaitUntil([&] { return RunCommand(drain).exit_code == kExitOk; }, 60.0));
   EXPECT_TRUE(WaitUntil([&] { return !worker.Running(); }, 60.0));
   EXPECT_EQ(worker.Wait().exit_code, kExitOk);
@@ -266,6 +334,7 @@ void AddCommands(CLI::App& app, SelectedCommand& selected) {
   AddRetryCommand(app, selected);
   AddDrainCommand(app, selected);
   AddForgetCommand(app, selected);
+  AddStopCommand(app, selected);
   AddGcCommand(app, selected);
 }
 

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 namespace orbweave {
 namespace {
 
@@ -18,8 +21,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
                                   .options_text = "x.y=1\n",
                                   .label = "street"},
                          .elapsed_s = 1.5,
-                         .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}},
-                         .workers = {{"w", 2, 3, false, true, true, 1}}};
+                         .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}}};
   const auto back = FromProto(ToProto(status));
   ASSERT_TRUE(back.ok());
   EXPECT_EQ(back->id, status.id);
@@ -39,13 +41,17 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   EXPECT_EQ(stage.wall_s, 3.5);
   EXPECT_EQ(stage.cpu_s, 4.5);
   EXPECT_EQ(stage.fraction_running, 0.25);
-  EXPECT_EQ(back->workers.at(0).name, "w");
-  EXPECT_EQ(back->workers.at(0).slots, 2U);
-  EXPECT_EQ(back->workers.at(0).tasks_done, 3U);
-  EXPECT_FALSE(back->workers.at(0).alive);
-  EXPECT_TRUE(back->workers.at(0).set_aside);
-  EXPECT_EQ(back->workers.at(0).tasks_running, 1U);
-  EXPECT_TRUE(back->workers.at(0).draining);
+}
+
+TEST(CoordinatorCodec, WorkerStatusSurvivesTheRoundTrip) {
+  const WorkerStatus worker = FromProto(ToProto(WorkerStatus{"w", 2, 3, false, true, true, 1}));
+  EXPECT_EQ(worker.name, "w");
+  EXPECT_EQ(worker.slots, 2U);
+  EXPECT_EQ(worker.tasks_done, 3U);
+  EXPECT_FALSE(worker.alive);
+  EXPECT_TRUE(worker.set_aside);
+  EXPECT_EQ(worker.tasks_running, 1U);
+  EXPECT_TRUE(worker.draining);
 }
 
 TEST(CoordinatorCodec, CostsAndTimingsSurviveTheRoundTrip) {
@@ -96,6 +102,15 @@ TEST(CoordinatorCodec, RefusesADigestOfAnotherLength) {
   lease.mutable_spec()->set_inputs(0, "short");
   EXPECT_TRUE(absl::IsInvalidArgument(FromProto(lease).status()));
   EXPECT_TRUE(absl::IsInvalidArgument(DigestFromProto("").status()));
+}
+
+TEST(CoordinatorCodec, RefusesATaskThatTookNoTime) {
+  for (const double seconds : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300}) {
+    TaskResult result{.cost = {.wall_s = seconds, .cpu_s = 1.0}};
+    EXPECT_TRUE(absl::IsInvalidArgument(FromProto(ToProto(result)).status())) << seconds;
+    std::swap(result.cost.wall_s, result.cost.cpu_s);
+    EXPECT_TRUE(absl::IsInvalidArgument(FromProto(ToProto(result)).status())) << seconds;
+  }
 }
 
 TEST(CoordinatorCodec, RefusesAnUnknownJobState) {

@@ -18,6 +18,7 @@
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
 #include "core/pipeline/build_version.h"
+#include "core/pipeline/damaged_blob.h"
 #include "tests/support/command.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
@@ -101,10 +102,108 @@ TEST_P(CoordinatorContract, AWorkerThatIsDrainedGetsNoMoreTasks) {
   const auto joined = Api().Join(Worker("w"));
   ASSERT_TRUE(joined.ok());
   const Lease lease = MustLease(joined->session);
-  ASSERT_TRUE(Api().DrainWorker("w").ok());
+  EXPECT_THAT(*Api().DrainWorkers("w"), ElementsAre("w"));
   EXPECT_TRUE(absl::IsCancelled(Api().LeaseTask(joined->session, 0, 10.0).status()));
   EXPECT_TRUE(Do(joined->session, lease).ok()) << "it may finish what it has";
-  EXPECT_TRUE(absl::IsNotFound(Api().DrainWorker("stranger")));
+  EXPECT_TRUE(absl::IsNotFound(Api().DrainWorkers("stranger").status()));
+}
+
+TEST_P(CoordinatorContract, ANameThatBeginsSeveralDrainsThemOnlyWithAStar) {
+  for (const char* name : {"node/a", "node/b", "other"}) ASSERT_TRUE(Api().Join(Worker(name)).ok());
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().DrainWorkers("node").status()));
+  EXPECT_TRUE(absl::IsNotFound(Api().DrainWorkers("nobody*").status()));
+  EXPECT_THAT(*Api().DrainWorkers("node/*"), ElementsAre("node/a", "node/b"));
+  EXPECT_THAT(*Api().DrainWorkers("oth"), ElementsAre("other"));
+}
+
+TEST_P(CoordinatorContract, WhatLeftABlobThatCannotBeReadIsDoneAgain) {
+  Submit("3");
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  ASSERT_TRUE(Do(session, MustLease(session)).ok());
+  const Lease square = MustLease(session);
+  ASSERT_EQ(square.spec.stage, "square");
+  ASSERT_TRUE(Do(session, square).ok());
+  const Lease sum = MustLease(session);
+  ASSERT_EQ(sum.spec.stage, "sum");
+  const absl::Status damaged = BlameBlob(absl::DataLossError("no number"), DigestOf("9"));
+  ASSERT_TRUE(Api().FailTask(session, sum, damaged).ok());
+  EXPECT_EQ(MustLease(session).task, square.task);
+}
+
+TEST_P(CoordinatorContract, ASlotHasOneQuestionAtATime) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  auto before =
+      std::async(std::launch::async, [&] { return Api().LeaseTask(session, 0, 60.0).status(); });
+  const auto is_over = [&] {
+    const auto lease = Api().LeaseTask(session, 0, 0.0);
+    EXPECT_TRUE(lease.ok()) << lease.status();
+    return before.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  EXPECT_TRUE(testing::WaitUntil(is_over, 30.0)) << "it was asked again";
+  EXPECT_TRUE(absl::IsAborted(before.get()));
+}
+
+TEST_P(CoordinatorContract, AQuestionOfAnotherSlotIsAnother) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  auto other =
+      std::async(std::launch::async, [&] { return Api().LeaseTask(session, 1, 0.5).status(); });
+  EXPECT_TRUE(Api().LeaseTask(session, 0, 0.5).ok());
+  EXPECT_TRUE(other.get().ok());
+}
+
+TEST_P(CoordinatorContract, KnowsNoSlotThatItsWorkerHasNot) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().LeaseTask(session, 2, 0.0).status()));
+}
+
+TEST_P(CoordinatorContract, AnEarlierSessionsQuestionsEndWhenItsWorkerJoinsAnew) {
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  auto before =
+      std::async(std::launch::async, [&] { return Api().LeaseTask(session, 0, 60.0).status(); });
+  ASSERT_TRUE(Api().Join(Worker("w")).ok());
+  EXPECT_TRUE(absl::IsNotFound(before.get()));
+}
+
+TEST_P(CoordinatorContract, ListsWorkersWithoutAJob) {
+  ASSERT_TRUE(Api().Join(Worker("w")).ok());
+  const auto workers = Api().ListWorkers();
+  ASSERT_TRUE(workers.ok());
+  ASSERT_EQ(workers->size(), 1U);
+  EXPECT_EQ(workers->at(0).name, "w");
+}
+
+/// As long as a description may be: all of them are more than one message holds.
+TEST_P(CoordinatorContract, ListsJobsHoweverLargeTheyAreTogether) {
+  constexpr int kJobs = 600;
+  const JobSpec job = *PrepareToyJob(Api(), "1");
+  for (int i = 0; i < kJobs; ++i) {
+    JobSpec large = job;
+    large.label.assign(1024, 'x');
+    large.options_text.assign(16 * 1024 - 8, ' ');
+    large.options_text += std::to_string(i);
+    ASSERT_TRUE(Api().SubmitJob(large).ok());
+  }
+  const auto jobs = Api().ListJobs();
+  ASSERT_TRUE(jobs.ok()) << jobs.status();
+  EXPECT_EQ(jobs->size(), kJobs);
+}
+
+TEST_P(CoordinatorContract, TheReasonOfAFailureIsCut) {
+  const Digest job = Submit("1");
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const Lease lease = MustLease(session);
+  const absl::Status wordy = absl::InvalidArgumentError(std::string(1 << 20, 'x'));
+  ASSERT_TRUE(Api().FailTask(session, lease, wordy).ok());
+  EXPECT_EQ(Api().GetJob(job)->state, JobState::kFailed);
+  EXPECT_LT(Api().GetJob(job)->error.size(), 10'000U);
+}
+
+TEST_P(CoordinatorContract, AResultThatNoMessageHoldsIsRefused) {
+  Submit("1");
+  const uint64_t session = Api().Join(Worker("w"))->session;
+  const Lease lease = MustLease(session);
+  const TaskResult wordy{.report_json = std::string((1 << 20) + 1, ' ')};
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().CompleteTask(session, lease, wordy)));
 }
 
 TEST_P(CoordinatorContract, RunsAJobFromSubmissionToAnswer) {
@@ -119,10 +218,11 @@ TEST_P(CoordinatorContract, RunsAJobFromSubmissionToAnswer) {
   ASSERT_EQ(status->stages.size(), 3U);
   EXPECT_EQ(status->stages[1].stage, "square");
   EXPECT_EQ(status->stages[1].tasks_done, 3U);
-  ASSERT_EQ(status->workers.size(), 1U);
-  EXPECT_EQ(status->workers[0].tasks_done, 5U);
-  EXPECT_EQ(status->workers[0].slots, 2U);
-  EXPECT_TRUE(status->workers[0].alive);
+  const auto workers = Api().ListWorkers();
+  ASSERT_EQ(workers->size(), 1U);
+  EXPECT_EQ(workers->at(0).tasks_done, 5U);
+  EXPECT_EQ(workers->at(0).slots, 2U);
+  EXPECT_TRUE(workers->at(0).alive);
   EXPECT_EQ(*ToyAnswer(Api(), job), "14");
 }
 
@@ -405,12 +505,12 @@ TEST_P(CoordinatorContract, CancellingTakesTheTasksBack) {
 }
 
 TEST_P(CoordinatorContract, TellsHowManyTasksAWorkerHolds) {
-  const Digest job = Submit("1");
+  Submit("1");
   const uint64_t session = Api().Join(Worker("w"))->session;
   const Lease lease = MustLease(session);
-  EXPECT_EQ(Api().GetJob(job)->workers.at(0).tasks_running, 1U);
+  EXPECT_EQ(Api().ListWorkers()->at(0).tasks_running, 1U);
   EXPECT_TRUE(Do(session, lease).ok());
-  EXPECT_EQ(Api().GetJob(job)->workers.at(0).tasks_running, 0U);
+  EXPECT_EQ(Api().ListWorkers()->at(0).tasks_running, 0U);
 }
 
 TEST_P(CoordinatorContract, SubmittingTheSameJobJoinsIt) {

@@ -214,9 +214,10 @@ TEST_F(CoordinatorTest, AWorkerThatFailsWhatOthersDoIsSetAside) {
   }
   EXPECT_FALSE(coordinator_->LeaseTask(bad, 0, 0.0)->has_value());
   const auto status = coordinator_->GetJob(job);
-  ASSERT_EQ(status->workers.size(), 2U);
-  EXPECT_TRUE(status->workers[0].set_aside);
-  EXPECT_FALSE(status->workers[1].set_aside);
+  const auto workers = coordinator_->ListWorkers();
+  ASSERT_EQ(workers->size(), 2U);
+  EXPECT_TRUE(workers->at(0).set_aside);
+  EXPECT_FALSE(workers->at(1).set_aside);
   EXPECT_TRUE(coordinator_->LeaseTask(good, 0, kWait_s)->has_value());
 }
 
@@ -337,7 +338,8 @@ TEST_F(CoordinatorTest, ServesTheOldestJobFirst) {
 }
 
 TEST_F(CoordinatorTest, ASlotHoldsAQuickTaskAheadAndNoMore) {
-  const uint64_t session = Join("w");
+  const WorkerInfo worker{.name = "w", .version = std::string(BuildVersion()), .slots = 2};
+  const uint64_t session = coordinator_->Join(worker)->session;
   Submit("1 2 3 4 5");
   const Lease split = MustLease(session);
   EXPECT_FALSE(coordinator_->LeaseTask(session, 0, 0.0)->has_value());
@@ -392,7 +394,7 @@ TEST_F(CoordinatorTest, ACallThatWaitsDoesNotKeepASilentWorkerAlive) {
     clock_.Advance(20.5);
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
   }
-  EXPECT_FALSE(coordinator_->ListWorkers()[0].alive);
+  EXPECT_FALSE(coordinator_->ListWorkers()->at(0).alive);
   EXPECT_NE(waiting.wait_for(std::chrono::seconds(0)), std::future_status::ready);
   coordinator_->BeginShutdown();
   waiting.wait();

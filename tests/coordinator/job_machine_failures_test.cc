@@ -56,6 +56,9 @@ TEST(JobMachineFailures, RetriesATransientFailureAfterAWait) {
   Begin(machine, "a", 1);
   machine.TaskFailed(LeaseNext(machine, "w", 100.0), absl::UnavailableError("gone"), 100.0);
   EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 100.4), std::nullopt);
+  EXPECT_TRUE(machine.MayHaveWork());
+  EXPECT_FALSE(machine.MayHaveWork(100.4)) << "its time has not come";
+  EXPECT_TRUE(machine.MayHaveWork(101.0));
   EXPECT_EQ(machine.NextReady({"w"}, {"w"}, 101.0), (TaskRef{0, 0}));
   EXPECT_EQ(machine.Status(101.0).stages[0].retries, 1U);
 }

@@ -98,6 +98,13 @@ TEST_P(JournalContract, CountsItsGenerations) {
   EXPECT_EQ(journal_->generation(), 2U);
 }
 
+TEST_P(JournalContract, TriesToSaveAsOftenAsItIsAskedTo) {
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(journal_->TrySave().ok());
+  Reopen();
+  EXPECT_TRUE(journal_->TrySave().ok());
+  EXPECT_EQ(journal_->generation(), 2U);
+}
+
 TEST_P(JournalContract, RemembersResultsAcrossGenerations) {
   const TaskResult result{.outputs = {DigestOf("o"), DigestOf("p")},
                           .recipes = {DigestOf("r")},
@@ -278,6 +285,28 @@ TEST_P(JournalContract, ForgetsAJobWithItsAttemptsAndNothingElse) {
   ASSERT_EQ(journal_->LoadAttempts(kTask)->size(), 1U);
   EXPECT_EQ(journal_->LoadAttempts(kTask)->at(0).attempt.job, kJob);
   EXPECT_TRUE(journal_->LoadResults({kTask})->at(0).has_value());
+}
+
+TEST_P(JournalContract, SavesManyStartsAtOnce) {
+  ASSERT_TRUE(journal_->SaveStarts({}).ok());
+  ASSERT_TRUE(journal_->SaveStarts({MakeAttempt(2, DigestOf("second")), MakeAttempt(1)}).ok());
+  Reopen();
+  const auto open = journal_->LoadOpenAttempts();
+  ASSERT_TRUE(open.ok()) << open.status();
+  ASSERT_EQ(open->size(), 2U);
+  EXPECT_EQ(open->at(0).epoch, 1U);
+  EXPECT_EQ(open->at(1).task, DigestOf("second"));
+}
+
+TEST_P(JournalContract, ForgetsTheResultOfATask) {
+  ASSERT_TRUE(journal_->SaveResult(1, kTask, {.outputs = {DigestOf("o")}}).ok());
+  ASSERT_TRUE(journal_->SaveResult(2, DigestOf("other"), {.outputs = {DigestOf("p")}}).ok());
+  ASSERT_TRUE(journal_->ForgetResultOf(kTask).ok());
+  ASSERT_TRUE(journal_->ForgetResultOf(DigestOf("nobody's")).ok());
+  const auto found = journal_->LoadResults({kTask, DigestOf("other")});
+  ASSERT_TRUE(found.ok()) << found.status();
+  EXPECT_FALSE(found->at(0).has_value());
+  EXPECT_TRUE(found->at(1).has_value());
 }
 
 TEST_P(JournalContract, ForgetsTheResultsThatAreGarbage) {

@@ -5,18 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/journal_meter.h"
-#include "coordinator/metrics_server.h"
 #include "coordinator/metrics_snapshot.h"
+#include "coordinator/metrics_text.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
-#include "tests/support/http_get.h"
 #include "tests/support/toy_job.h"
 
 namespace orbweave {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::HttpGet;
 using ::testing::Not;
 using testing::TemporaryFolder;
 
@@ -47,7 +45,7 @@ TEST(SnapshotMetrics, DividesTheTasksOfRunningJobsByState) {
   JobStatus failed = running;
   failed.id = DigestOf("b");
   failed.state = JobState::kFailed;
-  const auto families = SnapshotMetrics({running, failed}, {}, {});
+  const auto families = SnapshotMetrics({running, failed}, {}, {}, 0);
   const std::string id = running.id.ToShortHex();
   EXPECT_EQ(ValueOf(families, "orbweave_tasks", {id, "s", "ready"}), 3.0);
   EXPECT_EQ(ValueOf(families, "orbweave_tasks", {id, "s", "running"}), 1.0);
@@ -68,12 +66,14 @@ TEST(SnapshotMetrics, CountsTheSlotsOfWorkersThatAreThere) {
                       {{.name = "a", .slots = 4, .tasks_running = 3},
                        {.name = "b", .slots = 2, .draining = true, .tasks_running = 1},
                        {.name = "c", .slots = 8, .alive = false}},
-                      {.bytes_in = 5, .bytes_out = 6});
+                      {.bytes_in = 5, .bytes_out = 6},
+                      7);
   for (const char* state : {"at_work", "draining", "gone"}) {
     EXPECT_EQ(ValueOf(families, "orbweave_workers", {state}), 1.0) << state;
   }
   EXPECT_EQ(ValueOf(families, "orbweave_slots", {}), 6.0);
   EXPECT_EQ(ValueOf(families, "orbweave_slots_busy", {}), 4.0);
+  EXPECT_EQ(ValueOf(families, "orbweave_slots_wanted", {}), 7.0);
   EXPECT_EQ(ValueOf(families, "orbweave_blob_bytes_total", {"in"}), 5.0);
   EXPECT_EQ(ValueOf(families, "orbweave_blob_bytes_total", {"out"}), 6.0);
 }
@@ -84,14 +84,14 @@ TEST(SnapshotMetrics, SaysNothingThatStrangersWrote) {
                       .error = hostile,
                       .spec = {.label = hostile},
                       .stages = {{.stage = "s", .tasks_total = 1}}};
-  for (const auto& family : SnapshotMetrics({job}, {{.name = hostile}}, {})) {
+  for (const auto& family : SnapshotMetrics({job}, {{.name = hostile}}, {}, 0)) {
     for (const auto& metric : family.metric) {
       for (const auto& label : metric.label) EXPECT_THAT(label.value, Not(HasSubstr("fake")));
     }
   }
 }
 
-TEST(MetricsServer, TellsWhatAJobDid) {
+TEST(MetricsText, TellsWhatAJobDid) {
   const TemporaryFolder folder;
   const SteadyClock clock;
   MetricsCounters counters;
@@ -110,11 +110,6 @@ TEST(MetricsServer, TellsWhatAJobDid) {
                         clock);
   ASSERT_TRUE(coordinator.ok()) << coordinator.status();
   Coordinator& api = **coordinator;
-  const auto server = MetricsServer::Start(api, counters, "127.0.0.1:0");
-  ASSERT_TRUE(server.ok()) << server.status();
-  EXPECT_TRUE(
-      absl::IsUnavailable(MetricsServer::Start(api, counters, (*server)->address()).status()));
-
   const auto job = testing::PrepareToyJob(api, "1 2 3");
   const auto id = api.SubmitJob(*job);
   const uint64_t session = api.Join({.name = "w", .version = std::string(BuildVersion())})->session;
@@ -122,8 +117,7 @@ TEST(MetricsServer, TellsWhatAJobDid) {
   ASSERT_TRUE(first.ok() && first->has_value());
   ASSERT_TRUE(api.FailTask(session, **first, absl::InternalError("once")).ok());
   const std::string labels = "{job=\"" + id->ToShortHex() + "\",stage=\"split\"";
-  EXPECT_THAT(HttpGet((*server)->address(), "/metrics"),
-              HasSubstr("orbweave_task_retries" + labels + "} 1\n"));
+  EXPECT_THAT(MetricsText(api, counters), HasSubstr("orbweave_task_retries" + labels + "} 1\n"));
   const testing::StageMap stages = testing::ToyStages();
   while (api.GetJob(*id)->state == JobState::kRunning) {
     const auto lease = api.LeaseTask(session, 0, 1.0);
@@ -132,7 +126,7 @@ TEST(MetricsServer, TellsWhatAJobDid) {
     const auto result = stages.at((*lease)->spec.stage)((*lease)->spec, api, {});
     ASSERT_TRUE(result.ok() && api.CompleteTask(session, **lease, *result).ok());
   }
-  const std::string text = HttpGet((*server)->address(), "/metrics");
+  const std::string text = MetricsText(api, counters);
   EXPECT_THAT(text, HasSubstr("orbweave_events_total{event=\"task_done\",level=\"info\"} 5\n"));
   EXPECT_THAT(text,
               HasSubstr("orbweave_events_total{event=\"task_not_done\",level=\"warning\"} 1\n"));
@@ -140,22 +134,10 @@ TEST(MetricsServer, TellsWhatAJobDid) {
   EXPECT_THAT(text, HasSubstr("orbweave_journal_save_seconds_count{what=\"result\"} 5\n"));
   EXPECT_THAT(text, HasSubstr("orbweave_jobs{state=\"done\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("orbweave_slots 1\n"));
+  EXPECT_THAT(text, HasSubstr("orbweave_slots_wanted 3\n"));
   EXPECT_THAT(text, Not(HasSubstr("save_errors_total{")));
   // "1 2 3"; "1", "2", "3"; "1", "4", "9"; "14"; and two collections, which the coordinator makes.
   EXPECT_THAT(text, HasSubstr("orbweave_blob_bytes_total{direction=\"in\"} 13\n"));
-}
-
-TEST(MetricsServer, RefusesAnAddressThatOthersCanReach) {
-  const TemporaryFolder folder;
-  const SteadyClock clock;
-  const auto coordinator = Coordinator::Open({.state_dir = folder.Path()}, clock);
-  ASSERT_TRUE(coordinator.ok());
-  const MetricsCounters counters;
-  for (const std::string address : {"0.0.0.0:0", "unix:/tmp/s", "nonsense"}) {
-    EXPECT_TRUE(
-        absl::IsInvalidArgument(MetricsServer::Start(**coordinator, counters, address).status()))
-        << address;
-  }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -15,6 +14,7 @@
 #include "coordinator/coordinator.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
+#include "tests/support/failing_journal.h"
 #include "tests/support/manual_clock.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
@@ -23,6 +23,7 @@ namespace orbweave {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::FailingJournal;
 using testing::FindToyPlan;
 using ::testing::HasSubstr;
 using testing::PrepareToyJob;
@@ -31,79 +32,6 @@ using testing::ToyAnswer;
 using testing::ToyStages;
 using testing::WaitForEnd;
 using testing::WaitUntil;
-
-/// A journal whose disk fills up and whose server goes away, when told to.
-class FailingJournal final : public Journal {
- public:
-  struct Switch {
-    std::atomic<bool> starts_fail{false};
-    std::atomic<bool> results_fail{false};
-    std::atomic<bool> lookups_fail{false};
-    std::atomic<bool> is_lost{false};  ///< another coordinator has it
-    Digest held_lookup{};  ///< who asks for this task is answered late, with what was known before
-    std::atomic<bool> is_holding{false};
-    std::atomic<bool> may_answer{false};
-    std::atomic<bool> starts_are_slow{false};  ///< until that ends
-    std::atomic<bool> is_starting{false};
-  };
-
-  FailingJournal(std::unique_ptr<Journal> journal, Switch& fails)
-      : journal_(std::move(journal)), fails_(fails) {}
-
-  uint64_t generation() const override { return journal_->generation(); }
-  absl::Status Confirm() override {
-    if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
-    return journal_->Confirm();
-  }
-  absl::Status SaveJob(const JobEntry& job) override { return journal_->SaveJob(job); }
-  absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
-  absl::Status ForgetJob(const Digest& job) override { return journal_->ForgetJob(job); }
-  absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override {
-    return journal_->ForgetResults(is_garbage);
-  }
-  absl::Status SaveStart(const Attempt& attempt) override {
-    if (fails_.starts_fail) return absl::ResourceExhaustedError("disk full");
-    fails_.is_starting = true;
-    WaitUntil([this] { return !fails_.starts_are_slow; }, 20.0);
-    return journal_->SaveStart(attempt);
-  }
-  absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
-    if (fails_.results_fail) return absl::UnavailableError("away");
-    if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
-    return journal_->SaveResult(epoch, task, result);
-  }
-  absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override {
-    return journal_->SaveEnds(ends);
-  }
-  absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
-      const std::vector<Digest>& tasks) override {
-    if (fails_.lookups_fail) return absl::UnavailableError("away");
-    auto found = journal_->LoadResults(tasks);
-    if (std::find(tasks.begin(), tasks.end(), fails_.held_lookup) != tasks.end()) {
-      fails_.is_holding = true;
-      WaitUntil([this] { return fails_.may_answer.load(); }, 20.0);
-    }
-    return found;
-  }
-  absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override {
-    return journal_->LoadOpenAttempts();
-  }
-  absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(const Digest& job,
-                                                          uint64_t since_epoch) override {
-    return journal_->LoadFailures(job, since_epoch);
-  }
-  absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(const Digest& task) override {
-    return journal_->LoadAttempts(task);
-  }
-  absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() override { return journal_->LoadBlames(); }
-  absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) override {
-    return journal_->SaveBlames(blames);
-  }
-
- private:
-  std::unique_ptr<Journal> journal_;
-  Switch& fails_;
-};
 
 /// A coordinator on a clock turned by hand, and toy workers that are driven call by call.
 class RestartTest : public ::testing::Test {
@@ -131,6 +59,7 @@ class RestartTest : public ::testing::Test {
     return coordinator_
         ->Join({.name = name,
                 .version = std::string(BuildVersion()),
+                .slots = 2,
                 .held = held,
                 .process = process})
         ->session;
@@ -215,6 +144,21 @@ TEST_F(RestartTest, AFinishedJobIsNotComputedAgainByANewerBuildUntilSomebodyAsks
   EXPECT_EQ(Submit("3"), job);
   EXPECT_TRUE(Do(session, MustLease(session)).ok());
   find_plan_ = FindToyPlan;
+}
+
+TEST_F(RestartTest, WhoGetsNothingDoesNotWaitForTheDisk) {
+  Submit("3");
+  const uint64_t session = Join("w");
+  const uint64_t other = Join("other");
+  fails_.starts_are_slow = true;
+  auto lease =
+      std::async(std::launch::async, [&] { return coordinator_->LeaseTask(session, 0, 5.0); });
+  ASSERT_TRUE(WaitUntil([&] { return fails_.is_starting.load(); }, 20.0));
+  const auto nothing = coordinator_->LeaseTask(other, 0, 0.0);
+  EXPECT_TRUE(nothing.ok() && !nothing->has_value());
+  EXPECT_EQ(lease.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+  fails_.starts_are_slow = false;
+  EXPECT_TRUE(lease.get()->has_value());
 }
 
 TEST_F(RestartTest, AHolderThatComesBackGoesOnAndHandsItsResultIn) {
@@ -438,7 +382,7 @@ TEST_F(RestartTest, AWorkerThatIsSetAsideStaysSoUntilItsProcessIsAnother) {
   good = Join("good", {}, 8);
   ASSERT_TRUE(IsStagePlanned(job, 1));
   EXPECT_TRUE(GetsNothing(bad));
-  EXPECT_TRUE(coordinator_->GetJob(job)->workers.at(0).set_aside);
+  EXPECT_TRUE(coordinator_->ListWorkers()->at(0).set_aside);
   bad = Join("bad", {}, 9);
   EXPECT_EQ(MustLease(bad).spec.stage, "square");
 }

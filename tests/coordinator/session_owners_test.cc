@@ -36,6 +36,21 @@ TEST(SessionOwners, ForgetTheSessionThatANewOneReplaces) {
   EXPECT_TRUE(owners.Check(9, Worker("node")).ok());
 }
 
+TEST(SessionOwners, ForgetInTimeASessionInWhichNobodySpeaks) {
+  constexpr uint64_t kMany = 100'000;
+  SessionOwners owners;
+  owners.Begin(1, "silent", Worker("silent"));
+  owners.Begin(2, "speaks", Worker("speaks"));
+  for (uint64_t session = 3; session < kMany + 2; ++session) {
+    owners.Begin(session, "pod" + std::to_string(session), Worker("pod"));
+    ASSERT_TRUE(owners.Check(2, Worker("speaks")).ok());
+  }
+  EXPECT_TRUE(absl::IsNotFound(owners.Check(1, Worker("silent"))));
+  owners.Begin(kMany + 2, "silent", Worker("silent"));
+  EXPECT_TRUE(owners.Check(kMany + 2, Worker("silent")).ok()) << "it joined again";
+  EXPECT_TRUE(owners.Check(2, Worker("speaks")).ok());
+}
+
 TEST(SessionOwners, LetNobodyJoinUnderAnothersName) {
   EXPECT_TRUE(SessionOwners::CheckName(Worker("node"), "node/1").ok());
   EXPECT_TRUE(absl::IsPermissionDenied(SessionOwners::CheckName(Worker("node"), "nodes")));

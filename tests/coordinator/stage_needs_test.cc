@@ -38,12 +38,16 @@ class StageNeedsTest : public ::testing::Test {
     coordinator_ = *std::move(opened);
   }
 
-  uint64_t Join(const std::string& name, uint32_t slots, const WorkerOffers& offers) {
+  uint64_t Join(const std::string& name,
+                uint32_t slots,
+                const WorkerOffers& offers,
+                std::optional<double> stays_s = std::nullopt) {
     return coordinator_
         ->Join({.name = name,
                 .version = std::string(BuildVersion()),
                 .slots = slots,
-                .offers = offers})
+                .offers = offers,
+                .stays_s = stays_s})
         ->session;
   }
 
@@ -121,10 +125,31 @@ TEST_F(StageNeedsTest, WhatNoWorkerEverHasIsNamedInTheStatus) {
   EXPECT_EQ(coordinator_->GetJob(job)->unmet, "");
   const std::optional<Lease> lease = Ask(session, 0);
   ASSERT_TRUE(lease);
-  ASSERT_TRUE(coordinator_->DrainWorker("b").ok());
+  ASSERT_TRUE(coordinator_->DrainWorkers("b").ok());
   EXPECT_EQ(coordinator_->GetJob(job)->unmet, "") << "nothing waits";
   ASSERT_TRUE(coordinator_->FailTask(session, *lease, absl::CancelledError("leaves")).ok());
   EXPECT_NE(coordinator_->GetJob(job)->unmet, "") << "it is given no more";
+}
+
+TEST_F(StageNeedsTest, WhoLeavesSoonGetsNothingThatUsuallyTakesLonger) {
+  Open({});
+  const Digest job = SubmitAndSplit("1 2 3 4 5");
+  const uint64_t staying = Join("staying", 1, {});
+  const std::optional<Lease> first = Ask(staying, 0);
+  ASSERT_TRUE(first);
+  clock_.Advance(15.0);
+  ASSERT_TRUE(Do(staying, *first).ok());
+  const uint64_t leaving = Join("leaving", 1, {}, 14.0);
+  EXPECT_FALSE(Ask(leaving, 0)) << "the one that is done took 15 s";
+  EXPECT_EQ(coordinator_->GetJob(job)->unmet, "");
+  const uint64_t patient = Join("patient", 1, {}, 16.0);
+  EXPECT_TRUE(Ask(patient, 0));
+  clock_.Advance(2.0);
+  const uint64_t later = Join("patient", 1, {}, 14.0);
+  EXPECT_FALSE(Ask(later, 0)) << "by now it leaves too soon";
+  (void)coordinator_->Leave(staying);
+  EXPECT_EQ(coordinator_->GetJob(job)->unmet,
+            "a task of stage square takes 15 s, longer than any worker stays");
 }
 
 TEST_F(StageNeedsTest, WhoFailedATaskTriesAgainWhereNobodyElseMeetsItsNeeds) {

@@ -12,6 +12,7 @@ namespace {
 
 Subproblem SmallSubproblem() {
   Subproblem subproblem{.cluster = 3, .scene = TwoViewsOfAPoint()};
+  subproblem.scene.images[ImageId(2)].loose = false;
   subproblem.directions = {{.image = ImageId(2), .sigma_rad = 0.1}};
   subproblem.images = {{.id = ImageId(0), .camera = {64, 32}, .owner = 3, .is_held = true},
                        {.id = ImageId(2), .camera = {64, 32}, .is_separator = true}};

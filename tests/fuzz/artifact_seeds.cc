@@ -59,7 +59,8 @@ void AddViewGraph(Seeds& seeds) {
                            .edges = {{ImageId(0), ImageId(1)}},
                            .edge_kinds = {1},
                            .edge_rungs = {1}};
-  divided.partition.clusters = {{.images = {ImageId(0), ImageId(1)}, .interior = {ImageId(0)}}};
+  divided.partition.clusters = {{.images = {ImageId(0), ImageId(1)}, .interior = {ImageId(0)}},
+                                {.images = {ImageId(1), ImageId(7)}, .interior = {ImageId(7)}}};
   divided.partition.seams = {{.cluster_a = 0, .cluster_b = 1, .shared = {ImageId(1)}}};
   seeds["divided_view_graph"] = {EncodeDividedViewGraph(divided).value()};
 }
@@ -90,9 +91,10 @@ void AddModels(Seeds& seeds) {
                               .contradicted_pairs = {{ImageId(3), ImageId(8)}},
                               .start_remark = "remark"}})
           .value()};
-  Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
-                      .world = {0},
-                      .submodels = {{.cluster = 4, .num_images = 7}}};
+  Alignment alignment{
+      .world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}, Sim3{}},
+      .world = {0, 0},
+      .submodels = {{.cluster = 4, .num_images = 7}, {.cluster = 5, .num_images = 6}}};
   alignment.seams.push_back({.submodel_a = 0, .submodel_b = 1, .reason = "loop"});
   seeds["alignment"] = {EncodeAlignment(alignment).value()};
   seeds["seams_of_cluster"] = {

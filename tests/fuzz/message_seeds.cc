@@ -21,8 +21,7 @@ void AddMessageSeeds(Seeds& seeds) {
                 .state = JobState::kFailed,
                 .error = "why",
                 .spec = job,
-                .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}},
-                .workers = {{"w", 2, 3, false, true, true, 1}}});
+                .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}}});
   add("task_outcome",
       TaskOutcome{.stage = "align",
                   .part = 1,

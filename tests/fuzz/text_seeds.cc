@@ -28,6 +28,12 @@ void AddTextSeeds(Seeds& seeds) {
   seeds["root_path"] = {"a/b", "in", "out", "a/../a/b", "../outside", "/etc/passwd"};
   seeds["printable_text"] = {"Straße \x1b[2J\n<b> \xe2\x80\xae\xff \xc2\x9b\xf0\x9f\x9a\x8b"};
   seeds["listen_address"] = {"127.0.0.1:7000", "unix:/run/orbweave.sock", "[::1]:0", "0.0.0.0:1"};
+  seeds["http_request"] = {
+      "GET /metrics HTTP/1.1\r\nHost: localhost:9464\r\nConnection: close\r\n\r\n",
+      "HEAD /livez?a=b HTTP/1.0\r\nHost: [::1]\r\n\r\nGET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n",
+      "POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n1\r\nx\r\n0\r\n\r\n",
+      "GET / HTTP/1.1\r\nHost: x\r\nContent-Length: 18446744073709551615\r\nUpgrade: h2c\r\n "
+      "x\r\n\r\n"};
   seeds["identity"] = {"orbweave://city/worker/node7"};
   seeds["revocations"] = {"name node7\nserial 0A1B\n", "token 0123456789abcdef0123456789abcdef\n"};
   seeds["digest"] = {DigestOf("blob").ToHex()};

@@ -34,6 +34,9 @@ TEST(ByHand, ServeWorkSubmitAndStatusDoAJobTogether) {
   Command worker({ORBWEAVE_BINARY, "work", "--join", address, "--name", "first", "--slots", "2"});
   const CommandOutcome submitted = RunCommand({ORBWEAVE_BINARY,
                                                "submit",
+                                               "fetch",
+                                               "stop",
+                                               "launch",
                                                "--coordinator",
                                                address,
                                                folder / "street/images",
@@ -120,6 +123,9 @@ TEST(Help, EveryCommandHasIt) {
                               "serve",
                               "work",
                               "submit",
+                              "fetch",
+                              "stop",
+                              "launch",
                               "status",
                               "cancel"}) {
     const CommandOutcome help = RunCommand({ORBWEAVE_BINARY, command, "--help"});

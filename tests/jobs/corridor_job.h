@@ -62,6 +62,23 @@ inline nlohmann::json ReportOf(const std::string& output) {
   return nlohmann::json::parse(ReadAll(output + "/report.json"), nullptr, false);
 }
 
+/// Sum over stages of `key`: "tasks_reused" or "tasks_computed".
+inline uint32_t SumOverStages(const std::string& output, const char* key) {
+  const nlohmann::json report = ReportOf(output);
+  EXPECT_FALSE(report["stages"].empty());
+  uint32_t sum = 0;
+  for (const auto& stage : report["stages"]) sum += stage[key].get<uint32_t>();
+  return sum;
+}
+
+inline uint32_t ReusedTasks(const std::string& output) {
+  return SumOverStages(output, "tasks_reused");
+}
+
+inline uint32_t ComputedTasks(const std::string& output) {
+  return SumOverStages(output, "tasks_computed");
+}
+
 inline void ExpectSameFiles(const std::string& a,
                             const std::string& b,
                             const std::vector<std::string>& names) {

@@ -15,21 +15,6 @@ std::string Undisturbed(const TemporaryFolder& folder) {
   return output;
 }
 
-/// Sum over stages of `key`: "tasks_reused" or "tasks_computed".
-uint32_t SumOverStages(const std::string& output, const char* key) {
-  const nlohmann::json report = ReportOf(output);
-  EXPECT_FALSE(report["stages"].empty());
-  uint32_t sum = 0;
-  for (const auto& stage : report["stages"]) sum += stage[key].get<uint32_t>();
-  return sum;
-}
-
-uint32_t ReusedTasks(const std::string& output) { return SumOverStages(output, "tasks_reused"); }
-
-uint32_t ComputedTasks(const std::string& output) {
-  return SumOverStages(output, "tasks_computed");
-}
-
 TEST(KilledProcess, AWorkerKilledInTheMiddleOfTheJobIsReplaced) {
   const TemporaryFolder folder;
   const std::string expected = Undisturbed(folder);

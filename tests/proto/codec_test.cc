@@ -8,6 +8,9 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
@@ -18,6 +21,7 @@
 #include "proto/codec/pack.h"
 #include "proto/codec/recipes_codec.h"
 #include "proto/codec/reconstruction_codec.h"
+#include "proto/codec/seams_codec.h"
 #include "proto/codec/subproblem_codec.h"
 #include "proto/codec/two_view_codec.h"
 
@@ -131,7 +135,7 @@ TEST(FeaturesCodec, RefusesArraysOfDifferentLengths) {
   Features in = SomeFeatures(3);
   in.sigma_rad.pop_back();
   EXPECT_EQ(DecodeFeatures(EncodeFeatures(in).value()).status().code(),
-            absl::StatusCode::kInvalidArgument);
+            absl::StatusCode::kDataLoss);
 }
 
 TEST(PlaceSampleCodec, RoundTrips) {
@@ -377,6 +381,141 @@ TEST(ReconstructionCodec, RefusesBearingsOfAnotherLength) {
   EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
 }
 
+TEST(ReconstructionCodec, RefusesPlacesThatNobodyCanComputeWith) {
+  Reconstruction in = SomeReconstruction();
+  in.tracks[3].point_in_world.x() = 1e20;  // rays that are all but parallel
+  EXPECT_TRUE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
+  in.tracks[3].point_in_world.x() = 1e40;
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
+  in = SomeReconstruction();
+  in.images[ImageId(3)].cam_from_world.translation.z() = -1e10;
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
+  in = SomeReconstruction();
+  in.tracks[3].observations[0].sigma_rad = 0.0;
+  EXPECT_FALSE(DecodeReconstruction(EncodeReconstruction(in).value()).ok());
+}
+
+TEST(PartitionCodec, RefusesWhatIsNotBetweenItsClusters) {
+  DividedViewGraph divided;
+  divided.partition.clusters = {{.images = {ImageId(0), ImageId(1)}, .interior = {ImageId(0)}},
+                                {.images = {ImageId(1), ImageId(2)}, .interior = {ImageId(2)}}};
+  divided.partition.seams = {{.cluster_a = 0, .cluster_b = 1, .shared = {ImageId(1)}}};
+  const auto is_taken = [](const DividedViewGraph& in) {
+    return DecodeDividedViewGraph(EncodeDividedViewGraph(in).value()).ok();
+  };
+  ASSERT_TRUE(is_taken(divided));
+  DividedViewGraph spoilt = divided;
+  spoilt.partition.seams[0].cluster_b = 2;
+  EXPECT_FALSE(is_taken(spoilt)) << "a cluster that there is not";
+  spoilt = divided;
+  spoilt.partition.seams[0].shared = {ImageId(2)};
+  EXPECT_FALSE(is_taken(spoilt)) << "an image of one of them alone";
+  spoilt = divided;
+  spoilt.partition.clusters[0].images = {ImageId(1), ImageId(0)};
+  EXPECT_FALSE(is_taken(spoilt)) << "no order";
+  spoilt = divided;
+  spoilt.partition.clusters[0].images = {ImageId(0), ImageId(0), ImageId(1)};
+  EXPECT_FALSE(is_taken(spoilt)) << "an image twice";
+  spoilt = divided;
+  spoilt.partition.clusters[1].interior = {ImageId(3)};
+  EXPECT_FALSE(is_taken(spoilt)) << "an interior elsewhere";
+  spoilt = divided;
+  spoilt.edges = {{ImageId(1), ImageId(0)}};
+  spoilt.edge_kinds = {1};
+  spoilt.edge_rungs = {1};
+  EXPECT_FALSE(is_taken(spoilt)) << "a pair out of order";
+}
+
+TEST(RecipesCodec, RefuseImagesOutOfOrderAndPairsOfOthers) {
+  const Digest digest = DigestOf("features");
+  const ClusterRecipe recipe{.images = {{ImageId(1), digest}, {ImageId(4), digest}},
+                             .pairs = {{ImageId(1), ImageId(4)}},
+                             .shared = {ImageId(4)}};
+  const auto is_taken = [](const ClusterRecipe& in) {
+    return DecodeClusterRecipe(EncodeClusterRecipe(in).value()).ok();
+  };
+  ASSERT_TRUE(is_taken(recipe));
+  ClusterRecipe spoilt = recipe;
+  std::swap(spoilt.images[0], spoilt.images[1]);
+  EXPECT_FALSE(is_taken(spoilt));
+  spoilt = recipe;
+  spoilt.pairs = {{ImageId(1), ImageId(5)}};
+  EXPECT_FALSE(is_taken(spoilt));
+  spoilt = recipe;
+  spoilt.pairs.push_back(spoilt.pairs[0]);
+  EXPECT_FALSE(is_taken(spoilt));
+  spoilt = recipe;
+  spoilt.shared = {ImageId(2)};
+  EXPECT_FALSE(is_taken(spoilt));
+}
+
+TEST(SubproblemCodec, RefusesTermsOfWhatItDoesNotHold) {
+  Subproblem block{.scene = SomeReconstruction()};  // its last image is loose
+  for (const auto& [id, image] : block.scene.images)
+    block.images.push_back({.id = id, .camera = {64, 32}, .is_held = id == ImageId(0)});
+  std::erase_if(block.scene.tracks, [](const Track& track) {
+    return track.observations.back().ref.image >= ImageId(12);
+  });
+  block.priors = {{.image = ImageId(3), .bias_group = 1}};
+  block.biases = {{.group = 1, .is_separator = true}};
+  block.split = {{.id = 4, .part = block.scene.tracks[0]},
+                 {.id = 6, .part = block.scene.tracks[1]}};
+  block.farthest = ImageId(6);
+  const auto is_taken = [](const Subproblem& in) {
+    return DecodeSubproblem(EncodeSubproblem(in).value()).ok();
+  };
+  ASSERT_TRUE(is_taken(block));
+  const std::map<std::string, void (*)(Subproblem&)> poisons = {
+      {"a track of a loose image", [](Subproblem& b) { b.scene.images[ImageId(0)].loose = true; }},
+      {"a prior of a loose image", [](Subproblem& b) { b.priors[0].image = ImageId(12); }},
+      {"a prior of another bias", [](Subproblem& b) { b.priors[0].bias_group = 2; }},
+      {"a bias that cannot move", [](Subproblem& b) { b.biases[0].sigma_m = 0.0; }},
+      {"biases out of order", [](Subproblem& b) { b.biases.push_back({.group = 0}); }},
+      {"a split track twice", [](Subproblem& b) { b.split[1].id = 4; }},
+      {"split tracks beyond all", [](Subproblem& b) { b.split[1].id = 0x80000000U; }},
+      {"a distance to a loose image", [](Subproblem& b) { b.farthest = ImageId(12); }},
+      {"a distance from nothing", [](Subproblem& b) { b.images[0].is_held = false; }},
+      {"a held image that moves", [](Subproblem& b) { b.images[0].is_separator = true; }},
+      {"two held images", [](Subproblem& b) { b.images[1].is_held = true; }},
+      {"a camera of no size", [](Subproblem& b) { b.images[0].camera.width_px = 0; }},
+  };
+  for (const auto& [what, poison] : poisons) {
+    Subproblem spoilt = block;
+    poison(spoilt);
+    EXPECT_FALSE(is_taken(spoilt)) << what;
+  }
+}
+
+TEST(SubproblemResultCodec, TakesAStepThatLedNowhereAndNoneThatGainsByNothing) {
+  SubproblemResult result{.subproblem = DigestOf("block")};
+  result.reply.trial.retained_points.resize(1);
+  for (const double cost : {0.0, 7.5, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    result.reply.trial.cost = cost;
+    EXPECT_TRUE(DecodeSubproblemResult(EncodeSubproblemResult(result).value()).ok()) << cost;
+  }
+  result.reply.trial.cost = -1.0;
+  EXPECT_FALSE(DecodeSubproblemResult(EncodeSubproblemResult(result).value()).ok());
+  result.reply.trial.cost = 1.0;
+  result.reply.trial.retained_points[0].after[1].cost = -1.0;
+  EXPECT_FALSE(DecodeSubproblemResult(EncodeSubproblemResult(result).value()).ok());
+}
+
+TEST(SeamsCodec, LooksAtTheCovarianceOfASeamThatHolds) {
+  FittedSeam seam{.a = {0, 0}, .b = {1, 0}};
+  const auto is_taken = [&] {
+    return DecodeSeamsOfCluster(EncodeSeamsOfCluster({.seams = {seam}}).value()).ok();
+  };
+  EXPECT_TRUE(is_taken());
+  seam.fit.covariance(2, 2) = -1.0;
+  EXPECT_FALSE(is_taken());
+  seam.fit.condition_number = std::numeric_limits<double>::infinity();  // nobody uses it
+  EXPECT_TRUE(is_taken());
+  seam.fit.condition_number = std::nan("");
+  EXPECT_FALSE(is_taken());
+  seam = {.a = {1, 0}, .b = {0, 0}};
+  EXPECT_FALSE(is_taken());
+}
+
 TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   const ClusterResult cluster{
       .cluster = 4,
@@ -399,9 +538,10 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.start_remark, "29 of 30 images stay registered");
   ExpectSame(cluster_out->reconstruction.submodels[0], cluster.reconstruction.submodels[0]);
 
-  Alignment alignment{.world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}},
-                      .world = {0},
-                      .submodels = {{.cluster = 4, .num_images = 7}}};
+  Alignment alignment{
+      .world_from_submodel = {Sim3{2.0, Eigen::Quaterniond::Identity(), {1, 2, 3}}, Sim3{}},
+      .world = {0, 0},
+      .submodels = {{.cluster = 4, .num_images = 7}, {.cluster = 5, .num_images = 6}}};
   alignment.seams.push_back({.submodel_a = 0,
                              .submodel_b = 1,
                              .used = false,

@@ -72,7 +72,7 @@ TEST(SubproblemInspectionCodec, CarriesPointsAboutPanoramas) {
 Subproblem SubproblemWithDirection(ImageId of, double sigma_rad) {
   Subproblem subproblem;
   subproblem.scene.images[ImageId(2)] = {};
-  subproblem.images = {{.id = ImageId(2)}};
+  subproblem.images = {{.id = ImageId(2), .camera = {64, 32}}};
   subproblem.directions = {{.image = of,
                             .direction_in_world = {0.0, 0.6, -0.8},
                             .direction_in_cam = {0.0, 0.8, 0.6},

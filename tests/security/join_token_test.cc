@@ -38,6 +38,18 @@ TEST(JoinToken, NoTwoAreAlike) {
   EXPECT_NE(MakeTokenKey(), key);
 }
 
+TEST(JoinToken, SaysForHowManyItIs) {
+  const std::string key = MakeTokenKey();
+  JoinClaims claims = Claims();
+  EXPECT_EQ(ReadJoinToken(MakeJoinToken(key, claims))->uses, 1U);
+  claims.uses = kMostUses;
+  EXPECT_EQ(ReadJoinToken(MakeJoinToken(key, claims))->uses, kMostUses);
+  for (const uint32_t uses : {0U, kMostUses + 1}) {
+    claims.uses = uses;
+    EXPECT_FALSE(ReadJoinToken(MakeJoinToken(key, claims)).ok()) << uses;
+  }
+}
+
 TEST(JoinToken, EndsAtItsTime) {
   const std::string key = MakeTokenKey();
   const std::string token = MakeJoinToken(key, Claims());
@@ -65,9 +77,9 @@ TEST(JoinToken, RefusesWhatIsNone) {
   const std::string key = MakeTokenKey();
   for (const std::string& text : {std::string(),
                                   std::string("."),
-                                  std::string("orbweave-join-1."),
-                                  std::string("orbweave-join-1.."),
-                                  std::string("orbweave-join-1.YQ.YQ"),
+                                  std::string("orbweave-join-2."),
+                                  std::string("orbweave-join-2.."),
+                                  std::string("orbweave-join-2.YQ.YQ"),
                                   std::string(100'000, 'a')}) {
     EXPECT_TRUE(absl::IsPermissionDenied(VerifyJoinToken(key, text, kNow).status())) << text.size();
     EXPECT_TRUE(absl::IsInvalidArgument(ReadJoinToken(text).status())) << text.size();

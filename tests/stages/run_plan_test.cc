@@ -12,17 +12,14 @@
 #include <vector>
 
 #include "coordinator/coordinator.h"
-#include "core/synthetic/corridor.h"
-#include "core/synthetic/make_corridor.h"
-#include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
 #include "stages/job_reader.h"
 #include "stages/plans.h"
 #include "stages/registry.h"
-#include "stages/select_image_pairs/plan_matching.h"
 #include "tests/support/command.h"
 #include "tests/support/in_process_executor.h"
 #include "tests/support/memory_blobs.h"
+#include "tests/support/street_job.h"
 #include "worker/worker_loop.h"
 
 namespace orbweave {
@@ -32,32 +29,10 @@ constexpr uint32_t kPanoramas = 36;
 
 /// A street in three clusters, adjusted in subproblems that meet in separators.
 JobSpec StreetJob(BlobAccess& blobs) {
-  const Corridor street = MakeCorridor({.panoramas = kPanoramas, .features_per_panorama = 150});
-  std::vector<Digest> names;
-  std::vector<Digest> both;
-  for (const Features& features : street.features) {
-    names.push_back(PutBlob(features, blobs).value());
-    const PlaceSample place{.num_features = static_cast<uint32_t>(features.size())};
-    both.insert(both.end(), {names.back(), PutBlob(place, blobs).value()});
-  }
-  std::vector<MatchRecipe::Pair> pairs;
-  for (const PairMatches& pair : street.pairs) pairs.push_back({pair.pair, pair.matches});
-  std::vector<Digest> recipes;
-  for (const MatchRecipe& recipe : PlanMatching(std::move(pairs), names, 64))
-    recipes.push_back(PutBlob(recipe, blobs).value());
-  PipelineOptions options;
-  for (const char* text :
-       {"partition.cluster_size=12", "partition.overlap=4", "blocks.distribute_from=10"})
-    EXPECT_TRUE(SetPipelineOption(options, text).ok()) << text;
-  using Job = SparseFromMatchesJob;
-  JobInputs<Job> inputs;
-  inputs.Set(&Job::manifest, PutBlob(street.manifest, blobs).value())
-      .Set(&Job::features, PutBlob(both, blobs).value())
-      .Set(&Job::runs, PutBlob(recipes, blobs).value())
-      .Set(&Job::clusters_by_hand, PutBlob(ClusterNames{}, blobs).value());
-  return {.kind = std::string(Job::kKind),
-          .inputs = inputs.InOrder(),
-          .options_text = PipelineOptionsToText(options)};
+  return testing::StreetJob(
+      {.panoramas = kPanoramas, .features_per_panorama = 150},
+      {"partition.cluster_size=12", "partition.overlap=4", "blocks.distribute_from=10"},
+      blobs);
 }
 
 /// Every task of the last round of each stage with all that it left.

@@ -7,6 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <set>
+
 #include "core/pipeline/build_version.h"
 #include "security/certificate_request.h"
 #include "security/join_token.h"
@@ -174,6 +177,28 @@ TEST_F(EnrollmentOverTime, ABadRequestDoesNotSpendTheToken) {
   EXPECT_TRUE(
       absl::IsInvalidArgument(enrollment_service_->Enroll(token, request_, "../a").status()));
   EXPECT_TRUE(enrollment_service_->Enroll(token, request_, "a").ok());
+}
+
+TEST_F(EnrollmentOverTime, ATokenForSeveralGivesEachItsOwnName) {
+  ASSERT_TRUE(WriteJoinToken(keys_, folder_ / "token", now_ + 100, 3).ok());
+  const std::string token = *ReadSecretFile(folder_ / "token");
+  std::set<std::string> names;
+  for (int use = 0; use < 3; ++use) {
+    Open();  // uses are remembered by every coordinator on this state
+    const auto certificate = enrollment_service_->Enroll(token, request_, "host");
+    ASSERT_TRUE(certificate.ok()) << certificate.status();
+    names.insert(ReadCertificate(*certificate)->identity.name);
+  }
+  EXPECT_EQ(names.size(), 3U);
+  EXPECT_TRUE(
+      absl::IsPermissionDenied(enrollment_service_->Enroll(token, request_, "host").status()));
+}
+
+TEST_F(EnrollmentOverTime, WhatWasRememberedAndIsDamagedSpendsNoToken) {
+  const std::string token = Token(100);
+  ASSERT_TRUE(enrollment_service_->Enroll(token, request_, "a").ok());
+  std::ofstream(folder_ / "used/" + ReadJoinToken(token)->nonce) << "nonsense";
+  EXPECT_FALSE(enrollment_service_->Enroll(token, request_, "a").ok());
 }
 
 TEST_F(EnrollmentOverTime, NoTwoTokensGiveTheSameName) {

@@ -6,7 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <memory>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -84,29 +87,69 @@ TEST(Limits, RunningJobsAreCounted) {
   EXPECT_TRUE(submit("3").ok());
 }
 
-TEST(Limits, CallsBeyondTheThreadsAreTurnedAway) {
-  constexpr int kThreads = 12;
+/// A worker with slots.
+WorkerInfo WideWorker(uint32_t slots) {
+  WorkerInfo worker = Worker("node");
+  worker.slots = slots;
+  return worker;
+}
+
+TEST(Limits, WhoWaitsForATaskTakesNoThread) {
+  constexpr uint32_t kThreads = 12;
   TlsServer server({.limits = {.threads = kThreads}});
   const auto node = server.As("node");
-  const uint64_t session = node->Join(Worker("node"))->session;
-  std::atomic<int> turned_away{0};
+  const uint64_t session = node->Join(WideWorker(4 * kThreads))->session;
+  std::stop_source leave;
+  std::atomic<uint32_t> left{0};
   {
     std::vector<std::jthread> waiting;
-    for (uint32_t slot = 0; slot < 2 * kThreads; ++slot) {
+    for (uint32_t slot = 0; slot < 4 * kThreads; ++slot) {
       waiting.emplace_back([&, slot] {
-        if (absl::IsResourceExhausted(node->LeaseTask(session, slot, 2.0).status())) ++turned_away;
+        if (absl::IsCancelled(node->LeaseTask(session, slot, 60.0, leave.get_token()).status()))
+          ++left;
       });
     }
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(node->Heartbeat(session, {}).ok());
+    leave.request_stop();
   }
-  EXPECT_GT(turned_away, 0);
-  EXPECT_LT(turned_away, 2 * kThreads);
-  EXPECT_TRUE(node->Heartbeat(session, {}).ok()) << "it serves on";
+  EXPECT_EQ(left, 4 * kThreads) << "none was turned away";
+}
+
+TEST(Limits, CallsBeyondTheThreadsAreTurnedAway) {
+  constexpr size_t kThreads = 12;
+  TlsServer server({.limits = {.threads = kThreads}});
+  const auto stub =
+      v1::Coordinator::NewStub(OpenChannel(server.address(), server.keys() + "/client"));
+  struct Upload {
+    grpc::ClientContext context{};
+    v1::PutBlobReply reply{};
+    std::unique_ptr<grpc::ClientWriter<v1::BlobChunk>> writer{};
+  };
+  std::vector<Upload> uploads(2 * kThreads);
+  v1::BlobChunk chunk;
+  chunk.set_digest(std::string(32, 'd'));
+  chunk.set_size_bytes(1 << 20);
+  chunk.set_data("x");
+  for (Upload& upload : uploads) upload.writer = stub->PutBlob(&upload.context, &upload.reply);
+  const auto one_is_over = [&] {
+    return !std::ranges::all_of(uploads,
+                                [&](Upload& upload) { return upload.writer->Write(chunk); });
+  };
+  EXPECT_TRUE(testing::WaitUntil(one_is_over, 60.0)) << "the others go on and on";
+  size_t turned_away = 0;
+  for (Upload& upload : uploads) {
+    upload.writer->WritesDone();
+    if (upload.writer->Finish().error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) ++turned_away;
+  }
+  EXPECT_GT(turned_away, 0U);
+  EXPECT_LT(turned_away, uploads.size());
+  EXPECT_TRUE(server.As("client")->ListJobs().ok()) << "it serves on";
 }
 
 TEST(Limits, StreamsBeyondThoseOfAConnectionWait) {
   TlsServer server({.limits = {.streams_per_connection = 2}});
   const auto node = server.As("node");
-  const uint64_t session = node->Join(Worker("node"))->session;
+  const uint64_t session = node->Join(WideWorker(6))->session;
   std::atomic<int> answered{0};
   {
     std::vector<std::jthread> waiting;
@@ -117,6 +160,15 @@ TEST(Limits, StreamsBeyondThoseOfAConnectionWait) {
     }
   }
   EXPECT_EQ(answered, 6);
+}
+
+TEST(Limits, AWorkerHasSlotsWithinReason) {
+  TlsServer server;
+  const auto node = server.As("node");
+  for (const uint32_t slots : {0U, 1025U})
+    EXPECT_TRUE(absl::IsInvalidArgument(node->Join(WideWorker(slots)).status())) << slots;
+  const uint64_t session = node->Join(WideWorker(2))->session;
+  EXPECT_TRUE(absl::IsInvalidArgument(node->LeaseTask(session, 2, 0.0).status()));
 }
 
 }  // namespace

@@ -38,9 +38,10 @@ TEST(LightFleet, LosesAndDoublesNoTask) {
     EXPECT_EQ(fleet.refused(), 0U);
     EXPECT_EQ((*coordinator)->GetJob(*job)->stages[0].retries, 0U);
     uint32_t done = 0;
-    for (const WorkerStatus& worker : (*coordinator)->ListWorkers()) done += worker.tasks_done;
+    const auto workers = (*coordinator)->ListWorkers();
+    for (const WorkerStatus& worker : *workers) done += worker.tasks_done;
     EXPECT_EQ(done, kParts);
-    EXPECT_EQ((*coordinator)->ListWorkers().size(), kWorkers);
+    EXPECT_EQ(workers->size(), kWorkers);
   }
   (*coordinator)->BeginShutdown();
 }

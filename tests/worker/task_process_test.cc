@@ -18,6 +18,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/pipeline/damaged_blob.h"
 #include "tests/support/command.h"
 #include "tests/support/memory_blobs.h"
 #include "tests/support/toy_job.h"
@@ -41,6 +42,10 @@ absl::StatusOr<TaskResult> PutText(BlobAccess& blobs, const std::string& text) {
 absl::StatusOr<TaskResult> CopyInput(const TaskSpec& spec, BlobAccess& blobs, const StageContext&) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, blobs.Get(spec.inputs.at(0)));
   return PutText(blobs, bytes);
+}
+
+absl::StatusOr<TaskResult> BlameInput(const TaskSpec& spec, BlobAccess&, const StageContext&) {
+  return BlameBlob(absl::DataLossError("no number"), spec.inputs.at(0));
 }
 
 absl::StatusOr<TaskResult> TellContext(const TaskSpec&,
@@ -104,6 +109,7 @@ absl::StatusOr<TaskResult> EatMemory(const TaskSpec&, BlobAccess& blobs, const S
 
 testing::StageMap Stages() {
   return {{"copy", CopyInput},
+          {"blame", BlameInput},
           {"context", TellContext},
           {"pid", TellPid},
           {"socket", TellSocket},
@@ -188,6 +194,14 @@ TEST_F(TaskProcessTest, MeasuresWhatTheTaskTookInItsProcess) {
   EXPECT_GE(result->cost.wall_s, 0.3);
   EXPECT_GT(result->cost.cpu_s, 0.0);
   EXPECT_GT(result->cost.peak_memory_bytes, 0U);
+}
+
+TEST_F(TaskProcessTest, PassesOnWhichBlobIsToBlame) {
+  const Digest digest = *blobs_.Put("x");
+  const absl::Status error = RunSpec({.stage = "blame", .inputs = {digest}}).status();
+  EXPECT_TRUE(absl::IsDataLoss(error));
+  EXPECT_EQ(error.message(), "no number");
+  EXPECT_EQ(BlobToBlame(error), digest);
 }
 
 TEST_F(TaskProcessTest, PassesOnErrorsOfStagesAndBlobs) {

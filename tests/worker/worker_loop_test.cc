@@ -54,12 +54,14 @@ class RunningWorker {
                 uint32_t slots = 1,
                 double grace_s = 0.0,
                 const std::string& blob_folder = "")
-      : stages_(std::move(stages)),
-        options_{.name = name,
-                 .slots = slots,
-                 .grace_s = grace_s,
-                 .poll_s = 0.1,
-                 .blob_folder = blob_folder} {
+      : RunningWorker(
+            api,
+            std::move(stages),
+            WorkerOptions{
+                .name = name, .slots = slots, .grace_s = grace_s, .blob_folder = blob_folder}) {}
+  RunningWorker(CoordinatorApi& api, testing::StageMap stages, WorkerOptions options)
+      : stages_(std::move(stages)), options_(std::move(options)) {
+    options_.poll_s = 0.1;
     thread_ = std::thread([this, &api] {
       const StageLookup lookup = LookupIn(stages_);
       end_ =
@@ -72,10 +74,11 @@ class RunningWorker {
 
   void RequestStop() { stop_.request_stop(); }
   /// Waits for its end; how it ended.
-  absl::Status Join() {
+  absl::StatusOr<WorkerEnd> End() {
     if (thread_.joinable()) thread_.join();
     return end_;
   }
+  absl::Status Join() { return End().status(); }
   absl::Status Stop() {
     RequestStop();
     return Join();
@@ -86,7 +89,7 @@ class RunningWorker {
   WorkerOptions options_;
   SteadyClock clock_;
   std::stop_source stop_;
-  absl::Status end_ = absl::UnknownError("never ran");
+  absl::StatusOr<WorkerEnd> end_ = absl::UnknownError("never ran");
   std::thread thread_;
 };
 
@@ -111,8 +114,8 @@ TEST_F(WorkerLoopTest, DoesAJobWithSeveralWorkersAndSlots) {
   EXPECT_EQ(*ToyAnswer(*coordinator, job), "385");
   EXPECT_TRUE(one.Stop().ok());
   EXPECT_TRUE(two.Stop().ok());
-  const auto status = coordinator->GetJob(job);
-  for (const WorkerStatus& worker : status->workers) EXPECT_FALSE(worker.alive) << worker.name;
+  const auto workers = coordinator->ListWorkers();
+  for (const WorkerStatus& worker : *workers) EXPECT_FALSE(worker.alive) << worker.name;
 }
 
 TEST_F(WorkerLoopTest, TakesQuickTasksAheadAndRunsThemOneAfterAnother) {
@@ -230,7 +233,7 @@ TEST_F(WorkerLoopTest, LeavesWhenItIsDrained) {
   RunningWorker leaver(*coordinator, ToyStages(), "leaver");
   ASSERT_TRUE(
       WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
-  ASSERT_TRUE(coordinator->DrainWorker("leaver").ok());
+  ASSERT_TRUE(coordinator->DrainWorkers("leaver").ok());
   EXPECT_TRUE(leaver.Join().ok());
   const StageStatus left = coordinator->GetJob(job)->stages[1];
   EXPECT_GT(left.tasks_done, 0U) << "what ran";
@@ -244,11 +247,103 @@ TEST_F(WorkerLoopTest, TheGraceAlsoEndsAWorkerThatIsDrained) {
   RunningWorker leaver(*coordinator, ToyStages(), "leaver", 2, 0.1);
   ASSERT_TRUE(
       WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
-  ASSERT_TRUE(coordinator->DrainWorker("leaver").ok());
+  ASSERT_TRUE(coordinator->DrainWorkers("leaver").ok());
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_EQ(coordinator->GetJob(job)->stages[1].tasks_running, 1U);
   EXPECT_TRUE(leaver.Stop().ok());
   EXPECT_EQ(coordinator->GetJob(job)->stages[1].tasks_running, 0U);
+}
+
+TEST_F(WorkerLoopTest, SaysWhyItLeft) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_, 2.0);
+  RunningWorker stopped(*coordinator, ToyStages(), "stopped");
+  stopped.RequestStop();
+  EXPECT_EQ(*stopped.End(), WorkerEnd::kStopped);
+  RunningWorker drained(*coordinator, ToyStages(), "drained");
+  ASSERT_TRUE(WaitUntil([&] { return coordinator->DrainWorkers("drained").ok(); }, 20.0));
+  EXPECT_EQ(*drained.End(), WorkerEnd::kDismissed);
+  RunningWorker dismissed(*coordinator, ToyStages(), "dismissed");
+  const Digest job = Submit(*coordinator, "1");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  coordinator->BeginShutdown();
+  EXPECT_EQ(*dismissed.End(), WorkerEnd::kDismissed);
+}
+
+TEST_F(WorkerLoopTest, EndsWhenItWasIdleForLong) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_, 2.0);
+  const Digest job = Submit(*coordinator, "1 2 3", "toy.pause=true\n");
+  RunningWorker worker(
+      *coordinator, ToyStages(), {.name = "w", .slots = 2, .term = {.idle_s = 0.3}});
+  EXPECT_EQ(*worker.End(), WorkerEnd::kIdle);
+  EXPECT_EQ(coordinator->GetJob(job)->state, JobState::kDone) << "it was not idle before";
+}
+
+TEST_F(WorkerLoopTest, IsNotIdleWhileItsCoordinatorIsAway) {
+  const std::string address = "unix:" + (folder_ / "s");
+  GrpcCoordinatorClient client(address);
+  RunningWorker worker(client, ToyStages(), {.name = "w", .term = {.idle_s = 1.0}});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  const auto coordinator = OpenCoordinator(folder_ / "state", clock_, 2.0);
+  const auto server = *GrpcServer::Start(*coordinator, address);
+  const Digest job = Submit(*coordinator, "1");
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(*worker.End(), WorkerEnd::kIdle);
+}
+
+TEST_F(WorkerLoopTest, GivesUpACoordinatorThatStaysAway) {
+  GrpcCoordinatorClient nobody("unix:" + (folder_ / "s"));
+  RunningWorker worker(nobody, ToyStages(), {.name = "w", .term = {.patience_s = 0.5}});
+  const absl::Status end = worker.Join();
+  EXPECT_TRUE(absl::IsUnavailable(end)) << end;
+  EXPECT_THAT(std::string(end.message()),
+              ::testing::HasSubstr("no coordinator answered for 0.5 s"));
+}
+
+TEST_F(WorkerLoopTest, GivesUpACoordinatorThatGoesForLongWithATaskInHand) {
+  const std::string address = "unix:" + (folder_ / "s");
+  auto coordinator = OpenCoordinator(folder_ / "state", clock_);
+  auto server = *GrpcServer::Start(*coordinator, address);
+  GrpcCoordinatorClient client(address);
+  const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
+  RunningWorker worker(client, ToyStages(), {.name = "w", .term = {.patience_s = 2.0}});
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  server.reset();  // as if the process had died: nobody is told
+  coordinator.reset();
+  EXPECT_TRUE(absl::IsUnavailable(worker.Join()));
+}
+
+TEST_F(WorkerLoopTest, FinishesWhatItHasWhenItsLifetimeIsOver) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  std::atomic<int> begun{0};
+  testing::StageMap stages = ToyStages();
+  stages["square"] = [&begun](
+                         const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    ++begun;
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    return testing::Square(spec, blobs, context);
+  };
+  const Digest job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10");
+  RunningWorker worker(*coordinator, stages, {.name = "w", .term = {.lifetime_s = 0.8}});
+  EXPECT_EQ(*worker.End(), WorkerEnd::kStopped);
+  const StageStatus left = coordinator->GetJob(job)->stages[1];
+  EXPECT_EQ(left.tasks_done, static_cast<uint32_t>(begun.load())) << "nothing was given back";
+  EXPECT_GT(begun, 0);
+  EXPECT_LT(begun, 10);
+  EXPECT_EQ(left.retries, 0U);
+}
+
+TEST_F(WorkerLoopTest, IsGoneWhenItsTimeIsUp) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const Digest job = Submit(*coordinator, "1", "toy.slow=true\n");
+  RunningWorker worker(
+      *coordinator, ToyStages(), {.name = "w", .grace_s = 0.5, .term = {.stays_s = 2.0}});
+  ASSERT_TRUE(
+      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  EXPECT_EQ(*worker.End(), WorkerEnd::kStopped);
+  const StageStatus left = coordinator->GetJob(job)->stages[1];
+  EXPECT_EQ(left.tasks_running, 0U) << "it was given back";
+  EXPECT_EQ(left.retries, 0U);
 }
 
 TEST_F(WorkerLoopTest, StopsATaskOfACancelledJobAndTakesTheNext) {

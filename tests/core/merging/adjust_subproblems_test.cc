@@ -38,10 +38,13 @@ World MakeWorld(CorridorShape shape, bool uses_gnss) {
   return world;
 }
 
-std::vector<Subproblem> Divide(const World& world, uint32_t images_per_subproblem) {
+std::vector<Subproblem> Divide(const World& world,
+                               uint32_t images_per_subproblem,
+                               double bias_sigma_m = 2.0) {
   std::map<ImageId, uint32_t> owners;
   for (const auto& [id, image] : world.model.images) owners[id] = id.value / images_per_subproblem;
-  return DivideWorld(world.model, 0, owners, world.georeference, world.corridor.manifest, 2.0);
+  return DivideWorld(
+      world.model, 0, owners, world.georeference, world.corridor.manifest, bias_sigma_m);
 }
 
 AdjustedSubproblems Adjust(std::vector<Subproblem> subproblems, int num_threads = 1) {
@@ -124,6 +127,16 @@ TEST(DivideWorld, GivesEveryTermToOneSubproblemAndEveryImageOneOwner) {
     for (const auto& [id, count] : owners) EXPECT_EQ(count, 1);
     for (const auto& [group, count] : counted_biases) EXPECT_EQ(count, 1);
     EXPECT_EQ(counted_biases.size(), 2U);
+  }
+}
+
+TEST(DivideWorld, MovesNoBiasWhereThereShallBeNone) {
+  const World world = MakeWorld(CorridorShape::kBends, true);
+  const AdjustedSubproblems adjusted = Adjust(Divide(world, 9, 0.0));
+  EXPECT_EQ(ModelOf(adjusted).images.size(), world.model.images.size());
+  for (const Subproblem& subproblem : adjusted.subproblems) {
+    EXPECT_FALSE(subproblem.biases.empty());
+    for (const SubproblemBias& bias : subproblem.biases) EXPECT_TRUE(bias.value_m.isZero());
   }
 }
 

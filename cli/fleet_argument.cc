@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/fleet_argument.h"
+
+#include "cli/coordinator_argument.h"
+
+namespace orbweave {
+
+absl::Status FleetArgument::Check() const {
+  if (workers > 0 || !door.listen.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError("--workers 0 needs --listen: somebody else has to do the work");
+}
+
+void AddFleetArguments(CLI::App& command, FleetArgument& argument) {
+  command.add_option("--workers", argument.workers, "Worker processes of this machine")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  CLI::Option* const listen = command.add_option(
+      "--listen",
+      argument.door.listen,
+      "Also take workers that join here (orbweave work --join): unix:/path or host:port");
+  AddTlsArgument(command, argument.door.tls_folder)
+      ->description("With --listen: folder with ca.crt, own.crt and own.key of a coordinator")
+      ->needs(listen);
+  AddAnnounceArguments(command, argument.door.announce);
+  command.add_option("--journal-folder",
+                     argument.journal_folder,
+                     "Folder on a disk of this machine to keep the journal in, with a copy in the "
+                     "output (default: only where that is on NFS, Lustre and their like)");
+}
+
+}  // namespace orbweave

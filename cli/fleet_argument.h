@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+#include "cli/local_fleet.h"
+#include "core/base/status.h"
+
+namespace orbweave {
+
+/// Who does the tasks of a job that this process coordinates.
+struct FleetArgument {
+  uint32_t workers = 2;          ///< processes of this machine
+  FleetDoor door{};              ///< for workers of others
+  std::string journal_folder{};  ///< see LocalFleetOptions
+
+  /// InvalidArgument: there would be nobody.
+  [[nodiscard]] absl::Status Check() const;
+};
+
+/// Declares `--workers`, `--listen`, `--tls`, `--announce` and `--announce-host`.
+void AddFleetArguments(CLI::App& command, FleetArgument& argument);
+
+}  // namespace orbweave

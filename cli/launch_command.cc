@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/launch_command.h"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "cli/exit_code.h"
+#include "cli/run_command.h"
+#include "cli/slurm_scripts.h"
+#include "core/io/file.h"
+#include "core/storage/durable_file.h"
+#include "security/join_token.h"
+#include "security/key_store.h"
+#include "security/unix_time.h"
+
+namespace orbweave {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LaunchArguments {
+  SlurmLaunch launch{};
+  bool print = false;
+  bool wait = false;
+};
+
+/// What a launch decides itself.
+absl::Status RefuseFleetArguments(const std::vector<std::string>& arguments) {
+  for (const char* taken : {"--workers", "--listen", "--tls", "--announce"}) {
+    const auto is_it = [taken](const std::string& argument) {
+      return absl::StartsWith(argument, taken);
+    };
+    if (std::ranges::any_of(arguments, is_it)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(taken, " is up to the launch: give --nodes and --cpus"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+/// Whether `orbweave run` takes them: better known now than hours later.
+absl::Status CheckRunArguments(const SlurmLaunch& launch) {
+  ORBWEAVE_RETURN_IF_ERROR(RefuseFleetArguments(launch.run_arguments));
+  CLI::App app;
+  SelectedCommand ignored;
+  AddRunCommand(app, ignored);
+  std::vector<std::string> words = {"run", "--output", launch.output};
+  words.insert(words.end(), launch.run_arguments.begin(), launch.run_arguments.end());
+  std::ranges::reverse(words);  // as CLI11 takes them
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return absl::InvalidArgumentError(error.what());
+  }
+  return absl::OkStatus();
+}
+
+/// Keys of a fleet of this job's own, and a token by which its workers join.
+absl::Status MakeKeys(const SlurmLaunch& launch) {
+  constexpr int64_t kValid_s = int64_t{30} * 86'400;
+  const std::string keys = launch.Folder() + "/keys";
+  std::error_code error;
+  if (!fs::exists(keys, error))
+    ORBWEAVE_RETURN_IF_ERROR(MakeKeyStore(keys, "launch", {}, UnixNow()));
+  return WriteJoinToken(keys, launch.Folder() + "/join.token", UnixNow() + kValid_s, kMostUses)
+      .status();
+}
+
+absl::Status WriteScripts(const SlurmLaunch& launch) {
+  const std::string folder = launch.Folder();
+  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(launch.output));
+  ORBWEAVE_RETURN_IF_ERROR(MakeFolder(folder));
+  ORBWEAVE_RETURN_IF_ERROR(MakeKeys(launch));
+  ORBWEAVE_RETURN_IF_ERROR(
+      WriteFileDurably(folder, folder + "/coordinator.sbatch", CoordinatorScript(launch)));
+  return WriteFileDurably(folder, folder + "/workers.sbatch", WorkersScript(launch));
+}
+
+/// The exit code of `sbatch`; with --wait that is the job's.
+int Submit(const LaunchArguments& arguments) {
+  std::fflush(nullptr);
+  const std::string script = arguments.launch.Folder() + "/coordinator.sbatch";
+  const std::string command =
+      absl::StrCat("exec sbatch ", arguments.wait ? "--wait " : "", ShellWord(script));
+  const int end = std::system(command.c_str());
+  if (end != -1 && WIFEXITED(end)) return WEXITSTATUS(end);
+  return kExitFailed;
+}
+
+/// Makes what was said relative to here hold on every node.
+absl::Status MakeAbsolute(SlurmLaunch& launch) {
+  std::error_code error;
+  launch.program = fs::read_symlink("/proc/self/exe", error).string();
+  launch.work_folder = fs::current_path(error).string();
+  launch.output = fs::absolute(launch.output, error).lexically_normal().string();
+  while (launch.output.size() > 1 && launch.output.ends_with('/')) launch.output.pop_back();
+  if (error) return absl::InvalidArgumentError(absl::StrCat(launch.output, ": ", error.message()));
+  launch.name = "orbweave-" + fs::path(launch.output).filename().string();
+  return absl::OkStatus();
+}
+
+int Launch(LaunchArguments arguments) {
+  SlurmLaunch& launch = arguments.launch;
+  absl::Status status = MakeAbsolute(launch);
+  if (status.ok()) status = CheckRunArguments(launch);
+  if (status.ok() && arguments.print) {
+    std::printf("# %s/coordinator.sbatch\n%s\n# %s/workers.sbatch\n%s",
+                launch.Folder().c_str(),
+                CoordinatorScript(launch).c_str(),
+                launch.Folder().c_str(),
+                WorkersScript(launch).c_str());
+    return kExitOk;
+  }
+  if (status.ok()) status = WriteScripts(launch);
+  if (!status.ok()) return ReportStatus(status);
+  std::printf("scripts, keys and logs are in %s\n", launch.Folder().c_str());
+  return Submit(arguments);
+}
+
+CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arguments) {
+  CLI::App* slurm = launch.add_subcommand(
+      "slurm", "Have Slurm run it: a coordinator and workers that it may stop and requeue");
+  slurm->allow_extras();
+  slurm
+      ->add_option("--output",
+                   arguments->launch.output,
+                   "Folder of the results, on storage that all nodes see")
+      ->required();
+  slurm->add_option("--nodes", arguments->launch.nodes, "Workers, one allocation each")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  slurm->add_option("--cpus", arguments->launch.cpus, "CPUs of a worker: its tasks at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  slurm->add_option("--time",
+                    arguments->launch.time,
+                    "Time of an allocation, as sbatch takes it; the job goes on in the next one");
+  slurm
+      ->add_option("--sbatch",
+                   arguments->launch.sbatch,
+                   "A further option of sbatch, as in --sbatch=--account=city (repeatable)")
+      ->allow_extra_args(false);
+  slurm->add_flag("--print", arguments->print, "Only show the scripts");
+  slurm->add_flag("--wait", arguments->wait, "Wait for the end; the exit code is the job's");
+  return slurm;
+}
+
+}  // namespace
+
+void AddLaunchCommand(CLI::App& app, SelectedCommand& selected) {
+  CLI::App* command = app.add_subcommand("launch", "Have an engine run a job on its machines");
+  command->require_subcommand(1);
+  const auto arguments = std::make_shared<LaunchArguments>();
+  CLI::App* slurm = AddSlurm(*command, arguments);
+  slurm->footer(
+      "Examples:\n"
+      "  orbweave launch slurm street/images --output model --nodes 16 --cpus 8 --time 4:00:00\n"
+      "  orbweave launch slurm street/images --gnss street/gnss.csv --dense --output model --nodes "
+      "4 "
+      "--sbatch=--account=city --wait\n"
+      "  orbweave launch slurm street/images --output model --print\n"
+      "All other options are those of orbweave run. The same command goes on where a job was.");
+  slurm->callback([arguments, slurm, &selected] {
+    arguments->launch.run_arguments = slurm->remaining();
+    selected.run = [arguments] { return Launch(*arguments); };
+  });
+}
+
+}  // namespace orbweave

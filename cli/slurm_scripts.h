@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace orbweave {
+
+/// A job for Slurm. All paths are absolute, on storage that all nodes see.
+struct SlurmLaunch {
+  std::string name{};                        ///< of the jobs in the queue
+  std::string program{};                     ///< orbweave
+  std::string work_folder{};                 ///< what relative paths in run_arguments begin in
+  std::string output{};                      ///< of `orbweave run`
+  std::vector<std::string> run_arguments{};  ///< of `orbweave run`, but for those of its fleet
+  uint32_t nodes = 1;                        ///< workers
+  uint32_t cpus = 1;                         ///< of a worker, and so its tasks at a time
+  std::string time{};                 ///< of an allocation, as sbatch takes it; empty: the site's
+  std::vector<std::string> sbatch{};  ///< further options of sbatch
+
+  /// Where the scripts, keys and logs are.
+  [[nodiscard]] std::string Folder() const { return output + "/.orbweave/launch"; }
+  /// By which this launch's workers are told from all others in the queue.
+  [[nodiscard]] std::string WorkersName() const;
+};
+
+/// The batch script of the coordinator: it submits the workers, runs the job, and requeues itself
+/// when its time is up before the job is done. Its exit code is that of `orbweave run`.
+[[nodiscard]] std::string CoordinatorScript(const SlurmLaunch& launch);
+
+/// That of the workers, an array of jobs that begin whenever there is room for one, are requeued
+/// when their time is up, and end when the coordinator sends them home.
+[[nodiscard]] std::string WorkersScript(const SlurmLaunch& launch);
+
+/// `text` as one word of a shell.
+[[nodiscard]] std::string ShellWord(const std::string& text);
+
+}  // namespace orbweave

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The scripts as Slurm runs them, with programs in Slurm's place that note how they were called.
+
+#include "cli/slurm_scripts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/exit_code.h"
+#include "tests/support/command.h"
+
+namespace orbweave {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Command;
+using testing::CommandOutcome;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ReadAll;
+using testing::WaitUntil;
+
+class SlurmScripts : public ::testing::Test {
+ protected:
+  SlurmScripts() {
+    fs::create_directories(launch_.Folder());
+    fs::create_directory(folder_ / "bin");
+    for (const char* name : {"sbatch", "scontrol", "scancel"}) Program(name, "");
+    Program("squeue", R"(case "$*" in *%T*) cat "$STATE" ;; *) cat "$QUEUE" ;; esac)");
+    Write("state", "RUNNING\n");
+    Write("queue", "");
+    Write("calls", "");
+  }
+
+  void Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  /// A program that notes its call and does `action`.
+  void Program(const std::string& name, const std::string& action) {
+    const std::string path = folder_ / "bin/" + name;
+    std::ofstream(path) << "#!/bin/bash\necho \"" << name << " $*\" >>'" << folder_ / "calls"
+                        << "'\n"
+                        << action << "\n";
+    fs::permissions(path, fs::perms::owner_all);
+  }
+  /// `script` as the batch script of job 7, in which "scontrol requeue" ends it as Slurm does.
+  std::vector<std::string> Batch(const std::string& script) {
+    Write("script", script);
+    Program("sleep", "exec /bin/sleep 0.2");
+    return {"/usr/bin/env",
+            "PATH=" + (folder_ / "bin") + ":/usr/bin:/bin",
+            "SLURM_JOB_ID=7",
+            "STATE=" + (folder_ / "state"),
+            "QUEUE=" + (folder_ / "queue"),
+            "TMPDIR=" + folder_.Path(),
+            "bash",
+            folder_ / "script"};
+  }
+  std::string Calls() { return ReadAll(folder_ / "calls"); }
+
+  testing::TemporaryFolder folder_;
+  SlurmLaunch launch_{.name = "orbweave-model",
+                      .program = folder_ / "bin/orbweave",
+                      .work_folder = folder_.Path(),
+                      .output = folder_ / "it's a model",
+                      .run_arguments = {"my images", "--set", "a=$b"},
+                      .nodes = 3,
+                      .cpus = 2,
+                      .time = "0:10:00",
+                      .sbatch = {"--account=city"}};
+};
+
+TEST_F(SlurmScripts, TheCoordinatorSubmitsWorkersRunsTheJobAndCancelsWhoStillWaits) {
+  Program("orbweave", "exit 4");
+  const CommandOutcome outcome = testing::RunCommand(Batch(CoordinatorScript(launch_)));
+  EXPECT_EQ(outcome.exit_code, kExitVerdict) << outcome.err;
+  EXPECT_THAT(Calls(), HasSubstr("orbweave run my images --set a=$b --output " + launch_.output));
+  EXPECT_THAT(Calls(), HasSubstr("--workers 0 --listen 0.0.0.0:0 --tls " + launch_.Folder()));
+  EXPECT_THAT(Calls(),
+              HasSubstr("sbatch --parsable --array=1-3 " + launch_.Folder() + "/workers.sbatch"));
+  EXPECT_THAT(Calls(),
+              HasSubstr("scancel --quiet --me --state=PENDING --name=" + launch_.WorkersName()));
+  EXPECT_THAT(Calls(), Not(HasSubstr("requeue")));
+}
+
+TEST_F(SlurmScripts, TheCoordinatorSubmitsOnlyWorkersThatAreMissing) {
+  Program("orbweave", "/bin/sleep 0.5");
+  Write("queue", "12_1\n12_3\n");
+  EXPECT_EQ(testing::RunCommand(Batch(CoordinatorScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), HasSubstr("sbatch --parsable --array=1-1 "));
+}
+
+TEST_F(SlurmScripts, TheCoordinatorSubmitsNoneWhileSlurmDoesNotAnswer) {
+  Program("orbweave", "/bin/sleep 0.5");
+  Program("squeue", "exit 1");
+  EXPECT_EQ(testing::RunCommand(Batch(CoordinatorScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), Not(HasSubstr("sbatch")));
+}
+
+TEST_F(SlurmScripts, SigtermIsHandedOnAndTheJobRequeued) {
+  Program("orbweave", "trap 'echo told >>calls; exit 75' TERM; while :; do /bin/sleep 0.05; done");
+  for (const std::string& script : {CoordinatorScript(launch_), WorkersScript(launch_)}) {
+    Write("calls", "");
+    Command batch(Batch("cd " + ShellWord(folder_.Path()) + "\n" + script));
+    ASSERT_TRUE(WaitUntil([&] { return Calls().find("orbweave ") != std::string::npos; }, 20.0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    batch.Signal(SIGTERM);
+    batch.Signal(SIGTERM);
+    EXPECT_EQ(batch.Wait().exit_code, kExitStopped);
+    const std::string calls = Calls();
+    EXPECT_EQ(calls.find("told"), calls.rfind("told")) << "once";
+    EXPECT_THAT(calls, HasSubstr("scontrol requeue 7"));
+  }
+}
+
+TEST_F(SlurmScripts, AJobThatSomebodyCancelsIsNotRequeued) {
+  Program("orbweave", "trap 'exit 75' TERM; while :; do /bin/sleep 0.05; done");
+  Write("state", "COMPLETING\n");
+  Command batch(Batch(WorkersScript(launch_)));
+  ASSERT_TRUE(WaitUntil([&] { return Calls().find("orbweave ") != std::string::npos; }, 20.0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  batch.Signal(SIGTERM);
+  EXPECT_EQ(batch.Wait().exit_code, kExitStopped);
+  EXPECT_THAT(Calls(), Not(HasSubstr("requeue")));
+}
+
+TEST_F(SlurmScripts, AWorkerIsToldWhenItsMachineIsTakenBack) {
+  Program("orbweave", "exit 0");
+  Program("scontrol",
+          "echo 'JobId=7 StartTime=2026-11-23T17:00:00 EndTime=2026-11-23T18:00:00 X=1'");
+  EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), HasSubstr("--until 2026-11-23T18:00:00"));
+  EXPECT_THAT(Calls(), HasSubstr("--join @" + launch_.Folder() + "/coordinator.json"));
+  Write("calls", "");
+  Program("scontrol", "echo 'JobId=7 EndTime=Unknown'");
+  EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), Not(HasSubstr("--until")));
+}
+
+TEST_F(SlurmScripts, SayWhatTheSiteWants) {
+  for (const std::string& script : {CoordinatorScript(launch_), WorkersScript(launch_)}) {
+    EXPECT_THAT(script, HasSubstr("\n#SBATCH --account=city\n"));
+    EXPECT_THAT(script, HasSubstr("\n#SBATCH --time=0:10:00\n"));
+    EXPECT_THAT(script, HasSubstr("\n#SBATCH --requeue\n"));
+  }
+  EXPECT_THAT(WorkersScript(launch_), HasSubstr("\n#SBATCH --cpus-per-task=2\n"));
+}
+
+TEST(ShellWord, IsOneWordWhateverIsInIt) {
+  for (const std::string text : {"plain", "two words", "it's", "$HOME `id` \"x\" \\", "a\nb", ""}) {
+    const CommandOutcome outcome =
+        testing::RunCommand({"/bin/bash", "-c", "printf %s " + ShellWord(text)});
+    EXPECT_EQ(outcome.out, text);
+  }
+}
+
+}  // namespace
+}  // namespace orbweave

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/journal_copy.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "coordinator/sqlite_journal.h"
+#include "core/io/sqlite_connection.h"
+#include "tests/support/command.h"
+
+namespace orbweave {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A state folder that two machines see, each with a disk of its own.
+class JournalCopyTest : public ::testing::Test {
+ protected:
+  JournalCopyTest() { fs::create_directory(folder_ / "state"); }
+
+  JournalPlace On(const std::string& machine) {
+    return PlaceJournal(folder_ / "state", folder_ / machine);
+  }
+  static void Save(Journal& journal, uint64_t number) {
+    const Digest task = DigestOf(std::to_string(number));
+    EXPECT_TRUE(journal.SaveResult(number, task, {.report_json = "done"}).ok());
+  }
+  static bool Knows(Journal& journal, uint64_t number) {
+    const auto found = journal.LoadResults({DigestOf(std::to_string(number))});
+    return found.ok() && found->at(0).has_value();
+  }
+  std::vector<std::string> FilesIn(const std::string& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(JournalCopyTest, AnotherMachineGoesOnWhereTheFirstEnded) {
+  uint64_t generation = 0;
+  {
+    const auto journal = *OpenCopiedJournal(On("a"));
+    const auto copy = *JournalCopy::Start(On("a"), {});
+    generation = journal->generation();
+    Save(*journal, 1);
+  }
+  const auto journal = *OpenCopiedJournal(On("b"));
+  EXPECT_TRUE(Knows(*journal, 1));
+  EXPECT_GT(journal->generation(), generation);
+}
+
+TEST_F(JournalCopyTest, WhatWasNewerThanTheCopyOfALostMachineIsForgotten) {
+  const auto lost = *OpenCopiedJournal(On("a"));
+  const auto copy = *JournalCopy::Start(On("a"), {}, 1e6);
+  Save(*lost, 1);
+  const auto journal = *OpenCopiedJournal(On("b"));
+  EXPECT_FALSE(Knows(*journal, 1));
+  EXPECT_GT(journal->generation(), lost->generation())
+      << "nobody takes a lease of the one for a lease of the other";
+}
+
+TEST_F(JournalCopyTest, IsMadeWhileTheJournalIsWritten) {
+  const auto journal = *OpenCopiedJournal(On("a"));
+  const auto copy = *JournalCopy::Start(On("a"), {}, 0.05);
+  Save(*journal, 1);
+  const auto is_copied = [&] {  // without beginning a generation in it
+    const auto other = SqliteConnection::OpenToWrite(folder_ / "state/journal.db");
+    auto results = other->Prepare("SELECT 1 FROM orbweave_result");
+    return results.ok() && *results->Step();
+  };
+  EXPECT_TRUE(testing::WaitUntil(is_copied, 20.0));
+}
+
+TEST_F(JournalCopyTest, TheSameMachineKeepsWhatItHas) {
+  std::optional<JournalPlace> place = On("a");
+  {
+    const auto journal = *OpenCopiedJournal(*place);
+    const auto copy = *JournalCopy::Start(*place, {}, 1e6);
+    Save(*journal, 1);
+    fs::copy_file(place->copy, folder_ / "old");
+  }
+  fs::rename(folder_ / "old", place->copy);  // killed before the last copy
+  EXPECT_TRUE(Knows(**OpenCopiedJournal(*place), 1));
+}
+
+TEST_F(JournalCopyTest, AMachineThatHadItBeforeTakesWhatAnotherDidMeanwhile) {
+  for (const char* machine : {"a", "b"}) {
+    const auto journal = *OpenCopiedJournal(On(machine));
+    const auto copy = *JournalCopy::Start(On(machine), {});
+    Save(*journal, machine[0] == 'a' ? 1 : 2);
+  }
+  const auto journal = *OpenCopiedJournal(On("a"));
+  EXPECT_TRUE(Knows(*journal, 1));
+  EXPECT_TRUE(Knows(*journal, 2));
+}
+
+TEST_F(JournalCopyTest, OneThatWasCutOffDoesNotUndoWhatAnotherDid) {
+  const auto cut_off = *OpenCopiedJournal(On("a"));
+  auto its_copy = *JournalCopy::Start(On("a"), {}, 1e6);
+  {
+    const auto journal = *OpenCopiedJournal(On("b"));
+    const auto copy = *JournalCopy::Start(On("b"), {});
+    Save(*journal, 2);
+  }
+  Save(*cut_off, 1);
+  its_copy.reset();
+  EXPECT_TRUE(Knows(**OpenCopiedJournal(On("c")), 2));
+}
+
+TEST_F(JournalCopyTest, TakesOverAJournalThatWasInTheStateFolderItself) {
+  { Save(**OpenSqliteJournal(folder_ / "state/journal.db"), 1); }
+  const auto journal = *OpenCopiedJournal(On("a"));
+  EXPECT_TRUE(Knows(*journal, 1));
+  const auto copy = *JournalCopy::Start(On("a"), {});
+  EXPECT_EQ(FilesIn("state"), std::vector<std::string>{"journal.db"}) << "and no log of it";
+}
+
+TEST(SharedFileSystem, IsNotThatOfThisMachinesDisks) {
+  const testing::TemporaryFolder folder;
+  EXPECT_EQ(SharedFileSystemOf(folder.Path()), "");
+  EXPECT_EQ(SharedFileSystemOf("/no/such/folder"), "");
+}
+
+}  // namespace
+}  // namespace orbweave
