@@ -4,8 +4,6 @@
 #include "worker/worker_loop.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <latch>
 #include <mutex>
@@ -15,10 +13,12 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/clock.h"
 #include "core/base/sleep.h"
 #include "core/pipeline/build_version.h"
 #include "core/pipeline/is_to_leave.h"
 #include "worker/blob_cache.h"
+#include "worker/coordinator_contact.h"
 #include "worker/held_leases.h"
 #include "worker/retry.h"
 #include "worker/shared_store.h"
@@ -73,9 +73,7 @@ class Worker {
       : api_(api),
         make_executor_(make_executor),
         options_(options),
-        started_(Steady::now()),
-        last_heard_(started_),
-        last_held_(started_),
+        contact_(options.term.patience_s, options.term.idle_s, 0.0),
         store_(blobs, options.blob_folder),
         session_(
             api,
@@ -108,23 +106,21 @@ class Worker {
   }
 
  private:
-  using Steady = std::chrono::steady_clock;
-  static double Since(Steady::time_point then) {
-    return std::chrono::duration<double>(Steady::now() - then).count();
-  }
+  /// Seconds since its start.
+  [[nodiscard]] double Now_s() const { return clock_.NowSeconds() - started_s_; }
 
-  /// Takes no more tasks; what runs has the grace.
+  /// Takes no more tasks; what runs has the grace, or the time that is left.
   void Drain() {
     TakeNoMore(WorkerEnd::kStopped);
     const std::lock_guard lock(mutex_);
     if (grace_.joinable()) return;
     grace_ = std::jthread([this] {
-      WaitUntilAllIsIn(options_.grace_s);
+      WaitUntilAllIsIn(std::min(options_.grace_s, options_.term.stays_s - Now_s()));
       End(WorkerEnd::kStopped);
     });
   }
 
-  /// Finishes what runs, and leaves.
+  /// Finishes what runs, and leaves. The first reason is kept.
   void TakeNoMore(const absl::StatusOr<WorkerEnd>& end) {
     {
       const std::lock_guard lock(mutex_);
@@ -133,7 +129,7 @@ class Worker {
     draining_.request_stop();
   }
 
-  /// Gives back what runs. The first reason is kept.
+  /// Gives back what runs, and leaves.
   void End(const absl::StatusOr<WorkerEnd>& end) {
     TakeNoMore(end);
     if (ending_.request_stop()) leases_.StopAll();
@@ -147,14 +143,14 @@ class Worker {
     if (beating_.stop_requested()) return;
     if (alone_s < gone_s) {
       TakeNoMore(WorkerEnd::kStopped);
-      WaitUntilAllIsIn(gone_s - Since(started_));
+      WaitUntilAllIsIn(gone_s - Now_s());
     }
     if (!beating_.stop_requested()) Drain();
   }
 
   /// Nothing: it does not know of an end.
   std::optional<double> StaysFor_s() const {
-    const double stays_s = options_.term.stays_s - Since(started_);
+    const double stays_s = options_.term.stays_s - Now_s();
     return std::isinf(stays_s) ? std::nullopt : std::optional(std::max(0.0, stays_s));
   }
 
@@ -166,18 +162,11 @@ class Worker {
 
   /// Whether a coordinator that does not answer is waited for.
   bool Waits(const absl::Status& why) {
-    is_away_ = true;
+    contact_.NotHeard();
     Log({.level = LogLevel::kWarning,
          .event = "coordinator_away",
          .message = std::string(why.message())});
-    return Since(last_heard_) < options_.term.patience_s;
-  }
-
-  /// Whether there was nothing to do for too long, of what was asked: a coordinator that is away
-  /// may have something.
-  bool IsIdle() {
-    if (is_away_.exchange(false) || !leases_.List().empty()) last_held_ = Steady::now();
-    return Since(last_held_) >= options_.term.idle_s;
+    return !contact_.IsGivenUp(Now_s());
   }
 
   /// There is no session, nor will there be one; but who is told to end need not have one.
@@ -230,7 +219,7 @@ class Worker {
 
   /// Whether this was said of a coordinator that is waited for no more.
   [[nodiscard]] bool IsGivenUp(const absl::Status& status) const {
-    return !status.ok() && MayPass(status) && Since(last_heard_) >= options_.term.patience_s;
+    return !status.ok() && MayPass(status) && contact_.IsGivenUp(Now_s());
   }
 
   absl::Status GivenUp(const absl::Status& why) const {
@@ -272,7 +261,7 @@ class Worker {
     };
     if (ending_.stop_requested())
       leases_.StopAll();  // the end may have come between leasing and adding
-    last_held_ = Steady::now();
+    contact_.Worked(Now_s());
     Log(Describe(lease, "task_leased"));
     const absl::StatusOr<TaskResult> result = Run(slot, lease.spec, context);
     const absl::Status handed_in = result.ok() ? HandIn(lease, *result) : result.status();
@@ -281,7 +270,7 @@ class Worker {
       GiveBack(lease, given_up ? absl::CancelledError("the worker gave it up") : handed_in);
     }
     leases_.Remove(lease.epoch);
-    last_held_ = Steady::now();
+    contact_.Worked(Now_s());
   }
 
   /// Calls `call(session)` through times without a coordinator; joins again when it was restarted.
@@ -336,21 +325,20 @@ class Worker {
     if (IsRefusal(reply.status())) End(reply.status());
     if (IsGivenUp(reply.status())) End(GivenUp(reply.status()));
     if (!reply.ok()) return kSoon;
-    last_heard_ = Steady::now();
+    contact_.Heard(!leases_.List().empty(), Now_s());
     for (const Digest& task : reply->cancelled) leases_.StopTask(task);
     if (reply->shutdown) End(WorkerEnd::kDismissed);
-    if (IsIdle()) TakeNoMore(WorkerEnd::kIdle);
-    return std::min(session->heartbeat_s,
-                    std::max(kSoon, options_.term.idle_s - Since(last_held_)));
+    const double until_idle_s = contact_.UntilIdle(Now_s());
+    if (until_idle_s <= 0.0) TakeNoMore(WorkerEnd::kIdle);
+    return std::min(session->heartbeat_s, std::max(kSoon, until_idle_s));
   }
 
   WorkerApi& api_;
   const MakeTaskExecutor& make_executor_;
   const WorkerOptions& options_;
-  const Steady::time_point started_;
-  std::atomic<Steady::time_point> last_heard_;  ///< the coordinator
-  std::atomic<Steady::time_point> last_held_;   ///< a lease
-  std::atomic<bool> is_away_{true};             ///< the coordinator, when it was last called
+  SteadyClock clock_;
+  const double started_s_ = clock_.NowSeconds();
+  CoordinatorContact contact_;
   std::mutex mutex_;
   std::optional<absl::StatusOr<WorkerEnd>> end_;
   std::stop_source draining_;  ///< take no more

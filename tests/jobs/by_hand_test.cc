@@ -34,9 +34,6 @@ TEST(ByHand, ServeWorkSubmitAndStatusDoAJobTogether) {
   Command worker({ORBWEAVE_BINARY, "work", "--join", address, "--name", "first", "--slots", "2"});
   const CommandOutcome submitted = RunCommand({ORBWEAVE_BINARY,
                                                "submit",
-                                               "fetch",
-                                               "stop",
-                                               "launch",
                                                "--coordinator",
                                                address,
                                                folder / "street/images",

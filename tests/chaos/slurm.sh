@@ -1,0 +1,186 @@
+#!/usr/bin/env bash
+# `orbweave launch slurm` on a real Slurm of three nodes, each in a network namespace of its own on this machine.
+#
+#   tests/chaos/slurm.sh [REQUEUES [PREEMPTIONS [PANORAMAS]]]
+#
+# One job is run undisturbed on this machine, then by Slurm while its coordinator is requeued (5 times) and its workers
+# are preempted by jobs of another partition (20 times), then in allocations of 3 minutes. Prints a table in Markdown;
+# 1 if a row failed. Needs root and Debian's slurmctld, slurmd, slurm-client, munge and iproute2: 77 without them.
+# ORBWEAVE: the program (build/release/cli/orbweave). Takes half an hour.
+# shellcheck disable=SC2016,SC2317 # words for another shell; functions that a trap calls
+set -uo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+orbweave=$(realpath "${ORBWEAVE:-$here/../../build/release/cli/orbweave}")
+requeues=${1:-5}
+preemptions=${2:-20}
+panoramas=${3:-192}
+nodes=(n1 n2 n3)
+failures=0
+
+for tool in slurmctld slurmd sbatch munged ip nsenter; do
+  command -v "$tool" >/dev/null || { echo "$tool is missing" >&2; exit 77; }
+done
+[ "$(id -u)" = 0 ] || { echo "only root can make namespaces" >&2; exit 77; }
+
+lab=$(mktemp -d /tmp/orbweave_slurm.XXXX)
+export SLURM_CONF=$lab/slurm.conf
+
+# MACHINE COMMAND...: as if on that machine.
+on() {
+  nsenter --net="/var/run/netns/ow-$1" unshare --uts --mount sh -c \
+    'mount --bind "$1" /etc/hosts; hostname "$2"; shift 2; exec "$@"' sh "$lab/hosts" "$@"
+}
+
+network_up() {
+  echo "127.0.0.1 localhost" >"$lab/hosts"
+  local number=100 name
+  for name in hub "${nodes[@]}"; do
+    ip netns add "ow-$name" && ip -n "ow-$name" link set lo up || return 1
+    echo "10.78.0.$number $name" >>"$lab/hosts"
+    if [ "$name" = hub ]; then
+      ip -n ow-hub link add ow-bridge type bridge && ip -n ow-hub link set ow-bridge up
+      ip -n ow-hub addr add "10.78.0.$number/24" dev ow-bridge
+      number=1
+    else
+      ip link add "to-$name" netns ow-hub type veth peer name eth0 netns "ow-$name"
+      ip -n ow-hub link set "to-$name" master ow-bridge up
+      ip -n "ow-$name" addr add "10.78.0.$((number++))/24" dev eth0
+      ip -n "ow-$name" link set eth0 up
+    fi
+  done
+}
+
+slurm_up() {
+  mkdir -p "$lab"/{state,spool,munge}
+  chmod 711 "$lab" && chmod 755 "$lab/munge"
+  head -c 1024 /dev/urandom >"$lab/munge/key" && chmod 600 "$lab/munge/key"
+  munged --force --key-file="$lab/munge/key" --socket="$lab/munge/socket" --pid-file="$lab/munge/pid" \
+    --log-file="$lab/munge/log" --seed-file="$lab/munge/seed" || return 1
+  {
+    cat <<END
+ClusterName=chaos
+SlurmctldHost=hub(10.78.0.100)
+SlurmUser=root
+SlurmdUser=root
+AuthInfo=socket=$lab/munge/socket
+StateSaveLocation=$lab/state
+SlurmdSpoolDir=$lab/spool/%n
+SlurmctldPidFile=$lab/slurmctld.pid
+SlurmdPidFile=$lab/slurmd.%n.pid
+SlurmctldLogFile=$lab/slurmctld.log
+SlurmdLogFile=$lab/slurmd.%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SchedulerParameters=batch_sched_delay=1,bf_interval=2,sched_interval=2
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
+ReturnToService=2
+KillWait=5
+MpiDefault=none
+SlurmdParameters=config_overrides
+END
+    local number=1 name
+    for name in "${nodes[@]}"; do
+      echo "NodeName=$name NodeHostname=$name NodeAddr=10.78.0.$((number++)) CPUs=2 RealMemory=4000"
+    done
+    echo "PartitionName=main Nodes=ALL Default=YES PriorityTier=1 GraceTime=4 PreemptMode=REQUEUE"
+    echo "PartitionName=urgent Nodes=ALL PriorityTier=10 PreemptMode=OFF"
+  } >"$SLURM_CONF"
+  on hub slurmctld -c
+  local name
+  for name in "${nodes[@]}"; do on "$name" slurmd -c -N "$name"; done
+  for _ in {1..50}; do
+    [ "$(on hub sinfo --noheader --format=%t --partition=main)" = idle ] && return
+    sleep 0.2
+  done
+  return 1
+}
+
+clean_up() {
+  on hub scancel --me 2>/dev/null
+  local file name
+  sleep 1
+  for file in "$lab"/slurmctld.pid "$lab"/slurmd.*.pid "$lab"/munge/pid; do
+    [ ! -s "$file" ] || kill "$(cat "$file")" 2>/dev/null
+  done
+  sleep 1
+  for name in hub "${nodes[@]}"; do
+    ip netns pids "ow-$name" 2>/dev/null | xargs -r kill -9 2>/dev/null
+    ip netns del "ow-$name" 2>/dev/null
+  done
+  if ((failures == 0)); then rm -rf "$lab"; else echo "what is left: $lab" >&2; fi
+}
+
+# NAME TIME: launches the job, whose number goes to $job.
+launch() {
+  model=$lab/$1
+  on hub "$orbweave" launch slurm "$lab/street/images" --gnss "$lab/street/gnss.csv" --output "$model" \
+    --nodes 2 --cpus 1 --time "$2" >"$lab/$1.log" || return 1
+  job=$(grep -o '[0-9]*$' "$lab/$1.log" | tail -n 1)
+  began=$SECONDS
+}
+
+state_of_job() { on hub squeue --noheader --jobs="$job" --format=%T 2>/dev/null; }
+
+# A node on which a worker of the launch runs.
+node_of_worker() { on hub squeue --noheader --array --states=RUNNING --format='%j %N' | awk '/-worker-/ {print $2}' | shuf -n 1; }
+
+preempt() {
+  local node
+  node=$(node_of_worker)
+  [ -n "$node" ] && on hub sbatch --partition=urgent --nodelist="$node" --ntasks=2 --output=/dev/null --wrap='sleep 1' >/dev/null
+}
+
+same_model() {
+  local file
+  for file in sparse/0/{cameras,images,points3D}.bin points.ply cameras.csv trajectory.geojson; do
+    [ -s "$model/$file" ] && cmp -s "$lab/alone/$file" "$model/$file" || return 1
+  done
+}
+
+# TITLE NOTE: waits until Slurm has forgotten the job.
+end_row() {
+  while [ -n "$(state_of_job)" ] && ((SECONDS - began < 3600)); do sleep 1; done
+  local same=yes
+  same_model || { same=no; ((++failures)); }
+  printf '| %s | %d | %s | %s |\n' "$1" $((SECONDS - began)) "$same" "$2"
+}
+
+disturbed() {
+  launch disturbed 60 || return 1
+  local requeued=0 preempted=0
+  while [ -n "$(state_of_job)" ] && ((requeued < requeues || preempted < preemptions)); do
+    sleep 5
+    ((preempted >= preemptions)) || ! preempt || ((++preempted))
+    ((requeued * preemptions > preempted * requeues || requeued >= requeues)) && continue
+    [ "$(state_of_job)" = RUNNING ] && on hub scontrol requeue "$job" && ((++requeued))
+  done
+  end_row "coordinator requeued, workers preempted" "$requeued times, $preempted times"
+}
+
+# Slurm counts in whole minutes and warns a minute before the end.
+short_allocations() {
+  launch short 3 || return 1
+  end_row "allocations of 3 minutes" \
+    "$(grep -c 'coordinator_ready\|door_open' "$model/.orbweave/logs/coordinator.log") coordinators"
+}
+
+trap clean_up EXIT
+if ! network_up || ! slurm_up; then
+  failures=1
+  echo "Slurm does not come up" >&2
+  exit 1
+fi
+"$orbweave" synth street --panoramas "$panoramas" --size 1024x512 --output "$lab/street" >/dev/null 2>&1 || exit 1
+began=$SECONDS
+"$orbweave" run "$lab/street/images" --gnss "$lab/street/gnss.csv" --output "$lab/alone" --workers 2 >/dev/null 2>&1 || exit 1
+echo "| $panoramas panoramas on 2 workers of a core | s | same bytes | |"
+echo "|---|---|---|---|"
+printf '| this machine, undisturbed | %d | | |\n' $((SECONDS - began))
+disturbed || failures=1
+short_allocations || failures=1
+exit $((failures > 0))
