@@ -58,9 +58,12 @@ absl::Status Announce(const AnnounceArgument& argument,
   return WriteFileDurably(folder, argument.path, AnnouncementToText(announcement));
 }
 
-void TakeBack(const AnnounceArgument& argument) {
+void TakeBack(const AnnounceArgument& argument, const std::string& address) {
+  if (argument.path.empty()) return;
+  const absl::StatusOr<CoordinatorAddress> there = FindCoordinator("@" + argument.path);
   std::error_code ignored;
-  if (!argument.path.empty()) fs::remove(argument.path, ignored);
+  if (there.ok() && there->address == ReachableAt(address, argument.host))
+    fs::remove(argument.path, ignored);
 }
 
 }  // namespace orbweave

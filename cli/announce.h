@@ -25,7 +25,7 @@ void AddAnnounceArguments(CLI::App& command, AnnounceArgument& argument);
                                     const std::string& address,
                                     const std::string& tls_folder);
 
-/// It is not coming back.
-void TakeBack(const AnnounceArgument& argument);
+/// It is not coming back: removes the file, unless another coordinator has announced itself there.
+void TakeBack(const AnnounceArgument& argument, const std::string& address);
 
 }  // namespace orbweave

@@ -24,16 +24,17 @@ struct DenseArguments {
 };
 
 absl::Status Dense(const DenseArguments& arguments) {
+  const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   if (!arguments.colmap.empty()) {
     if (arguments.images.image_folder.empty() || arguments.output.empty())
       return absl::InvalidArgumentError("--colmap needs --images and --output");
     return RunDenseJobOnColmap(
-        arguments.colmap, arguments.images, arguments.output, arguments.fleet, options);
+        arguments.colmap, arguments.images, arguments.output, arguments.fleet, options, signals);
   }
   if (arguments.model.empty())
     return absl::InvalidArgumentError("name the output folder of a finished job, or --colmap");
-  return RunDenseJob(arguments.model, arguments.fleet, options);
+  return RunDenseJob(arguments.model, arguments.fleet, options, signals);
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/dense_job.h"
 
+#include <filesystem>
 #include <functional>
 
 #include "cli/finished_job.h"
 #include "cli/run_local_job.h"
 #include "cli/write_job.h"
-#include "core/base/clock.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
 #include "stages/job_reader.h"
@@ -18,24 +18,18 @@
 namespace orbweave {
 namespace {
 
-/// Of the last finished job of a folder.
-absl::StatusOr<JobSpec> DenseJobOf(const std::string& output, const PipelineOptions& options) {
-  const SteadyClock clock;
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, OpenFinished(output, clock));
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, LastFinishedJob(*coordinator, output));
-  return DenseJobOf(*coordinator, sparse, options);
-}
-
-using Prepare = std::function<absl::StatusOr<JobSpec>(BlobDepot&, const StageContext&)>;
+using Prepare = std::function<absl::StatusOr<JobSpec>(ClientApi&, const StageContext&)>;
 
 absl::Status RunInto(const std::string& folder,
                      const std::string& cloud_folder,
                      const FleetArgument& fleet,
+                     const StopSignals& signals,
                      const Prepare& prepare) {
   const auto conclude = [&cloud_folder](ClientApi& coordinator, const JobStatus& status) {
     return WriteJob(coordinator, status, cloud_folder);
   };
-  return RunLocalJob({.output = folder, .fleet = fleet, .prepare = prepare, .conclude = conclude});
+  return RunLocalJob({.output = folder, .fleet = fleet, .prepare = prepare, .conclude = conclude},
+                     signals);
 }
 
 }  // namespace
@@ -60,24 +54,28 @@ absl::StatusOr<JobSpec> DenseJobOf(ClientApi& coordinator,
 
 absl::Status RunDenseJob(const std::string& output,
                          const FleetArgument& fleet,
-                         const PipelineOptions& options) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, DenseJobOf(output, options));
-  return RunInto(
-      output,
-      output + "/dense",
-      fleet,
-      [&spec](BlobDepot&, const StageContext&) -> absl::StatusOr<JobSpec> { return spec; });
+                         const PipelineOptions& options,
+                         const StopSignals& signals) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(output + "/.orbweave", error)) return NoJobIn(output);
+  const auto prepare = [&](ClientApi& coordinator, const StageContext&) -> absl::StatusOr<JobSpec> {
+    ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, LastFinishedJob(coordinator, output));
+    return DenseJobOf(coordinator, sparse, options);
+  };
+  return RunInto(output, output + "/dense", fleet, signals, prepare);
 }
 
 absl::Status RunDenseJobOnColmap(const std::string& colmap_model,
                                  const ScanRequest& images,
                                  const std::string& output,
                                  const FleetArgument& fleet,
-                                 const PipelineOptions& options) {
+                                 const PipelineOptions& options,
+                                 const StopSignals& signals) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ColmapModel model, ReadColmapModel(colmap_model));
-  return RunInto(output, output, fleet, [&](BlobDepot& depot, const StageContext& context) {
-    return PrepareDenseJob(depot, model, images, options, context);
-  });
+  const auto prepare = [&](ClientApi& coordinator, const StageContext& context) {
+    return PrepareDenseJob(coordinator, model, images, options, context);
+  };
+  return RunInto(output, output, fleet, signals, prepare);
 }
 
 }  // namespace orbweave

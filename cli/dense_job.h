@@ -6,6 +6,7 @@
 
 #include "cli/fleet_argument.h"
 #include "cli/option_arguments.h"
+#include "cli/stop_signals.h"
 #include "core/base/status.h"
 #include "core/io/scan_image_folder.h"
 #include "core/pipeline/coordinator_api.h"
@@ -22,13 +23,15 @@ namespace orbweave {
 /// was. FailedPrecondition: there is no finished model. Codes of RunLocalJob.
 [[nodiscard]] absl::Status RunDenseJob(const std::string& output,
                                        const FleetArgument& fleet,
-                                       const PipelineOptions& options);
+                                       const PipelineOptions& options,
+                                       const StopSignals& signals);
 
 /// The same for the poses of a COLMAP model and a folder of panoramas, into `output`.
 [[nodiscard]] absl::Status RunDenseJobOnColmap(const std::string& colmap_model,
                                                const ScanRequest& images,
                                                const std::string& output,
                                                const FleetArgument& fleet,
-                                               const PipelineOptions& options);
+                                               const PipelineOptions& options,
+                                               const StopSignals& signals);
 
 }  // namespace orbweave

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "coordinator/journal_copy.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
 #include "stages/plans.h"
@@ -43,14 +44,17 @@ bool LeavesAModel(const JobStatus& job) {
 
 }  // namespace
 
+absl::Status NoJobIn(const std::string& output) {
+  return absl::NotFoundError(output + " is not the output folder of a job (no .orbweave in it)");
+}
+
 absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
                                                           const Clock& clock) {
   const std::string state = output + "/.orbweave";
-  if (!std::filesystem::is_directory(state)) {
-    return absl::NotFoundError(output + " is not the output folder of a job (no .orbweave in it)");
-  }
-  return Coordinator::Open({.state_dir = state, .leases_survive = false, .find_plan = FindJobPlan},
-                           clock);
+  if (!std::filesystem::is_directory(state)) return NoJobIn(output);
+  CoordinatorOptions options{.state_dir = state, .leases_survive = false, .find_plan = FindJobPlan};
+  if (!SharedFileSystemOf(state).empty()) options.open_journal = OpenJournalToLook;
+  return Coordinator::Open(options, clock);
 }
 
 absl::StatusOr<JobStatus> LastFinishedJob(JobApi& coordinator, const std::string& output) {

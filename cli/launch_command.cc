@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "cli/exit_code.h"
 #include "cli/run_command.h"
@@ -51,6 +52,10 @@ absl::Status RefuseFleetArguments(const std::vector<std::string>& arguments) {
 
 /// Whether `orbweave run` takes them: better known now than hours later.
 absl::Status CheckRunArguments(const SlurmLaunch& launch) {
+  constexpr double kShortest_min = 3.0;  // Slurm warns a minute or two before the end
+  double minutes = 0.0;
+  if (absl::SimpleAtod(launch.time, &minutes) && minutes < kShortest_min)
+    return absl::InvalidArgumentError("--time is less than 3 minutes: nothing would get done");
   ORBWEAVE_RETURN_IF_ERROR(RefuseFleetArguments(launch.run_arguments));
   CLI::App app;
   SelectedCommand ignored;
@@ -106,7 +111,7 @@ absl::Status MakeAbsolute(SlurmLaunch& launch) {
   launch.output = fs::absolute(launch.output, error).lexically_normal().string();
   while (launch.output.size() > 1 && launch.output.ends_with('/')) launch.output.pop_back();
   if (error) return absl::InvalidArgumentError(absl::StrCat(launch.output, ": ", error.message()));
-  launch.name = "orbweave-" + fs::path(launch.output).filename().string();
+  launch.name = NameInQueue(fs::path(launch.output).filename().string());
   return absl::OkStatus();
 }
 
@@ -151,6 +156,10 @@ CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arg
                    arguments->launch.sbatch,
                    "A further option of sbatch, as in --sbatch=--account=city (repeatable)")
       ->allow_extra_args(false);
+  slurm->add_option("--journal-folder",
+                    arguments->launch.journal_folder,
+                    "Folder on a disk of the coordinator's node for its journal (default: $TMPDIR, "
+                    "or /tmp)");
   slurm->add_flag("--print", arguments->print, "Only show the scripts");
   slurm->add_flag("--wait", arguments->wait, "Wait for the end; the exit code is the job's");
   return slurm;

@@ -59,7 +59,13 @@ absl::Status LocalFleet::OpenCoordinator() {
   }
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
   if (is_copied) {
-    ORBWEAVE_ASSIGN_OR_RETURN(journal_copy_, JournalCopy::Start(place, options_.coordinator.log));
+    ORBWEAVE_ASSIGN_OR_RETURN(
+        journal_copy_,
+        JournalCopy::Start(
+            place, {.log = options_.coordinator.log, .lost = [this](const absl::Status& why) {
+                      const std::lock_guard lock(mutex_);
+                      health_.Update(why);
+                    }}));
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string socket, ChooseSocket());
   ORBWEAVE_ASSIGN_OR_RETURN(server_, GrpcServer::Start(*coordinator_, socket));
@@ -82,7 +88,7 @@ absl::Status LocalFleet::OpenDoor() {
 
 void LocalFleet::CloseDoor() {
   if (farewell_ == Farewell::kDismissWorkers) {
-    TakeBack(options_.door.announce);
+    TakeBack(options_.door.announce, door_->address());
     SeeWorkersOff(*coordinator_, options_.coordinator.lease_s);
   }
   door_.reset();

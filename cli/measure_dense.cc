@@ -69,8 +69,10 @@ absl::StatusOr<DenseMeasurement> MeasureDenseJob(const std::string& street,
     measurement.stages = SumByStage(tasks);
     return absl::OkStatus();
   };
+  const StopSignals signals;
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(
-      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude}));
+      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude},
+      signals));
   return measurement;
 }
 

@@ -64,8 +64,10 @@ absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
     measurement.coordinator_peak_bytes = coordinator_peak_bytes;
     return absl::OkStatus();
   };
+  const StopSignals signals;
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(
-      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude}));
+      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude},
+      signals));
   return measurement;
 }
 

@@ -28,6 +28,7 @@ struct RunArguments {
 };
 
 absl::Status Run(const RunArguments& arguments) {
+  const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   const LocalJob sparse{.output = arguments.output,
                         .fleet = arguments.fleet,
@@ -37,9 +38,9 @@ absl::Status Run(const RunArguments& arguments) {
                           return PrepareImageJob(
                               coordinator, arguments.scan, arguments.clusters, options, context);
                         }};
-  ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(sparse));
+  ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(sparse, signals));
   if (!arguments.dense) return absl::OkStatus();
-  return RunDenseJob(arguments.output, arguments.fleet, options);
+  return RunDenseJob(arguments.output, arguments.fleet, options, signals);
 }
 
 }  // namespace

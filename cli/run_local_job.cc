@@ -8,7 +8,6 @@
 #include "cli/exit_code.h"
 #include "cli/local_fleet.h"
 #include "cli/progress_bar.h"
-#include "cli/stop_signals.h"
 #include "cli/write_job.h"
 #include "core/io/file.h"
 #include "stages/plans.h"
@@ -42,8 +41,7 @@ absl::Status RunOn(LocalFleet& fleet, const LocalJob& job, const std::stop_token
 
 }  // namespace
 
-absl::Status RunLocalJob(const LocalJob& job) {
-  const StopSignals signals;
+absl::Status RunLocalJob(const LocalJob& job, const StopSignals& signals) {
   ORBWEAVE_RETURN_IF_ERROR(job.fleet.Check());
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(job.output));
   const LocalFleetOptions fleet_options{
@@ -53,10 +51,12 @@ absl::Status RunLocalJob(const LocalJob& job) {
       .workers = job.fleet.workers};
   ORBWEAVE_ASSIGN_OR_RETURN(const auto fleet, LocalFleet::Start(fleet_options));
   const absl::Status end = RunOn(*fleet, job, signals.token());
-  const bool goes_on = end.ok() && !job.is_last;
-  if (goes_on || signals.first() == SIGTERM) fleet->ComesBack();
-  return absl::IsCancelled(end) && signals.first() != 0 ? Interrupted(job.output, signals.first())
-                                                        : end;
+  const bool is_stopped =
+      signals.token().stop_requested() && (absl::IsCancelled(end) || (end.ok() && !job.is_last));
+  if (end.ok() && !job.is_last) fleet->ComesBack();
+  if (!is_stopped) return end;
+  if (signals.first() == SIGTERM) fleet->ComesBack();
+  return Interrupted(job.output, signals.first());
 }
 
 }  // namespace orbweave

@@ -7,6 +7,7 @@
 
 #include "cli/fail_on_argument.h"
 #include "cli/fleet_argument.h"
+#include "cli/stop_signals.h"
 #include "core/base/stage_context.h"
 #include "core/pipeline/coordinator_api.h"
 
@@ -18,7 +19,7 @@ struct LocalJob {
   FailOn fail_on{};     ///< of the verdict
   bool is_last = true;  ///< else workers that joined are not sent home: another job follows
   /// Makes the job's inputs known to the coordinator and describes it.
-  std::function<absl::StatusOr<JobSpec>(BlobDepot&, const StageContext&)> prepare{};
+  std::function<absl::StatusOr<JobSpec>(ClientApi&, const StageContext&)> prepare{};
   /// What becomes of the job that has ended, however. Empty: WriteJob.
   std::function<absl::Status(ClientApi&, const JobStatus&)> conclude{};
 };
@@ -27,6 +28,6 @@ struct LocalJob {
 /// progress on stderr and concludes it. Ctrl-C stops it cleanly; run again it goes on where it was.
 /// SIGTERM too (StoppedError), but workers that joined are not sent home then: an engine will start
 /// it again. Codes of WriteJob.
-[[nodiscard]] absl::Status RunLocalJob(const LocalJob& job);
+[[nodiscard]] absl::Status RunLocalJob(const LocalJob& job, const StopSignals& signals);
 
 }  // namespace orbweave

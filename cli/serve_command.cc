@@ -61,9 +61,12 @@ absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& optio
 
 /// Null where the journal is where it is safe.
 absl::StatusOr<std::unique_ptr<JournalCopy>> CopyJournalOf(const ServeOptions& options,
-                                                           const EventLog& log) {
+                                                           const EventLog& log,
+                                                           std::stop_source end) {
   if (options.journal_folder.empty()) return nullptr;
-  return JournalCopy::Start(PlaceOf(options), log);
+  return JournalCopy::Start(
+      PlaceOf(options),
+      {.log = log, .lost = [end](const absl::Status&) mutable { end.request_stop(); }});
 }
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenMeteredJournal(const ServeOptions& options,
@@ -113,7 +116,7 @@ absl::Status Serve(const ServeOptions& options) {
   };
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto journal_copy, CopyJournalOf(options, log));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto journal_copy, CopyJournalOf(options, log, end));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto http,
@@ -133,7 +136,7 @@ absl::Status Serve(const ServeOptions& options) {
        .message = absl::StrCat("its jobs go on when it is started again on the same state; ",
                                is_over ? "its workers are sent home" : "its workers wait for it")});
   if (is_over) {
-    TakeBack(options.announce);
+    TakeBack(options.announce, server->address());
     SeeWorkersOff(*coordinator, options.coordinator.lease_s);
   }
   return absl::OkStatus();

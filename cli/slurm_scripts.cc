@@ -3,6 +3,7 @@
 
 #include "cli/slurm_scripts.h"
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "cli/exit_code.h"
@@ -13,42 +14,58 @@ namespace {
 
 /// What both scripts say to Slurm.
 std::string Header(const SlurmLaunch& launch, const std::string& name, const std::string& log) {
-  std::string header = absl::StrCat("#!/bin/bash\n#SBATCH --job-name=",
-                                    ShellWord(name),
-                                    "\n#SBATCH --chdir=",
-                                    ShellWord(launch.work_folder),
-                                    "\n#SBATCH --output=",
-                                    ShellWord(absl::StrCat(launch.Folder(), "/", log)),
-                                    "\n#SBATCH --open-mode=append\n#SBATCH --nodes=1\n"
-                                    "#SBATCH --ntasks=1\n#SBATCH --requeue\n"
-                                    "#SBATCH --signal=B:TERM@60\n");
+  std::string header = absl::StrCat(
+      "#!/bin/bash\n#SBATCH --job-name=",
+      ShellWord(name),
+      "\n#SBATCH --chdir=",
+      ShellWord(launch.work_folder),
+      "\n#SBATCH --output=",
+      ShellWord(absl::StrCat(absl::StrReplaceAll(launch.Folder(), {{"%", "%%"}}), "/", log)),
+      "\n#SBATCH --open-mode=append\n#SBATCH --nodes=1\n"
+      "#SBATCH --ntasks=1\n#SBATCH --requeue\n"
+      "#SBATCH --signal=B:TERM@60\n");
   if (!launch.time.empty()) absl::StrAppend(&header, "#SBATCH --time=", launch.time, "\n");
   for (const std::string& option : launch.sbatch)
     absl::StrAppend(&header, "#SBATCH ", option, "\n");
   return header;
 }
 
+/// Of an array SLURM_JOB_ID may name all jobs at once.
+constexpr const char* kOwnId =
+    R"sh(me=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}
+me=${me:-$SLURM_JOB_ID}
+)sh";
+
 /// Waits for the process $child, hands one SIGTERM on to it, and has Slurm start the script again
 /// when the process says that there is more to do. Not when somebody cancelled the job. Leaves the
 /// exit code in $code.
 std::string WaitOrRequeue() {
-  return absl::StrCat(
-      R"sh(child=$!
-trap 'trap "" TERM; kill -TERM $child' TERM
+  return absl::StrCat(R"sh(trap 'trap "" TERM; kill -TERM $child 2>/dev/null' TERM
 wait $child
 code=$?
 wait $child 2>/dev/null  # the first may have ended by the signal
 again=$?
 [ $again -eq 127 ] || code=$again
+state() { squeue --noheader --format=%T --jobs="$me" || { sleep 5; squeue --noheader --format=%T --jobs="$me"; }; }
 if [ $code -eq )sh",
-      static_cast<int>(kExitStopped),
-      R"sh( ] && [ "$(squeue --noheader --format=%T --jobs="$SLURM_JOB_ID")" = RUNNING ]; then
-  scontrol requeue "$SLURM_JOB_ID" && sleep 300  # until Slurm ends this script
+                      static_cast<int>(kExitStopped),
+                      R"sh( ] && [ "$(state 2>/dev/null)" = RUNNING ]; then
+  trap - TERM
+  [ -z "${scratch:-}" ] || rm -rf "$scratch"
+  scontrol requeue "$me" && sleep 300  # until Slurm ends this script
 fi
 )sh");
 }
 
 }  // namespace
+
+std::string NameInQueue(const std::string& name) {
+  std::string plain = name;
+  for (char& c : plain) {
+    if (!absl::ascii_isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+  }
+  return "orbweave-" + plain;
+}
 
 std::string SlurmLaunch::WorkersName() const {
   return absl::StrCat(name, "-worker-", DigestOf(output).ToShortHex());
@@ -62,66 +79,87 @@ std::string CoordinatorScript(const SlurmLaunch& launch) {
   std::string arguments;
   for (const std::string& argument : launch.run_arguments)
     absl::StrAppend(&arguments, " ", ShellWord(argument));
-  return absl::StrCat(Header(launch, launch.name, "coordinator.log"),
-                      "#SBATCH --cpus-per-task=1\n\nlaunch=",
-                      ShellWord(launch.Folder()),
-                      "\nname=",
-                      ShellWord(launch.WorkersName()),
-                      "\nworkers=",
-                      launch.nodes,
-                      R"sh(
+  return absl::StrCat(
+      Header(launch, launch.name, "coordinator.log"),
+      "#SBATCH --cpus-per-task=1\n\n",
+      kOwnId,
+      "launch=",
+      ShellWord(launch.Folder()),
+      "\nname=",
+      ShellWord(launch.WorkersName()),
+      "\nworkers=",
+      launch.nodes,
+      R"sh(
+
+rm -f "$launch/refused"
 
 # Workers that are missing in the queue: all at first, later those whose node was lost or who gave up.
 submit_missing() {
   local known
   known=$(squeue --noheader --array --me --name="$name") || return 0
+  if [ "$(grep -c . "$launch/refused" 2>/dev/null)" -ge $((3 * workers)) ]; then
+    echo "workers end as soon as they are started: see $launch/worker-*.log" >&2
+    kill -INT $child
+    return 1
+  fi
   local missing=$((workers - $(grep -c . <<<"$known")))
   [ $missing -le 0 ] || sbatch --parsable --array=1-$missing "$launch/workers.sbatch"
 }
 
-submit_missing
-while sleep 60; do submit_missing; done &
-keeper=$!
-
 )sh",
-                      ShellWord(launch.program),
-                      " run",
-                      arguments,
-                      " --output ",
-                      ShellWord(launch.output),
-                      R"sh( \
+      R"sh(submit_missing
+)sh",
+      ShellWord(launch.program),
+      " run",
+      arguments,
+      " --output ",
+      ShellWord(launch.output),
+      R"sh( \
   --workers 0 --listen 0.0.0.0:0 --tls "$launch/keys/coordinator" --announce "$launch/coordinator.json" \
-  --journal-folder "${TMPDIR:-/tmp}" &
+  --journal-folder )sh",
+      launch.journal_folder.empty() ? "\"${TMPDIR:-/tmp}\"" : ShellWord(launch.journal_folder),
+      R"sh( &
+child=$!
+while sleep 60; do submit_missing || break; done &
+keeper=$!
 )sh",
-                      WaitOrRequeue(),
-                      R"sh(kill $keeper
+      WaitOrRequeue(),
+      R"sh(kill $keeper 2>/dev/null
 scancel --quiet --me --state=PENDING --name="$name"
 exit $code
 )sh");
 }
 
 std::string WorkersScript(const SlurmLaunch& launch) {
-  return absl::StrCat(Header(launch, launch.WorkersName(), "worker-%A_%a.log"),
-                      "#SBATCH --cpus-per-task=",
-                      launch.cpus,
-                      "\n\nlaunch=",
-                      ShellWord(launch.Folder()),
-                      R"sh(
+  return absl::StrCat(
+      Header(launch, launch.WorkersName(), "worker-%A_%a.log"),
+      "#SBATCH --cpus-per-task=",
+      launch.cpus,
+      "\n\n",
+      kOwnId,
+      "launch=",
+      ShellWord(launch.Folder()),
+      R"sh(
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/orbweave-XXXXXX") || exit
 trap 'rm -rf "$scratch"' EXIT
-until=$(scontrol show job --oneliner "$SLURM_JOB_ID" | grep -o ' EndTime=[0-9][^ ]*' | cut -d= -f2)
+until=$(scontrol show job --oneliner "$me" | grep -o ' EndTime=[0-9][^ ]*' | cut -d= -f2)
+memory=${SLURM_MEM_PER_NODE:-$((${SLURM_MEM_PER_CPU:-0} * ${SLURM_CPUS_PER_TASK:-1}))}
+[ "$memory" -gt 0 ] || memory=
 
 )sh",
-                      ShellWord(launch.program),
-                      R"sh( work --join "@$launch/coordinator.json" --patience 600 \
+      ShellWord(launch.program),
+      R"sh( work --join "@$launch/coordinator.json" --patience 600 \
   --tls "$scratch/keys" --token-file "$launch/join.token" --blobs )sh",
-                      ShellWord(launch.output + "/.orbweave/blobs"),
-                      R"sh( \
+      ShellWord(launch.output + "/.orbweave/blobs"),
+      R"sh( \
   --slots "${SLURM_CPUS_PER_TASK:-1}" ${until:+--until "$until"} \
-  ${SLURM_MEM_PER_NODE:+--memory "${SLURM_MEM_PER_NODE}MiB"} &
+  ${memory:+--memory "${memory}MiB"} &
+child=$!
 )sh",
-                      WaitOrRequeue(),
-                      "exit $code\n");
+      WaitOrRequeue(),
+      R"sh(case $code in 2 | 126 | 127) echo "$me $(hostname) $code" >>"$launch/refused" ;; esac
+exit $code
+)sh");
 }
 
 }  // namespace orbweave

@@ -19,6 +19,8 @@ struct SlurmLaunch {
   uint32_t cpus = 1;                         ///< of a worker, and so its tasks at a time
   std::string time{};                 ///< of an allocation, as sbatch takes it; empty: the site's
   std::vector<std::string> sbatch{};  ///< further options of sbatch
+  std::string
+      journal_folder{};  ///< of `orbweave run`; empty: where the node has its temporary files
 
   /// Where the scripts, keys and logs are.
   [[nodiscard]] std::string Folder() const { return output + "/.orbweave/launch"; }
@@ -33,6 +35,9 @@ struct SlurmLaunch {
 /// That of the workers, an array of jobs that begin whenever there is room for one, are requeued
 /// when their time is up, and end when the coordinator sends them home.
 [[nodiscard]] std::string WorkersScript(const SlurmLaunch& launch);
+
+/// The name in the queue of a launch into a folder of this name.
+[[nodiscard]] std::string NameInQueue(const std::string& name);
 
 /// `text` as one word of a shell.
 [[nodiscard]] std::string ShellWord(const std::string& text);

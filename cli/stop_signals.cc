@@ -33,7 +33,8 @@ StopSignals::StopSignals() {
       const int signal = ::sigtimedwait(&awaited, nullptr, &look);
       if (signal < 0) continue;
       if (first_ == 0) first_ = signal;
-      if (!source_.request_stop()) ::_exit(kExitInterrupted);
+      const bool is_again = !source_.request_stop();
+      if (is_again && signal == SIGINT) ::_exit(kExitInterrupted);
     }
   });
 }

@@ -9,9 +9,10 @@
 
 namespace orbweave {
 
-/// While it lives, the first SIGINT or SIGTERM asks for a stop through `token()`; the second ends
-/// the process at once. To be made before any other thread, so that all threads leave these signals
-/// to it.
+/// While it lives, the first SIGINT or SIGTERM asks for a stop through `token()`. A SIGINT after
+/// that ends the process at once; a SIGTERM does not: engines send it to a process and to its
+/// parent, who hands it on. To be made before any other thread, so that all threads leave these
+/// signals to it.
 class StopSignals {
  public:
   StopSignals();

@@ -107,13 +107,16 @@ absl::Status Work(const WorkOptions& options) {
   if (options.parent_pid != 0 && !DieWithParent(options.parent_pid)) return absl::OkStatus();
   const StopSignals signals;
   const SteadyClock clock;
+  ORBWEAVE_RETURN_IF_ERROR(options.term.Begin(UnixNow()).status());
+  const absl::Status enrolled = EnrolWhereNeeded({.coordinator = options.join,
+                                                  .token_path = options.token_path,
+                                                  .name = HostName(),
+                                                  .patience_s = options.term.term.patience_s},
+                                                 signals.token());
+  if (signals.first() != 0) return ToStatus(WorkerEnd::kStopped, signals.first());
+  ORBWEAVE_RETURN_IF_ERROR(enrolled);
   WorkerOptions worker = options.worker;
   ORBWEAVE_ASSIGN_OR_RETURN(worker.term, options.term.Begin(UnixNow()));
-  ORBWEAVE_RETURN_IF_ERROR(EnrolWhereNeeded({.coordinator = options.join,
-                                             .token_path = options.token_path,
-                                             .name = HostName(),
-                                             .patience_s = worker.term.patience_s},
-                                            signals.token()));
   ORBWEAVE_RETURN_IF_ERROR(options.join.Check());
   const auto keeper = KeepCertificate(options.join);
   worker.offers = OffersOf(options);

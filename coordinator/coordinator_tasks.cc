@@ -21,6 +21,8 @@ namespace {
 /// Who asks for a task waits no longer: a call that nobody waits for any more, which is not
 /// noticed, is over then.
 constexpr double kLongestWait_s = 60.0;
+/// All of them are looked at ten times a second.
+constexpr size_t kMostWaiting = 50'000;
 
 }  // namespace
 
@@ -48,6 +50,10 @@ void Coordinator::AskForTask(
   if (const absl::Status may_ask = HearAsker(session, slot); !may_ask.ok()) {
     lock.unlock();
     return take(may_ask);
+  }
+  if (matchmaker_.num_waiting() >= kMostWaiting) {
+    lock.unlock();
+    return take(absl::UnavailableError("too many calls wait for a task"));
   }
   const double until_s = clock_.NowSeconds() + std::min(wait_s, kLongestWait_s);
   matchmaker_.Ask(std::move(lock), {session, slot, until_s, left}, std::move(take));

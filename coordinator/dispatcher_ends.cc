@@ -46,7 +46,8 @@ void Dispatcher::EndAttempt(const LeaseEntry& entry, const absl::Status& error, 
 void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& error, double now_s) {
   Job& job = jobs_.At(entry.job);
   const std::optional<Digest> blob = BlobToBlame(error);
-  if (blob && !job.machine->MakersOf(*blob).empty()) return MakeAgain(entry, *blob, error, now_s);
+  if (blob && !job.machine->MakersOf(*blob, *entry.ref).empty())
+    return MakeAgain(entry, *blob, error, now_s);
   const bool input_lost = ClassifyFailure(error.code()) == FailureClass::kInputLost;
   if (input_lost && job.reruns < kMaxReruns) {
     ++job.reruns;
@@ -72,13 +73,14 @@ void Dispatcher::MakeAgain(const LeaseEntry& reader,
                                           " cannot read: ",
                                           error.message());
   job.damage.blobs.insert(blob);
-  for (const TaskRef& maker : job.machine->MakersOf(blob)) NoteDamage(maker, reader, reason);
-  if (job.damage.results.size() <= options_.retry.job_retries) return BeginAnew(job, now_s);
+  const std::vector<TaskRef> makers = job.machine->MakersOf(blob, *reader.ref);
+  for (const TaskRef& maker : makers) NoteDamage(maker, reader, reason);
+  if (++job.damage.reports <= options_.retry.job_retries) return BeginAnew(job, now_s);
   JobFails(reader.job,
            absl::StrCat("the job gave up after ",
-                        job.damage.results.size(),
+                        job.damage.reports,
                         " damaged results, the last of ",
-                        job.machine->Describe(job.machine->MakersOf(blob).back()),
+                        job.machine->Describe(makers.back()),
                         ": ",
                         reason),
            now_s);
@@ -107,7 +109,9 @@ void Dispatcher::BeginAnew(Job& job, double now_s) {
 }
 
 void Dispatcher::EndLost(const LeaseEntry& entry, const absl::Status& error, double now_s) {
-  EndAttempt(entry, entry.waits ? absl::CancelledError(error.message()) : error, now_s);
+  // Nor has one that was never handed out.
+  const bool was_tried = !entry.waits && !starting_.contains(entry.epoch);
+  EndAttempt(entry, was_tried ? error : absl::CancelledError(error.message()), now_s);
 }
 
 void Dispatcher::EndAllLost(const std::vector<LeaseEntry>& entries,

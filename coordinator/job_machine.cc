@@ -186,7 +186,7 @@ void JobMachine::TaskDone(AttemptRef ref, TaskResult result, double now_s) {
   StageRun& run = runs_[ref.task.run];
   TaskRecord& task = Task(ref.task);
   task.done_by = task.FindAttempt(ref.epoch)->holder;
-  run.durations_s.push_back(AttemptEnds(ref, true, now_s));
+  run.NoteDuration(AttemptEnds(ref, true, now_s));
   while (!task.attempts.empty())
     AttemptEnds({ref.task, task.attempts.front().holder.epoch}, false, now_s);
   task.done = true;

@@ -84,8 +84,9 @@ class JobMachine {
                                                      double now_s) const;
   /// Workers that failed a task, each once.
   [[nodiscard]] std::set<std::string> FailedOn(TaskRef ref) const;
-  /// The tasks that left a blob, when their stage last ran.
-  [[nodiscard]] std::vector<TaskRef> MakersOf(const Digest& blob) const;
+  /// The tasks that left a blob, when their stage last ran, of stages that come no later than that
+  /// of `reader`.
+  [[nodiscard]] std::vector<TaskRef> MakersOf(const Digest& blob, TaskRef reader) const;
   /// Ids of the tasks of all stages that this task's stage reads, when they last ran.
   [[nodiscard]] std::vector<Digest> TasksReadBy(TaskRef ref) const;
   /// Who did a task; no name: it was found done.

@@ -60,12 +60,12 @@ uint32_t JobMachine::LastRunOf(uint32_t stage) const {
   return static_cast<uint32_t>(runs_.size());
 }
 
-std::vector<TaskRef> JobMachine::MakersOf(const Digest& blob) const {
+std::vector<TaskRef> JobMachine::MakersOf(const Digest& blob, TaskRef reader) const {
   const auto holds = [&blob](const std::vector<Digest>& blobs) {
     return std::ranges::find(blobs, blob) != blobs.end();
   };
   std::vector<TaskRef> makers;
-  for (uint32_t stage = 0; stage < results_.size(); ++stage) {
+  for (uint32_t stage = 0; stage < results_.size() && stage <= runs_[reader.run].stage; ++stage) {
     for (uint32_t part = 0; part < results_[stage].size(); ++part) {
       const TaskResult& result = results_[stage][part];
       if (holds(result.outputs) || holds(result.recipes))

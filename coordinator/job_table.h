@@ -19,6 +19,7 @@ namespace orbweave {
 struct JobDamage {
   std::vector<FailedAttempt> results{};  ///< each counts as a failure of the task that left it
   std::set<Digest> blobs{};
+  uint32_t reports = 0;    ///< of blobs that could not be read
   bool is_remade = false;  ///< whatever a task read was made again, since nobody knew what it was
 
   [[nodiscard]] bool IsIn(const TaskResult& result) const;

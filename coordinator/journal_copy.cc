@@ -4,6 +4,7 @@
 #include "coordinator/journal_copy.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -43,17 +45,29 @@ constexpr std::array<FileSystem, 9> kShared = {{{0x6969, "NFS"},
                                                 {0x00C36400, "CephFS"},
                                                 {0x5346414F, "AFS"}}};
 
-/// Of a journal; 0: there is none.
-absl::StatusOr<int64_t> GenerationOf(const std::string& path) {
+/// Where a local journal notes which copy it is of: the digest of that file.
+std::string MarkOf(const JournalPlace& place) { return place.local + ".copy"; }
+
+/// Empty: there is no such file.
+absl::StatusOr<std::string> HexOf(const std::string& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) return 0;
-  ORBWEAVE_ASSIGN_OR_RETURN(const SqliteConnection journal, SqliteConnection::OpenToWrite(path));
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool is_begun, journal.HasTable("orbweave"));
-  if (!is_begun) return 0;
-  ORBWEAVE_ASSIGN_OR_RETURN(SqliteStatement statement,
-                            journal.Prepare("SELECT generation FROM orbweave"));
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool has_row, statement.Step());
-  return has_row ? statement.Integer(0) : 0;
+  if (!fs::exists(path, error)) return std::string();
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, DigestOfFile(path));
+  return digest.ToHex();
+}
+
+/// Whether the copy is the one that the local journal made, or was made from, last.
+absl::StatusOr<bool> IsOurs(const JournalPlace& place) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string copy, HexOf(place.copy));
+  const absl::StatusOr<std::string> mark = ReadWholeFile(MarkOf(place));
+  if (!mark.ok() && !absl::IsNotFound(mark.status())) return mark.status();
+  return mark.value_or("") == copy;
+}
+
+absl::Status Mark(const JournalPlace& place) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string copy, HexOf(place.copy));
+  const std::string folder = fs::path(place.local).parent_path().string();
+  return WriteFileDurably(folder, MarkOf(place), copy);
 }
 
 /// Nobody takes the log of another file for that of the one that comes in its place.
@@ -89,6 +103,26 @@ absl::Status CopyJournal(const std::string& from, const std::string& to) {
   return status;
 }
 
+/// A folder of this user's that nobody else may write, whoever may write the one above.
+absl::Status MakePrivateFolder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(fs::path(path).parent_path(), error);
+  struct stat info {};
+  if (::mkdir(path.c_str(), S_IRWXU) != 0 && errno != EEXIST)
+    return absl::ErrnoToStatus(errno, absl::StrCat("cannot make folder ", path));
+  const bool is_ours = ::lstat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode) &&
+                       info.st_uid == ::geteuid() && (info.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  if (is_ours) return absl::OkStatus();
+  return absl::PermissionDeniedError(absl::StrCat(
+      path,
+      " is not a folder that only we may write: remove it, or give another --journal-folder"));
+}
+
+void RemoveJournal(const std::string& path) {
+  std::error_code ignored;
+  for (const char* end : {"", "-wal", "-shm"}) fs::remove(path + end, ignored);
+}
+
 /// A number that changes with every commit of others.
 absl::StatusOr<int64_t> VersionOf(const SqliteConnection& journal) {
   ORBWEAVE_ASSIGN_OR_RETURN(SqliteStatement statement, journal.Prepare("PRAGMA data_version"));
@@ -109,42 +143,63 @@ std::string_view SharedFileSystemOf(const std::string& path) {
 JournalPlace PlaceJournal(const std::string& state_dir, const std::string& journal_folder) {
   std::error_code error;
   const std::string state = fs::absolute(state_dir, error).lexically_normal().string();
-  return {.local = absl::StrCat(
-              journal_folder, "/orbweave-journal-", DigestOf(state).ToShortHex(), ".db"),
+  return {.local = absl::StrCat(journal_folder,
+                                "/orbweave-",
+                                ::geteuid(),
+                                "/journal-",
+                                DigestOf(state).ToShortHex(),
+                                ".db"),
           .copy = state_dir + "/journal.db"};
 }
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenCopiedJournal(const JournalPlace& place) {
   const std::string folder = fs::path(place.local).parent_path().string();
-  ORBWEAVE_RETURN_IF_ERROR(MakeFolder(folder));
+  ORBWEAVE_RETURN_IF_ERROR(MakePrivateFolder(folder));
   if (const std::string_view shared = SharedFileSystemOf(folder); !shared.empty()) {
     return absl::FailedPreconditionError(absl::StrCat(
         folder, " is on ", std::string(shared), ": the journal needs a disk of this machine"));
   }
   ORBWEAVE_RETURN_IF_ERROR(EndLog(place.copy));
-  ORBWEAVE_ASSIGN_OR_RETURN(const int64_t local, GenerationOf(place.local));
-  ORBWEAVE_ASSIGN_OR_RETURN(const int64_t copy, GenerationOf(place.copy));
-  if (local < copy) {
-    ORBWEAVE_RETURN_IF_ERROR(EndLog(place.local));
+  std::error_code error;
+  const bool has_copy = fs::exists(place.copy, error);
+  ORBWEAVE_ASSIGN_OR_RETURN(const bool is_ours, IsOurs(place));
+  if (!has_copy || !is_ours) RemoveJournal(place.local);
+  if (has_copy && !fs::exists(place.local, error))
     ORBWEAVE_RETURN_IF_ERROR(CopyJournal(place.copy, place.local));
-  }
+  ORBWEAVE_RETURN_IF_ERROR(Mark(place));
   return OpenSqliteJournal(place.local);
 }
 
+absl::StatusOr<std::unique_ptr<Journal>> OpenJournalToLook(const std::string& state_dir) {
+  std::error_code error;
+  std::string folder = (fs::temp_directory_path(error) / "orbweave-look-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr)
+    return absl::ErrnoToStatus(errno, absl::StrCat("cannot make a folder like ", folder));
+  const JournalPlace place{folder + "/journal.db", state_dir + "/journal.db"};
+  absl::Status copied =
+      fs::exists(place.copy, error) ? CopyJournal(place.copy, place.local) : absl::OkStatus();
+  absl::StatusOr<std::unique_ptr<Journal>> journal =
+      copied.ok() ? OpenSqliteJournal(place.local) : copied;
+  fs::remove_all(folder, error);  // what is open stays until it is closed
+  return journal;
+}
+
 absl::StatusOr<std::unique_ptr<JournalCopy>> JournalCopy::Start(const JournalPlace& place,
-                                                                EventLog log,
-                                                                double every_s) {
-  std::unique_ptr<JournalCopy> copy(new JournalCopy(place, std::move(log)));
-  ORBWEAVE_RETURN_IF_ERROR(copy->Copy());
+                                                                JournalCopyOptions options) {
+  std::unique_ptr<JournalCopy> copy(new JournalCopy(place, std::move(options)));
+  ORBWEAVE_RETURN_IF_ERROR(copy->CopyOrTell());
   ORBWEAVE_ASSIGN_OR_RETURN(SqliteConnection watched, SqliteConnection::OpenToWrite(place.local));
-  copy->thread_ = std::jthread(
-      [raw = copy.get(), every_s, watched = std::move(watched)](const std::stop_token& stop) {
+  copy->thread_ =
+      std::jthread([raw = copy.get(), watched = std::move(watched)](const std::stop_token& stop) {
         int64_t copied = 0;  // no version is
-        while (SleepUnlessStopped(every_s, stop)) {
+        while (SleepUnlessStopped(raw->options_.every_s, stop)) {
           const absl::StatusOr<int64_t> version = VersionOf(watched);
           if (version.ok() && *version == copied) continue;
-          raw->CopyOrTell();
-          copied = version.value_or(copied);
+          const absl::Status status = raw->CopyOrTell();
+          if (status.ok()) copied = version.value_or(copied);
+          if (!absl::IsAborted(status)) continue;
+          if (raw->options_.lost) raw->options_.lost(status);
+          return;
         }
       });
   return copy;
@@ -152,25 +207,23 @@ absl::StatusOr<std::unique_ptr<JournalCopy>> JournalCopy::Start(const JournalPla
 
 JournalCopy::~JournalCopy() {
   thread_ = {};
-  CopyOrTell();
+  CopyOrTell().IgnoreError();
 }
 
-absl::Status JournalCopy::Copy() const {
-  ORBWEAVE_ASSIGN_OR_RETURN(const int64_t local, GenerationOf(place_.local));
-  ORBWEAVE_ASSIGN_OR_RETURN(const int64_t copy, GenerationOf(place_.copy));
-  if (copy > local) {
-    return absl::AbortedError(
+absl::Status JournalCopy::CopyOrTell() const {
+  absl::StatusOr<bool> is_ours = IsOurs(place_);
+  absl::Status status = is_ours.status();
+  if (is_ours.ok() && !*is_ours) {
+    status = absl::AbortedError(
         absl::StrCat(place_.copy, " is of another coordinator, which has gone on from there"));
   }
-  return CopyJournal(place_.local, place_.copy);
-}
-
-void JournalCopy::CopyOrTell() const {
-  const absl::Status status = Copy();
-  if (status.ok() || !log_) return;
-  log_({.level = LogLevel::kWarning,
-        .event = "journal_not_copied",
-        .message = std::string(status.message())});
+  if (status.ok()) status = CopyJournal(place_.local, place_.copy);
+  if (status.ok()) status = Mark(place_);
+  if (status.ok() || !options_.log) return status;
+  options_.log({.level = absl::IsAborted(status) ? LogLevel::kError : LogLevel::kWarning,
+                .event = "journal_not_copied",
+                .message = std::string(status.message())});
+  return status;
 }
 
 }  // namespace orbweave

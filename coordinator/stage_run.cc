@@ -21,7 +21,14 @@ std::optional<double> StageRun::mean_s() const {
 }
 
 double StageRun::usual_s() const {
-  return durations_s.empty() ? earlier_mean_s.value_or(0.0) : UpperMedian(durations_s);
+  return durations_s.empty() ? earlier_mean_s.value_or(0.0) : median_s;
+}
+
+void StageRun::NoteDuration(double duration_s) {
+  durations_s.push_back(duration_s);
+  if (durations_s.size() <= median_of + median_of / 16) return;  // it changes little by then
+  median_s = UpperMedian(durations_s);
+  median_of = durations_s.size();
 }
 
 bool StageRun::IsQuick() const { return mean_s().value_or(kQuick_s) < kQuick_s; }

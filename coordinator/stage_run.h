@@ -32,9 +32,11 @@ struct StageRun {
   std::optional<double> first_lease_s{};
   double last_result_s = 0.0;
   double cpu_s = 0.0;
-  double wall_s = 0.0;                        ///< sum over tasks computed now
-  std::optional<double> earlier_mean_s{};     ///< of a loop's stage: mean_s() of the run before
-  std::vector<double> durations_s{};          ///< of the attempts whose results were taken
+  double wall_s = 0.0;                     ///< sum over tasks computed now
+  std::optional<double> earlier_mean_s{};  ///< of a loop's stage: mean_s() of the run before
+  std::vector<double> durations_s{};       ///< of the attempts whose results were taken
+  double median_s = 0.0;                   ///< of durations_s, when it had median_of of them
+  size_t median_of = 0;
   std::optional<double> straggler_after_s{};  ///< how long a task may run that nobody waits beside
 
   [[nodiscard]] bool IsDone() const { return done == tasks.size(); }
@@ -43,6 +45,8 @@ struct StageRun {
   /// How long a task usually takes: the median of those computed now, or else the mean of the run
   /// before; 0: nothing is known yet.
   [[nodiscard]] double usual_s() const;
+  /// A task that was computed now took so long.
+  void NoteDuration(double duration_s);
   /// Whether a task may as well wait behind another one for a while.
   [[nodiscard]] bool IsQuick() const;
   /// Looks up the homes of all parts in `earlier`, the run before; to be called before any is

@@ -66,6 +66,10 @@ absl::StatusOr<GrpcCoordinatorClient::LinkHandle> GrpcCoordinatorClient::FindLin
   const absl::StatusOr<CoordinatorAddress> to = FindCoordinator(address_);
   if (!to.ok() && !link_) return to.status();
   if (!to.ok() || (link_ && link_->to == *to)) return link_;
+  if (to->known_by == KnownBy::kFleet && !tls_folder_.empty() && to->address.starts_with("unix:")) {
+    return absl::UnavailableError(
+        absl::StrCat(address_, " names ", to->address, ", where nobody proves who he is"));
+  }
   auto channel = OpenChannel(to->address, tls_folder_, to->known_by);
   auto stub = v1::Coordinator::NewStub(channel);
   link_ = std::make_shared<const Link>(*to, std::move(channel), std::move(stub));

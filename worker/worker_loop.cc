@@ -102,7 +102,7 @@ class Worker {
     }
     session_.Leave();
     const std::lock_guard lock(mutex_);
-    return *end_;
+    return end_.value_or(WorkerEnd::kStopped);
   }
 
  private:
@@ -171,8 +171,9 @@ class Worker {
 
   /// There is no session, nor will there be one; but who is told to end need not have one.
   void EndWithout(const absl::Status& session) {
-    if (absl::IsCancelled(session)) return;
-    End(absl::IsUnavailable(session) ? GivenUp(session) : session);
+    if (draining_.stop_requested() && absl::IsCancelled(session)) return;
+    const bool is_away = absl::IsUnavailable(session) || absl::IsCancelled(session);
+    End(is_away ? GivenUp(session) : session);
   }
 
   /// The session, or nothing when the work is over.

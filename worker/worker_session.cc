@@ -11,8 +11,11 @@ absl::StatusOr<JoinReply> WorkerSession::Get(const std::stop_token& stop) {
   const std::lock_guard lock(mutex_);
   if (reply_.session != 0) return reply_;
   if (stop.stop_requested()) return absl::CancelledError("the worker is stopping");
+  const auto may_pass = [](const absl::Status& status) {  // a server that ends cancels its calls
+    return absl::IsUnavailable(status) || absl::IsCancelled(status);
+  };
   absl::StatusOr<JoinReply> joined =
-      Retry({.stop = stop, .goes_on = away_}, [this] { return Join(); });
+      Retry({.stop = stop, .is_passing = may_pass, .goes_on = away_}, [this] { return Join(); });
   if (!joined.ok())
     return stop.stop_requested() ? absl::CancelledError("the worker is stopping") : joined.status();
   reply_ = *joined;

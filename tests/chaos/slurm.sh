@@ -142,12 +142,14 @@ same_model() {
   done
 }
 
-# TITLE NOTE: waits until Slurm has forgotten the job.
+# TITLE [NOTE]: waits until Slurm has forgotten the job.
 end_row() {
+  local note=${2:-}
   while [ -n "$(state_of_job)" ] && ((SECONDS - began < 3600)); do sleep 1; done
   local same=yes
   same_model || { same=no; ((++failures)); }
-  printf '| %s | %d | %s | %s |\n' "$1" $((SECONDS - began)) "$same" "$2"
+  [ -n "$note" ] || note="$(($(grep -c 'DUE TO JOB REQUEUE' "$model/.orbweave/launch/coordinator.log") + 1)) allocations of the coordinator"
+  printf '| %s | %d | %s | %s |\n' "$1" $((SECONDS - began)) "$same" "$note"
 }
 
 disturbed() {
@@ -165,8 +167,7 @@ disturbed() {
 # Slurm counts in whole minutes and warns a minute before the end.
 short_allocations() {
   launch short 3 || return 1
-  end_row "allocations of 3 minutes" \
-    "$(grep -c 'coordinator_ready\|door_open' "$model/.orbweave/logs/coordinator.log") coordinators"
+  end_row "allocations of 3 minutes"
 }
 
 trap clean_up EXIT

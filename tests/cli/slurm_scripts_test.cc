@@ -57,6 +57,8 @@ class SlurmScripts : public ::testing::Test {
     return {"/usr/bin/env",
             "PATH=" + (folder_ / "bin") + ":/usr/bin:/bin",
             "SLURM_JOB_ID=7",
+            "SLURM_ARRAY_JOB_ID=" + array_,
+            "SLURM_ARRAY_TASK_ID=2",
             "STATE=" + (folder_ / "state"),
             "QUEUE=" + (folder_ / "queue"),
             "TMPDIR=" + folder_.Path(),
@@ -66,6 +68,7 @@ class SlurmScripts : public ::testing::Test {
   std::string Calls() { return ReadAll(folder_ / "calls"); }
 
   testing::TemporaryFolder folder_;
+  std::string array_{};  ///< that the job is of; empty: none
   SlurmLaunch launch_{.name = "orbweave-model",
                       .program = folder_ / "bin/orbweave",
                       .work_folder = folder_.Path(),
@@ -118,6 +121,15 @@ TEST_F(SlurmScripts, SigtermIsHandedOnAndTheJobRequeued) {
     EXPECT_EQ(calls.find("told"), calls.rfind("told")) << "once";
     EXPECT_THAT(calls, HasSubstr("scontrol requeue 7"));
   }
+}
+
+TEST_F(SlurmScripts, AWorkerSpeaksForItselfAndNotForTheArrayItIsOf) {
+  array_ = "7";  // as its last job is numbered
+  Program("orbweave", "exit 75");
+  EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitStopped);
+  EXPECT_THAT(Calls(), HasSubstr("scontrol show job --oneliner 7_2\n"));
+  EXPECT_THAT(Calls(), HasSubstr("squeue --noheader --format=%T --jobs=7_2\n"));
+  EXPECT_THAT(Calls(), HasSubstr("scontrol requeue 7_2\n"));
 }
 
 TEST_F(SlurmScripts, AJobThatSomebodyCancelsIsNotRequeued) {

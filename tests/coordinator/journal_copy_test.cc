@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "coordinator/sqlite_journal.h"
@@ -59,7 +59,7 @@ TEST_F(JournalCopyTest, AnotherMachineGoesOnWhereTheFirstEnded) {
 
 TEST_F(JournalCopyTest, WhatWasNewerThanTheCopyOfALostMachineIsForgotten) {
   const auto lost = *OpenCopiedJournal(On("a"));
-  const auto copy = *JournalCopy::Start(On("a"), {}, 1e6);
+  const auto copy = *JournalCopy::Start(On("a"), {.every_s = 1e6});
   Save(*lost, 1);
   const auto journal = *OpenCopiedJournal(On("b"));
   EXPECT_FALSE(Knows(*journal, 1));
@@ -69,7 +69,7 @@ TEST_F(JournalCopyTest, WhatWasNewerThanTheCopyOfALostMachineIsForgotten) {
 
 TEST_F(JournalCopyTest, IsMadeWhileTheJournalIsWritten) {
   const auto journal = *OpenCopiedJournal(On("a"));
-  const auto copy = *JournalCopy::Start(On("a"), {}, 0.05);
+  const auto copy = *JournalCopy::Start(On("a"), {.every_s = 0.05});
   Save(*journal, 1);
   const auto is_copied = [&] {  // without beginning a generation in it
     const auto other = SqliteConnection::OpenToWrite(folder_ / "state/journal.db");
@@ -80,15 +80,16 @@ TEST_F(JournalCopyTest, IsMadeWhileTheJournalIsWritten) {
 }
 
 TEST_F(JournalCopyTest, TheSameMachineKeepsWhatItHas) {
-  std::optional<JournalPlace> place = On("a");
+  const JournalPlace place = On("a");
+  const std::vector<std::string> files = {place.copy, place.local + ".copy"};
   {
-    const auto journal = *OpenCopiedJournal(*place);
-    const auto copy = *JournalCopy::Start(*place, {}, 1e6);
+    const auto journal = *OpenCopiedJournal(place);
+    const auto copy = *JournalCopy::Start(place, {.every_s = 1e6});
     Save(*journal, 1);
-    fs::copy_file(place->copy, folder_ / "old");
+    for (const std::string& file : files) fs::copy_file(file, file + ".killed");
   }
-  fs::rename(folder_ / "old", place->copy);  // killed before the last copy
-  EXPECT_TRUE(Knows(**OpenCopiedJournal(*place), 1));
+  for (const std::string& file : files) fs::rename(file + ".killed", file);  // before the last copy
+  EXPECT_TRUE(Knows(**OpenCopiedJournal(place), 1));
 }
 
 TEST_F(JournalCopyTest, AMachineThatHadItBeforeTakesWhatAnotherDidMeanwhile) {
@@ -104,7 +105,7 @@ TEST_F(JournalCopyTest, AMachineThatHadItBeforeTakesWhatAnotherDidMeanwhile) {
 
 TEST_F(JournalCopyTest, OneThatWasCutOffDoesNotUndoWhatAnotherDid) {
   const auto cut_off = *OpenCopiedJournal(On("a"));
-  auto its_copy = *JournalCopy::Start(On("a"), {}, 1e6);
+  auto its_copy = *JournalCopy::Start(On("a"), {.every_s = 1e6});
   {
     const auto journal = *OpenCopiedJournal(On("b"));
     const auto copy = *JournalCopy::Start(On("b"), {});
@@ -113,6 +114,61 @@ TEST_F(JournalCopyTest, OneThatWasCutOffDoesNotUndoWhatAnotherDid) {
   Save(*cut_off, 1);
   its_copy.reset();
   EXPECT_TRUE(Knows(**OpenCopiedJournal(On("c")), 2));
+}
+
+TEST_F(JournalCopyTest, OneThatBeganAndMadeNoCopyDoesNotUndoWhatAnotherDid) {
+  { (void)*OpenCopiedJournal(On("a")); }  // killed before its first copy
+  {
+    const auto journal = *OpenCopiedJournal(On("b"));
+    const auto copy = *JournalCopy::Start(On("b"), {});
+    Save(*journal, 2);
+  }
+  EXPECT_TRUE(Knows(**OpenCopiedJournal(On("a")), 2));
+}
+
+TEST_F(JournalCopyTest, OneThatWasCutOffLearnsOfIt) {
+  std::atomic<bool> is_lost{false};
+  const auto cut_off = *OpenCopiedJournal(On("a"));
+  const auto its_copy = *JournalCopy::Start(
+      On("a"), {.lost = [&](const absl::Status&) { is_lost = true; }, .every_s = 0.05});
+  {
+    const auto journal = *OpenCopiedJournal(On("b"));
+    EXPECT_TRUE(testing::WaitUntil([&] { return JournalCopy::Start(On("b"), {}).ok(); }, 20.0));
+  }
+  Save(*cut_off, 1);
+  EXPECT_TRUE(testing::WaitUntil([&] { return is_lost.load(); }, 20.0));
+}
+
+TEST_F(JournalCopyTest, OfAStateThatWasRemovedIsNotUsedForTheNext) {
+  {
+    const auto journal = *OpenCopiedJournal(On("a"));
+    const auto copy = *JournalCopy::Start(On("a"), {});
+    Save(*journal, 1);
+  }
+  fs::remove_all(folder_ / "state");
+  fs::create_directory(folder_ / "state");
+  EXPECT_FALSE(Knows(**OpenCopiedJournal(On("a")), 1));
+}
+
+TEST_F(JournalCopyTest, IsNotKeptWhereOthersMayWrite) {
+  const std::string folder = fs::path(On("a").local).parent_path().string();
+  fs::create_directories(folder);
+  fs::permissions(folder, fs::perms::all);
+  EXPECT_TRUE(absl::IsPermissionDenied(OpenCopiedJournal(On("a")).status()));
+  fs::remove_all(folder);
+  fs::create_directory_symlink(folder_ / "state", folder);
+  EXPECT_TRUE(absl::IsPermissionDenied(OpenCopiedJournal(On("a")).status()));
+}
+
+TEST_F(JournalCopyTest, IsLookedAtWithoutAChange) {
+  {
+    const auto journal = *OpenCopiedJournal(On("a"));
+    const auto copy = *JournalCopy::Start(On("a"), {});
+    Save(*journal, 1);
+  }
+  const std::string before = testing::ReadAll(folder_ / "state/journal.db");
+  EXPECT_TRUE(Knows(**OpenJournalToLook(folder_ / "state"), 1));
+  EXPECT_EQ(testing::ReadAll(folder_ / "state/journal.db"), before);
 }
 
 TEST_F(JournalCopyTest, TakesOverAJournalThatWasInTheStateFolderItself) {
