@@ -97,7 +97,7 @@ rm -f "$launch/refused"
 submit_missing() {
   local known
   known=$(squeue --noheader --array --me --name="$name") || return 0
-  if [ "$(grep -c . "$launch/refused" 2>/dev/null)" -ge $((3 * workers)) ]; then
+  if [ "$(cat "$launch/refused" 2>/dev/null | wc -l)" -ge $((3 * workers)) ]; then
     echo "workers end as soon as they are started: see $launch/worker-*.log" >&2
     kill -INT $child
     return 1
@@ -106,8 +106,7 @@ submit_missing() {
   [ $missing -le 0 ] || sbatch --parsable --array=1-$missing "$launch/workers.sbatch"
 }
 
-)sh",
-      R"sh(submit_missing
+submit_missing
 )sh",
       ShellWord(launch.program),
       " run",
