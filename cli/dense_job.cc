@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/dense_job.h"
 
-#include <filesystem>
 #include <functional>
 
 #include "cli/finished_job.h"
@@ -56,8 +55,7 @@ absl::Status RunDenseJob(const std::string& output,
                          const FleetArgument& fleet,
                          const PipelineOptions& options,
                          const StopSignals& signals) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(output + "/.orbweave", error)) return NoJobIn(output);
+  ORBWEAVE_RETURN_IF_ERROR(CheckHoldsJob(output));
   const auto prepare = [&](ClientApi& coordinator, const StageContext&) -> absl::StatusOr<JobSpec> {
     ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, LastFinishedJob(coordinator, output));
     return DenseJobOf(coordinator, sparse, options);

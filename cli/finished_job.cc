@@ -44,14 +44,16 @@ bool LeavesAModel(const JobStatus& job) {
 
 }  // namespace
 
-absl::Status NoJobIn(const std::string& output) {
+absl::Status CheckHoldsJob(const std::string& output) {
+  std::error_code error;
+  if (std::filesystem::is_directory(output + "/.orbweave", error)) return absl::OkStatus();
   return absl::NotFoundError(output + " is not the output folder of a job (no .orbweave in it)");
 }
 
 absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
                                                           const Clock& clock) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckHoldsJob(output));
   const std::string state = output + "/.orbweave";
-  if (!std::filesystem::is_directory(state)) return NoJobIn(output);
   CoordinatorOptions options{.state_dir = state, .leases_survive = false, .find_plan = FindJobPlan};
   if (!SharedFileSystemOf(state).empty()) options.open_journal = OpenJournalToLook;
   return Coordinator::Open(options, clock);

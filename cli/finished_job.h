@@ -14,8 +14,8 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
                                                                         const Clock& clock);
 
-/// NotFound: what OpenFinished says of a folder without a job.
-[[nodiscard]] absl::Status NoJobIn(const std::string& output);
+/// NotFound: no job ran into the folder `output`.
+[[nodiscard]] absl::Status CheckHoldsJob(const std::string& output);
 
 /// The last finished job with a model of a coordinator that was just opened. FailedPrecondition:
 /// there is none.

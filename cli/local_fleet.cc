@@ -15,6 +15,7 @@
 #include "absl/strings/str_cat.h"
 #include "cli/event_log.h"
 #include "cli/see_workers_off.h"
+#include "coordinator/journal_copy.h"
 #include "coordinator/listen_address.h"
 #include "core/base/sleep.h"
 #include "worker/machine_offers.h"
@@ -49,24 +50,8 @@ absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOp
 absl::Status LocalFleet::OpenCoordinator() {
   ORBWEAVE_ASSIGN_OR_RETURN(options_.coordinator.log,
                             OpenEventLog(CoordinatorLogPath(options_.coordinator.state_dir)));
-  ChooseJournalFolder();
-  const JournalPlace place = PlaceJournal(options_.coordinator.state_dir, options_.journal_folder);
-  const bool is_copied = !options_.journal_folder.empty();
-  if (is_copied) {
-    options_.coordinator.open_journal = [place](const std::string&) {
-      return OpenCopiedJournal(place);
-    };
-  }
+  ChooseJournal();
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
-  if (is_copied) {
-    ORBWEAVE_ASSIGN_OR_RETURN(
-        journal_copy_,
-        JournalCopy::Start(
-            place, {.log = options_.coordinator.log, .lost = [this](const absl::Status& why) {
-                      const std::lock_guard lock(mutex_);
-                      health_.Update(why);
-                    }}));
-  }
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string socket, ChooseSocket());
   ORBWEAVE_ASSIGN_OR_RETURN(server_, GrpcServer::Start(*coordinator_, socket));
   return options_.door.IsOpen() ? OpenDoor() : absl::OkStatus();
@@ -94,11 +79,17 @@ void LocalFleet::CloseDoor() {
   door_.reset();
 }
 
-void LocalFleet::ChooseJournalFolder() {
+void LocalFleet::ChooseJournal() {
+  const std::string& state_dir = options_.coordinator.state_dir;
+  std::string folder = options_.journal_folder;
   std::error_code error;
-  if (options_.journal_folder.empty() &&
-      !SharedFileSystemOf(options_.coordinator.state_dir).empty())
-    options_.journal_folder = fs::temp_directory_path(error).string();
+  if (folder.empty() && !SharedFileSystemOf(state_dir).empty())
+    folder = fs::temp_directory_path(error).string();
+  if (folder.empty()) return;
+  options_.coordinator.open_journal = [place = PlaceJournal(state_dir, folder),
+                                       log = options_.coordinator.log](const std::string&) {
+    return OpenCopiedJournal(place, {.log = log});
+  };
 }
 
 absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
@@ -129,6 +120,7 @@ uint32_t LocalFleet::restarts() const {
 }
 
 absl::Status LocalFleet::Health() const {
+  ORBWEAVE_RETURN_IF_ERROR(coordinator_->health());
   const std::lock_guard lock(mutex_);
   return health_;
 }

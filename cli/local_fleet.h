@@ -14,7 +14,6 @@
 #include "cli/wait_for_job.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
-#include "coordinator/journal_copy.h"
 #include "core/base/clock.h"
 #include "worker/child_process.h"
 
@@ -78,7 +77,7 @@ class LocalFleet {
   }
   [[nodiscard]] absl::Status OpenCoordinator();
   [[nodiscard]] absl::StatusOr<std::string> ChooseSocket();
-  void ChooseJournalFolder();
+  void ChooseJournal();
   [[nodiscard]] absl::Status OpenDoor();
   void CloseDoor();
   void Supervise(const std::stop_token& stop);
@@ -91,7 +90,6 @@ class LocalFleet {
   SteadyClock clock_;
   std::string short_folder_;  ///< of the socket, when the state folder's path is too long for one
   std::unique_ptr<Coordinator> coordinator_;
-  std::unique_ptr<JournalCopy> journal_copy_;  ///< null: the journal is where it is safe
   std::unique_ptr<GrpcServer> server_;
   std::unique_ptr<GrpcServer> door_;  ///< null: there is none
   Farewell farewell_ = Farewell::kDismissWorkers;

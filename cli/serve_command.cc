@@ -49,29 +49,18 @@ absl::StatusOr<EventLog> OpenLog(const std::string& state_dir, MetricsCounters& 
   };
 }
 
-JournalPlace PlaceOf(const ServeOptions& options) {
-  return PlaceJournal(options.coordinator.state_dir, options.journal_folder);
-}
-
-absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& options) {
+absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& options,
+                                                       const EventLog& log) {
+  const std::string& state_dir = options.coordinator.state_dir;
   if (!options.journal.empty()) return OpenPostgresJournal(options.journal);
-  if (!options.journal_folder.empty()) return OpenCopiedJournal(PlaceOf(options));
-  return OpenJournal(options.coordinator.state_dir);
-}
-
-/// Null where the journal is where it is safe.
-absl::StatusOr<std::unique_ptr<JournalCopy>> CopyJournalOf(const ServeOptions& options,
-                                                           const EventLog& log,
-                                                           std::stop_source end) {
-  if (options.journal_folder.empty()) return nullptr;
-  return JournalCopy::Start(
-      PlaceOf(options),
-      {.log = log, .lost = [end](const absl::Status&) mutable { end.request_stop(); }});
+  if (options.journal_folder.empty()) return OpenJournal(state_dir);
+  return OpenCopiedJournal(PlaceJournal(state_dir, options.journal_folder), {.log = log});
 }
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenMeteredJournal(const ServeOptions& options,
+                                                            const EventLog& log,
                                                             MetricsCounters& counters) {
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournalOf(options));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournalOf(options, log));
   return MeterJournal(
       std::move(journal),
       [&counters](std::string_view what, double wait_s, const absl::Status& status) {
@@ -112,11 +101,10 @@ absl::Status Serve(const ServeOptions& options) {
     end.request_stop();
   };
   coordinator_options.open_journal = [&](const std::string&) {
-    return OpenMeteredJournal(options, counters);
+    return OpenMeteredJournal(options, log, counters);
   };
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto journal_copy, CopyJournalOf(options, log, end));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto http,

@@ -3,23 +3,24 @@
 
 #include "coordinator/journal_copy.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/forwarding_journal.h"
 #include "coordinator/sqlite_journal.h"
 #include "core/base/digest.h"
-#include "core/base/file_descriptor.h"
 #include "core/base/sleep.h"
 #include "core/io/sqlite_connection.h"
 #include "core/storage/durable_file.h"
@@ -78,12 +79,6 @@ absl::Status EndLog(const std::string& path) {
   return journal.Execute("PRAGMA journal_mode = DELETE");
 }
 
-absl::Status Sync(const std::string& path, int kind) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | kind));
-  if (file.IsOpen() && ::fsync(file.get()) == 0) return absl::OkStatus();
-  return absl::ErrnoToStatus(errno, absl::StrCat("cannot sync ", path));
-}
-
 /// All that is committed in `from`; a crash leaves the old `to` or the whole new one.
 absl::Status CopyJournal(const std::string& from, const std::string& to) {
   const std::string folder = fs::path(to).parent_path().string();
@@ -93,13 +88,9 @@ absl::Status CopyJournal(const std::string& from, const std::string& to) {
   ORBWEAVE_ASSIGN_OR_RETURN(SqliteStatement copy, journal.Prepare("VACUUM INTO ?"));
   copy.Bind(1, std::string_view(fresh));
   absl::Status status = copy.Run();
-  if (status.ok()) status = Sync(fresh, 0);
-  std::error_code error;
-  if (status.ok()) fs::rename(fresh, to, error);
-  if (error)
-    status = absl::UnavailableError(absl::StrCat("cannot write ", to, ": ", error.message()));
-  if (status.ok()) return Sync(folder, O_DIRECTORY);
-  fs::remove(fresh, error);
+  if (status.ok()) status = MoveFileDurably(fresh, to);
+  std::error_code ignored;
+  if (!status.ok()) fs::remove(fresh, ignored);
   return status;
 }
 
@@ -130,6 +121,83 @@ absl::StatusOr<int64_t> VersionOf(const SqliteConnection& journal) {
   return statement.Integer(0);
 }
 
+/// Puts the copy in the place of a local journal that it was not made of.
+absl::Status BringUpToDate(const JournalPlace& place) {
+  ORBWEAVE_RETURN_IF_ERROR(EndLog(place.copy));
+  std::error_code error;
+  const bool has_copy = fs::exists(place.copy, error);
+  ORBWEAVE_ASSIGN_OR_RETURN(const bool is_ours, IsOurs(place));
+  if (!has_copy || !is_ours) RemoveJournal(place.local);
+  if (has_copy && !fs::exists(place.local, error))
+    ORBWEAVE_RETURN_IF_ERROR(CopyJournal(place.copy, place.local));
+  return Mark(place);
+}
+
+class CopiedJournal final : public ForwardingJournal {
+ public:
+  CopiedJournal(std::unique_ptr<Journal> journal, JournalPlace place, CopyRule rule)
+      : ForwardingJournal(std::move(journal)), place_(std::move(place)), rule_(std::move(rule)) {}
+  ~CopiedJournal() override {
+    thread_ = {};
+    Copy().IgnoreError();
+  }
+  CopiedJournal(const CopiedJournal&) = delete;
+  CopiedJournal& operator=(const CopiedJournal&) = delete;
+
+  absl::Status Start() {
+    ORBWEAVE_RETURN_IF_ERROR(Copy());
+    ORBWEAVE_ASSIGN_OR_RETURN(SqliteConnection watched,
+                              SqliteConnection::OpenToWrite(place_.local));
+    thread_ = std::jthread([this, watched = std::move(watched)](const std::stop_token& stop) {
+      KeepFresh(watched, stop);
+    });
+    return absl::OkStatus();
+  }
+
+  absl::Status Confirm() override {
+    if (is_lost_) return TakenOver();
+    return ForwardingJournal::Confirm();
+  }
+
+ private:
+  [[nodiscard]] absl::Status TakenOver() const {
+    return absl::FailedPreconditionError(
+        absl::StrCat(place_.copy, " is of another coordinator, which has gone on from there"));
+  }
+
+  void KeepFresh(const SqliteConnection& watched, const std::stop_token& stop) {
+    int64_t copied = 0;  // no version is
+    while (!is_lost_ && SleepUnlessStopped(rule_.every_s, stop)) {
+      const absl::StatusOr<int64_t> version = VersionOf(watched);
+      if (version.ok() && *version == copied) continue;
+      if (Copy().ok()) copied = version.value_or(copied);
+    }
+  }
+
+  /// What went wrong was logged.
+  absl::Status Copy() {
+    const absl::Status status = TryToCopy();
+    if (status.ok() || !rule_.log) return status;
+    rule_.log({.level = is_lost_ ? LogLevel::kError : LogLevel::kWarning,
+               .event = "journal_not_copied",
+               .message = std::string(status.message())});
+    return status;
+  }
+
+  absl::Status TryToCopy() {
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_ours, IsOurs(place_));
+    is_lost_ = !is_ours;
+    if (is_lost_) return TakenOver();
+    ORBWEAVE_RETURN_IF_ERROR(CopyJournal(place_.local, place_.copy));
+    return Mark(place_);
+  }
+
+  JournalPlace place_;
+  CopyRule rule_;
+  std::atomic<bool> is_lost_{false};
+  std::jthread thread_;  ///< last: ends before what it uses
+};
+
 }  // namespace
 
 std::string_view SharedFileSystemOf(const std::string& path) {
@@ -152,22 +220,19 @@ JournalPlace PlaceJournal(const std::string& state_dir, const std::string& journ
           .copy = state_dir + "/journal.db"};
 }
 
-absl::StatusOr<std::unique_ptr<Journal>> OpenCopiedJournal(const JournalPlace& place) {
+absl::StatusOr<std::unique_ptr<Journal>> OpenCopiedJournal(const JournalPlace& place,
+                                                           CopyRule rule) {
   const std::string folder = fs::path(place.local).parent_path().string();
   ORBWEAVE_RETURN_IF_ERROR(MakePrivateFolder(folder));
   if (const std::string_view shared = SharedFileSystemOf(folder); !shared.empty()) {
     return absl::FailedPreconditionError(absl::StrCat(
         folder, " is on ", std::string(shared), ": the journal needs a disk of this machine"));
   }
-  ORBWEAVE_RETURN_IF_ERROR(EndLog(place.copy));
-  std::error_code error;
-  const bool has_copy = fs::exists(place.copy, error);
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool is_ours, IsOurs(place));
-  if (!has_copy || !is_ours) RemoveJournal(place.local);
-  if (has_copy && !fs::exists(place.local, error))
-    ORBWEAVE_RETURN_IF_ERROR(CopyJournal(place.copy, place.local));
-  ORBWEAVE_RETURN_IF_ERROR(Mark(place));
-  return OpenSqliteJournal(place.local);
+  ORBWEAVE_RETURN_IF_ERROR(BringUpToDate(place));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> local, OpenSqliteJournal(place.local));
+  auto journal = std::make_unique<CopiedJournal>(std::move(local), place, std::move(rule));
+  ORBWEAVE_RETURN_IF_ERROR(journal->Start());
+  return journal;
 }
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenJournalToLook(const std::string& state_dir) {
@@ -182,48 +247,6 @@ absl::StatusOr<std::unique_ptr<Journal>> OpenJournalToLook(const std::string& st
       copied.ok() ? OpenSqliteJournal(place.local) : copied;
   fs::remove_all(folder, error);  // what is open stays until it is closed
   return journal;
-}
-
-absl::StatusOr<std::unique_ptr<JournalCopy>> JournalCopy::Start(const JournalPlace& place,
-                                                                JournalCopyOptions options) {
-  std::unique_ptr<JournalCopy> copy(new JournalCopy(place, std::move(options)));
-  ORBWEAVE_RETURN_IF_ERROR(copy->CopyOrTell());
-  ORBWEAVE_ASSIGN_OR_RETURN(SqliteConnection watched, SqliteConnection::OpenToWrite(place.local));
-  copy->thread_ =
-      std::jthread([raw = copy.get(), watched = std::move(watched)](const std::stop_token& stop) {
-        int64_t copied = 0;  // no version is
-        while (SleepUnlessStopped(raw->options_.every_s, stop)) {
-          const absl::StatusOr<int64_t> version = VersionOf(watched);
-          if (version.ok() && *version == copied) continue;
-          const absl::Status status = raw->CopyOrTell();
-          if (status.ok()) copied = version.value_or(copied);
-          if (!absl::IsAborted(status)) continue;
-          if (raw->options_.lost) raw->options_.lost(status);
-          return;
-        }
-      });
-  return copy;
-}
-
-JournalCopy::~JournalCopy() {
-  thread_ = {};
-  CopyOrTell().IgnoreError();
-}
-
-absl::Status JournalCopy::CopyOrTell() const {
-  absl::StatusOr<bool> is_ours = IsOurs(place_);
-  absl::Status status = is_ours.status();
-  if (is_ours.ok() && !*is_ours) {
-    status = absl::AbortedError(
-        absl::StrCat(place_.copy, " is of another coordinator, which has gone on from there"));
-  }
-  if (status.ok()) status = CopyJournal(place_.local, place_.copy);
-  if (status.ok()) status = Mark(place_);
-  if (status.ok() || !options_.log) return status;
-  options_.log({.level = absl::IsAborted(status) ? LogLevel::kError : LogLevel::kWarning,
-                .event = "journal_not_copied",
-                .message = std::string(status.message())});
-  return status;
 }
 
 }  // namespace orbweave

@@ -6,63 +6,40 @@
 #include <chrono>
 #include <utility>
 
+#include "coordinator/forwarding_journal.h"
+
 namespace orbweave {
 namespace {
 
-class JournalMeter final : public Journal {
+class JournalMeter final : public ForwardingJournal {
  public:
   JournalMeter(std::unique_ptr<Journal> journal, SaveObserver observer)
-      : journal_(std::move(journal)), observer_(std::move(observer)) {}
+      : ForwardingJournal(std::move(journal)), observer_(std::move(observer)) {}
 
-  uint64_t generation() const override { return journal_->generation(); }
-
-  absl::Status Confirm() override { return journal_->Confirm(); }
   absl::Status TrySave() override {
-    return Time("probe", [&] { return journal_->TrySave(); });
+    return Time("probe", [&] { return journal().TrySave(); });
   }
-
   absl::Status SaveJob(const JobEntry& job) override {
-    return Time("job", [&] { return journal_->SaveJob(job); });
+    return Time("job", [&] { return journal().SaveJob(job); });
   }
   absl::Status SaveStarts(const std::vector<Attempt>& attempts) override {
-    return Time("start", [&] { return journal_->SaveStarts(attempts); });
+    return Time("start", [&] { return journal().SaveStarts(attempts); });
   }
   absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
-    return Time("result", [&] { return journal_->SaveResult(epoch, task, result); });
+    return Time("result", [&] { return journal().SaveResult(epoch, task, result); });
   }
   absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override {
-    return Time("ends", [&] { return journal_->SaveEnds(ends); });
+    return Time("ends", [&] { return journal().SaveEnds(ends); });
   }
-
   absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) override {
-    return Time("blames", [&] { return journal_->SaveBlames(blames); });
+    return Time("blames", [&] { return journal().SaveBlames(blames); });
   }
   absl::Status ForgetJob(const Digest& job) override {
-    return Time("forget", [&] { return journal_->ForgetJob(job); });
+    return Time("forget", [&] { return journal().ForgetJob(job); });
   }
   absl::Status ForgetResultOf(const Digest& task) override {
-    return Time("forget", [&] { return journal_->ForgetResultOf(task); });
+    return Time("forget", [&] { return journal().ForgetResultOf(task); });
   }
-  absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override {
-    return journal_->ForgetResults(is_garbage);
-  }
-
-  absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
-  absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
-      const std::vector<Digest>& tasks) override {
-    return journal_->LoadResults(tasks);
-  }
-  absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override {
-    return journal_->LoadOpenAttempts();
-  }
-  absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(const Digest& job,
-                                                          uint64_t since_epoch) override {
-    return journal_->LoadFailures(job, since_epoch);
-  }
-  absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(const Digest& task) override {
-    return journal_->LoadAttempts(task);
-  }
-  absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() override { return journal_->LoadBlames(); }
 
  private:
   template <typename Save>
@@ -74,7 +51,6 @@ class JournalMeter final : public Journal {
     return status;
   }
 
-  std::unique_ptr<Journal> journal_;
   SaveObserver observer_;
 };
 

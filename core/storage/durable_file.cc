@@ -50,6 +50,16 @@ absl::Status SyncFolder(const std::string& path) {
   return absl::OkStatus();
 }
 
+absl::Status SyncAndRename(const FileDescriptor& file,
+                           const std::string& from,
+                           const std::string& to) {
+  if (::fsync(file.get()) != 0) return WriteError(errno, "cannot write", to);
+  FaultPoint("rename", FaultSide::kBefore);
+  if (::rename(from.c_str(), to.c_str()) != 0) return WriteError(errno, "cannot write", to);
+  FaultPoint("rename", FaultSide::kAfter);
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 std::string ScratchPath(const std::string& scratch_dir) {
@@ -86,12 +96,16 @@ absl::Status DurableFile::Append(std::string_view bytes) {
 }
 
 absl::Status DurableFile::MoveTo(const std::string& path) {
-  if (::fsync(file_.get()) != 0) return WriteError(errno, "cannot write", path);
-  FaultPoint("rename", FaultSide::kBefore);
-  if (::rename(path_.c_str(), path.c_str()) != 0) return WriteError(errno, "cannot write", path);
+  ORBWEAVE_RETURN_IF_ERROR(SyncAndRename(file_, path_, path));
   path_.clear();
-  FaultPoint("rename", FaultSide::kAfter);
   return SyncFolder(std::filesystem::path(path).parent_path().string());
+}
+
+absl::Status MoveFileDurably(const std::string& from, const std::string& to) {
+  const FileDescriptor file(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.IsOpen()) return SystemError(errno, "cannot open", from);
+  ORBWEAVE_RETURN_IF_ERROR(SyncAndRename(file, from, to));
+  return SyncFolder(std::filesystem::path(to).parent_path().string());
 }
 
 absl::Status WriteFileDurably(const std::string& scratch_dir,

@@ -44,6 +44,10 @@ class DurableFile {
                                             const std::string& path,
                                             std::string_view bytes);
 
+/// Gives a file that somebody else wrote beside `to` that name: durable when this returns OK; a
+/// crash leaves the old file or the whole new one. Errors as of DurableFile.
+[[nodiscard]] absl::Status MoveFileDurably(const std::string& from, const std::string& to);
+
 /// The file in pieces. NotFound when there is none; errors of `take`.
 [[nodiscard]] absl::Status ReadInPieces(const std::string& path, const TakePiece& take);
 

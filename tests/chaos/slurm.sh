@@ -15,7 +15,8 @@ requeues=${1:-5}
 preemptions=${2:-20}
 panoramas=${3:-192}
 nodes=(n1 n2 n3)
-failures=0
+# shellcheck source=/dev/null
+source "$here/judge.sh"
 
 for tool in slurmctld slurmd sbatch munged ip nsenter; do
   command -v "$tool" >/dev/null || { echo "$tool is missing" >&2; exit 77; }
@@ -135,19 +136,12 @@ preempt() {
   [ -n "$node" ] && on hub sbatch --partition=urgent --nodelist="$node" --ntasks=2 --output=/dev/null --wrap='sleep 1' >/dev/null
 }
 
-same_model() {
-  local file
-  for file in sparse/0/{cameras,images,points3D}.bin points.ply cameras.csv trajectory.geojson; do
-    [ -s "$model/$file" ] && cmp -s "$lab/alone/$file" "$model/$file" || return 1
-  done
-}
-
 # TITLE [NOTE]: waits until Slurm has forgotten the job.
-end_row() {
+end_launch() {
   local note=${2:-}
   while [ -n "$(state_of_job)" ] && ((SECONDS - began < 3600)); do sleep 1; done
   local same=yes
-  same_model || { same=no; ((++failures)); }
+  same_model "$lab/alone" "$model" || { same=no; ((++failures)); }
   [ -n "$note" ] || note="$(($(grep -c 'DUE TO JOB REQUEUE' "$model/.orbweave/launch/coordinator.log") + 1)) allocations of the coordinator"
   printf '| %s | %d | %s | %s |\n' "$1" $((SECONDS - began)) "$same" "$note"
 }
@@ -161,13 +155,13 @@ disturbed() {
     ((requeued * preemptions > preempted * requeues || requeued >= requeues)) && continue
     [ "$(state_of_job)" = RUNNING ] && on hub scontrol requeue "$job" && ((++requeued))
   done
-  end_row "coordinator requeued, workers preempted" "$requeued times, $preempted times"
+  end_launch "coordinator requeued, workers preempted" "$requeued times, $preempted times"
 }
 
 # Slurm counts in whole minutes and warns a minute before the end.
 short_allocations() {
   launch short 3 || return 1
-  end_row "allocations of 3 minutes"
+  end_launch "allocations of 3 minutes"
 }
 
 trap clean_up EXIT

@@ -49,11 +49,7 @@ class CoordinatorHealth : public ::testing::Test {
     CoordinatorOptions options{.state_dir = folder_.Path(), .find_plan = testing::FindToyPlan};
     options.max_slots = max_slots;
     options.log = [this](const LogEvent&) { WaitUntil([this] { return !is_stuck_; }, 60.0); };
-    options.open_journal =
-        [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
-      ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(state_dir));
-      return std::make_unique<FailingJournal>(std::move(journal), fails_);
-    };
+    options.open_journal = testing::OpenFailingJournal(fails_);
     auto opened = Coordinator::Open(options, clock_);
     ASSERT_TRUE(opened.ok()) << opened.status();
     coordinator_ = *std::move(opened);

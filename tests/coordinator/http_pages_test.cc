@@ -28,11 +28,7 @@ class HttpPagesTest : public ::testing::Test {
  protected:
   void SetUp() override {
     CoordinatorOptions options{.state_dir = folder_.Path(), .find_plan = testing::FindToyPlan};
-    options.open_journal =
-        [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
-      ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(state_dir));
-      return std::make_unique<FailingJournal>(std::move(journal), fails_);
-    };
+    options.open_journal = testing::OpenFailingJournal(fails_);
     auto opened = Coordinator::Open(options, clock_);
     ASSERT_TRUE(opened.ok()) << opened.status();
     coordinator_ = *std::move(opened);

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <filesystem>
 #include <vector>
 
@@ -48,7 +47,6 @@ TEST_F(JournalCopyTest, AnotherMachineGoesOnWhereTheFirstEnded) {
   uint64_t generation = 0;
   {
     const auto journal = *OpenCopiedJournal(On("a"));
-    const auto copy = *JournalCopy::Start(On("a"), {});
     generation = journal->generation();
     Save(*journal, 1);
   }
@@ -58,8 +56,7 @@ TEST_F(JournalCopyTest, AnotherMachineGoesOnWhereTheFirstEnded) {
 }
 
 TEST_F(JournalCopyTest, WhatWasNewerThanTheCopyOfALostMachineIsForgotten) {
-  const auto lost = *OpenCopiedJournal(On("a"));
-  const auto copy = *JournalCopy::Start(On("a"), {.every_s = 1e6});
+  const auto lost = *OpenCopiedJournal(On("a"), {.every_s = 1e6});
   Save(*lost, 1);
   const auto journal = *OpenCopiedJournal(On("b"));
   EXPECT_FALSE(Knows(*journal, 1));
@@ -68,8 +65,7 @@ TEST_F(JournalCopyTest, WhatWasNewerThanTheCopyOfALostMachineIsForgotten) {
 }
 
 TEST_F(JournalCopyTest, IsMadeWhileTheJournalIsWritten) {
-  const auto journal = *OpenCopiedJournal(On("a"));
-  const auto copy = *JournalCopy::Start(On("a"), {.every_s = 0.05});
+  const auto journal = *OpenCopiedJournal(On("a"), {.every_s = 0.05});
   Save(*journal, 1);
   const auto is_copied = [&] {  // without beginning a generation in it
     const auto other = SqliteConnection::OpenToWrite(folder_ / "state/journal.db");
@@ -83,8 +79,7 @@ TEST_F(JournalCopyTest, TheSameMachineKeepsWhatItHas) {
   const JournalPlace place = On("a");
   const std::vector<std::string> files = {place.copy, place.local + ".copy"};
   {
-    const auto journal = *OpenCopiedJournal(place);
-    const auto copy = *JournalCopy::Start(place, {.every_s = 1e6});
+    const auto journal = *OpenCopiedJournal(place, {.every_s = 1e6});
     Save(*journal, 1);
     for (const std::string& file : files) fs::copy_file(file, file + ".killed");
   }
@@ -95,7 +90,6 @@ TEST_F(JournalCopyTest, TheSameMachineKeepsWhatItHas) {
 TEST_F(JournalCopyTest, AMachineThatHadItBeforeTakesWhatAnotherDidMeanwhile) {
   for (const char* machine : {"a", "b"}) {
     const auto journal = *OpenCopiedJournal(On(machine));
-    const auto copy = *JournalCopy::Start(On(machine), {});
     Save(*journal, machine[0] == 'a' ? 1 : 2);
   }
   const auto journal = *OpenCopiedJournal(On("a"));
@@ -104,45 +98,39 @@ TEST_F(JournalCopyTest, AMachineThatHadItBeforeTakesWhatAnotherDidMeanwhile) {
 }
 
 TEST_F(JournalCopyTest, OneThatWasCutOffDoesNotUndoWhatAnotherDid) {
-  const auto cut_off = *OpenCopiedJournal(On("a"));
-  auto its_copy = *JournalCopy::Start(On("a"), {.every_s = 1e6});
+  auto cut_off = *OpenCopiedJournal(On("a"), {.every_s = 1e6});
   {
     const auto journal = *OpenCopiedJournal(On("b"));
-    const auto copy = *JournalCopy::Start(On("b"), {});
     Save(*journal, 2);
   }
   Save(*cut_off, 1);
-  its_copy.reset();
+  cut_off.reset();
   EXPECT_TRUE(Knows(**OpenCopiedJournal(On("c")), 2));
 }
 
 TEST_F(JournalCopyTest, OneThatBeganAndMadeNoCopyDoesNotUndoWhatAnotherDid) {
-  { (void)*OpenCopiedJournal(On("a")); }  // killed before its first copy
+  { (void)*OpenCopiedJournal(On("a")); }
+  fs::remove(On("a").copy);  // killed before its first copy
   {
     const auto journal = *OpenCopiedJournal(On("b"));
-    const auto copy = *JournalCopy::Start(On("b"), {});
     Save(*journal, 2);
   }
   EXPECT_TRUE(Knows(**OpenCopiedJournal(On("a")), 2));
 }
 
 TEST_F(JournalCopyTest, OneThatWasCutOffLearnsOfIt) {
-  std::atomic<bool> is_lost{false};
-  const auto cut_off = *OpenCopiedJournal(On("a"));
-  const auto its_copy = *JournalCopy::Start(
-      On("a"), {.lost = [&](const absl::Status&) { is_lost = true; }, .every_s = 0.05});
-  {
-    const auto journal = *OpenCopiedJournal(On("b"));
-    EXPECT_TRUE(testing::WaitUntil([&] { return JournalCopy::Start(On("b"), {}).ok(); }, 20.0));
-  }
+  const auto cut_off = *OpenCopiedJournal(On("a"), {.every_s = 0.05});
+  EXPECT_TRUE(cut_off->Confirm().ok());
+  // The other may begin just when a copy is made, and is then the one that is cut off.
+  EXPECT_TRUE(testing::WaitUntil([&] { return OpenCopiedJournal(On("b")).ok(); }, 20.0));
   Save(*cut_off, 1);
-  EXPECT_TRUE(testing::WaitUntil([&] { return is_lost.load(); }, 20.0));
+  const auto is_lost = [&] { return absl::IsFailedPrecondition(cut_off->Confirm()); };
+  EXPECT_TRUE(testing::WaitUntil(is_lost, 20.0));
 }
 
 TEST_F(JournalCopyTest, OfAStateThatWasRemovedIsNotUsedForTheNext) {
   {
     const auto journal = *OpenCopiedJournal(On("a"));
-    const auto copy = *JournalCopy::Start(On("a"), {});
     Save(*journal, 1);
   }
   fs::remove_all(folder_ / "state");
@@ -163,7 +151,6 @@ TEST_F(JournalCopyTest, IsNotKeptWhereOthersMayWrite) {
 TEST_F(JournalCopyTest, IsLookedAtWithoutAChange) {
   {
     const auto journal = *OpenCopiedJournal(On("a"));
-    const auto copy = *JournalCopy::Start(On("a"), {});
     Save(*journal, 1);
   }
   const std::string before = testing::ReadAll(folder_ / "state/journal.db");
@@ -175,7 +162,6 @@ TEST_F(JournalCopyTest, TakesOverAJournalThatWasInTheStateFolderItself) {
   { Save(**OpenSqliteJournal(folder_ / "state/journal.db"), 1); }
   const auto journal = *OpenCopiedJournal(On("a"));
   EXPECT_TRUE(Knows(*journal, 1));
-  const auto copy = *JournalCopy::Start(On("a"), {});
   EXPECT_EQ(FilesIn("state"), std::vector<std::string>{"journal.db"}) << "and no log of it";
 }
 

@@ -43,11 +43,7 @@ class RestartTest : public ::testing::Test {
     CoordinatorOptions options{
         .state_dir = folder_.Path(), .leases_survive = leases_survive, .find_plan = find_plan_};
     options.lost = [this] { was_told_ = true; };
-    options.open_journal =
-        [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
-      ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(state_dir));
-      return std::make_unique<FailingJournal>(std::move(journal), fails_);
-    };
+    options.open_journal = testing::OpenFailingJournal(fails_);
     auto opened = Coordinator::Open(options, clock_);
     ASSERT_TRUE(opened.ok()) << opened.status();
     coordinator_ = *std::move(opened);

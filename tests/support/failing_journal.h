@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "coordinator/journal.h"
+#include "coordinator/forwarding_journal.h"
+#include "coordinator/open_journal.h"
 #include "tests/support/command.h"
 
 namespace orbweave::testing {
 
 /// A journal whose disk fills up and whose server goes away, when told to.
-class FailingJournal final : public Journal {
+class FailingJournal final : public ForwardingJournal {
  public:
   struct Switch {
     std::atomic<bool> starts_fail{false};
@@ -31,45 +33,32 @@ class FailingJournal final : public Journal {
   };
 
   FailingJournal(std::unique_ptr<Journal> journal, Switch& fails)
-      : journal_(std::move(journal)), fails_(fails) {}
+      : ForwardingJournal(std::move(journal)), fails_(fails) {}
 
-  uint64_t generation() const override { return journal_->generation(); }
   absl::Status Confirm() override {
     if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
-    return journal_->Confirm();
+    return journal().Confirm();
   }
   absl::Status TrySave() override {
     if (fails_.probes_fail) return absl::ResourceExhaustedError("disk full");
     if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
-    return journal_->TrySave();
-  }
-  absl::Status SaveJob(const JobEntry& job) override { return journal_->SaveJob(job); }
-  absl::StatusOr<std::vector<JobEntry>> LoadJobs() override { return journal_->LoadJobs(); }
-  absl::Status ForgetJob(const Digest& job) override { return journal_->ForgetJob(job); }
-  absl::Status ForgetResultOf(const Digest& task) override {
-    return journal_->ForgetResultOf(task);
-  }
-  absl::StatusOr<uint64_t> ForgetResults(const IsGarbage& is_garbage) override {
-    return journal_->ForgetResults(is_garbage);
+    return journal().TrySave();
   }
   absl::Status SaveStarts(const std::vector<Attempt>& attempts) override {
     if (fails_.starts_fail) return absl::ResourceExhaustedError("disk full");
     fails_.is_starting = true;
     WaitUntil([this] { return !fails_.starts_are_slow; }, 20.0);
-    return journal_->SaveStarts(attempts);
+    return journal().SaveStarts(attempts);
   }
   absl::Status SaveResult(uint64_t epoch, const Digest& task, const TaskResult& result) override {
     if (fails_.results_fail) return absl::UnavailableError("away");
     if (fails_.is_lost) return absl::FailedPreconditionError("another coordinator has it");
-    return journal_->SaveResult(epoch, task, result);
-  }
-  absl::Status SaveEnds(const std::vector<AttemptEnd>& ends) override {
-    return journal_->SaveEnds(ends);
+    return journal().SaveResult(epoch, task, result);
   }
   absl::StatusOr<std::vector<std::optional<TaskResult>>> LoadResults(
       const std::vector<Digest>& tasks) override {
     if (fails_.lookups_fail) return absl::UnavailableError("away");
-    auto found = journal_->LoadResults(tasks);
+    auto found = journal().LoadResults(tasks);
     const bool is_held = std::find(tasks.begin(), tasks.end(), fails_.held_lookup) != tasks.end();
     if (is_held || fails_.lookups_hang) {
       fails_.is_holding = true;
@@ -77,24 +66,17 @@ class FailingJournal final : public Journal {
     }
     return found;
   }
-  absl::StatusOr<std::vector<Attempt>> LoadOpenAttempts() override {
-    return journal_->LoadOpenAttempts();
-  }
-  absl::StatusOr<std::vector<FailedAttempt>> LoadFailures(const Digest& job,
-                                                          uint64_t since_epoch) override {
-    return journal_->LoadFailures(job, since_epoch);
-  }
-  absl::StatusOr<std::vector<AttemptRecord>> LoadAttempts(const Digest& task) override {
-    return journal_->LoadAttempts(task);
-  }
-  absl::StatusOr<std::vector<WorkerBlame>> LoadBlames() override { return journal_->LoadBlames(); }
-  absl::Status SaveBlames(const std::vector<WorkerBlame>& blames) override {
-    return journal_->SaveBlames(blames);
-  }
 
  private:
-  std::unique_ptr<Journal> journal_;
   Switch& fails_;
 };
+
+/// For CoordinatorOptions: OpenJournal's, which fails as `fails` says.
+inline auto OpenFailingJournal(FailingJournal::Switch& fails) {
+  return [&fails](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
+    ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournal(state_dir));
+    return std::make_unique<FailingJournal>(std::move(journal), fails);
+  };
+}
 
 }  // namespace orbweave::testing
