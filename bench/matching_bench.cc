@@ -13,7 +13,7 @@
 
 #include "core/base/random.h"
 #include "core/features/find_nearest_two.h"
-#include "core/features/match_guided.h"
+#include "core/features/nearest_in_planes.h"
 
 namespace orbweave {
 namespace {
@@ -56,11 +56,12 @@ BENCHMARK_CAPTURE(NearestTwoBothDirections, avx512_vnni, DistanceKernel::kAvx512
     ->Unit(benchmark::kMillisecond);
 
 void GuidedByEpipolarPlanes(benchmark::State& state) {
-  const Features a = RandomFeatures(state.range(0), 1);
-  const Features b = RandomFeatures(state.range(0), 2);
-  const Rigid3 b_from_a{Eigen::Quaterniond::Identity(), Eigen::Vector3d::UnitZ()};
+  const PairSide a(RandomFeatures(state.range(0), 1));
+  const PairSide b(RandomFeatures(state.range(0), 2));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(MatchGuided(a, b, b_from_a, a.camera.AngleFromPixels(4.0), {}));
+    const NearestInPlanes planes(
+        a, b, Eigen::Vector3d::UnitZ(), a.features.camera.AngleFromPixels(4.0));
+    benchmark::DoNotOptimize(planes.Find(Eigen::Quaterniond::Identity()));
   }
 }
 BENCHMARK(GuidedByEpipolarPlanes)->Arg(8192)->Unit(benchmark::kMillisecond);

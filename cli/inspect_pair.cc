@@ -94,8 +94,8 @@ absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId 
   ORBWEAVE_ASSIGN_OR_RETURN(
       facts.inspection,
       InspectPair(pair,
-                  {a, BearingsOf(a)},
-                  {b, BearingsOf(b)},
+                  PairSide(a),
+                  PairSide(b),
                   facts.was_tried ? pairs.tried.front().matches : std::vector<FeatureMatch>{},
                   verified,
                   job.options().matching,

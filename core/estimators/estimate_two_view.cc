@@ -11,19 +11,17 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/quantile.h"
 #include "core/base/status.h"
 #include "core/estimators/bearing_pairs.h"
 #include "core/estimators/explain_by_ray_map.h"
 #include "core/estimators/match_evidence.h"
 #include "core/estimators/matches_besides_plane.h"
-#include "core/estimators/refine_two_view.h"
 #include "core/estimators/resolve_cheirality.h"
 #include "core/estimators/split_by_height.h"
 #include "core/estimators/split_by_motion.h"
+#include "core/estimators/two_view_inliers.h"
 #include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
-#include "core/geometry/sphere_cells.h"
 
 namespace orbweave {
 namespace {
@@ -52,51 +50,11 @@ constexpr double kClearlyMore = 10.0;  // decades: a moving bus counts as three 
 constexpr double kOneDirection_rad = 0.26;
 // A facade that is matched a window further on turns no camera, but by what a plane leaves open.
 constexpr double kTurned_rad = 1.0;
-constexpr int kFinalRefits = 3;
-constexpr int kFinalSteps = 20;
-
-/// Alternates pose and inliers until these do not grow any more.
-ResolvedPose RefineToConvergence(const BearingPairs& pairs,
-                                 ResolvedPose best,
-                                 double max_error_rad) {
-  for (int refit = 0; refit < kFinalRefits; ++refit) {
-    const SelectedBearings selected = SelectPairs(pairs, best.inliers);
-    const Rigid3 pose = MinimiseEpipolarResiduals(
-        best.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
-    std::vector<uint32_t> inliers =
-        InFrontOfBoth(pairs, EpipolarInliers(pairs, pose, max_error_rad), pose, max_error_rad);
-    const bool grows = inliers.size() > best.inliers.size();
-    if (inliers.size() >= best.inliers.size()) best = {pose, std::move(inliers)};
-    if (!grows) break;
-  }
-  return best;
-}
-
-double MedianAngle(const SelectedBearings& inliers, const Eigen::Quaterniond& R) {
-  std::vector<double> angles;
-  angles.reserve(inliers.a.size());
-  for (size_t i = 0; i < inliers.a.size(); ++i)
-    angles.push_back(AngleBetween(R * inliers.a[i], inliers.b[i]));
-  return UpperMedian(std::move(angles));
-}
 
 bool IsSupported(size_t num_inliers, size_t num_putative, const TwoViewOptions& options) {
   const auto share = static_cast<double>(num_inliers) / static_cast<double>(num_putative);
   return num_inliers >= static_cast<size_t>(options.min_inliers) &&
          share >= options.min_inlier_share;
-}
-
-/// The inliers as pairs of their own, for the tests of degeneracy.
-BearingPairs Subset(const BearingPairs& pairs, std::span<const uint32_t> indices) {
-  BearingPairs subset;
-  for (const uint32_t i : indices) {
-    subset.order.push_back(pairs.order[i]);
-    for (int k = 0; k < 3; ++k) {
-      subset.a[k].push_back(pairs.a[k][i]);
-      subset.b[k].push_back(pairs.b[k][i]);
-    }
-  }
-  return subset;
 }
 
 /// Kind, pose and the inliers that belong to them.
@@ -126,23 +84,6 @@ absl::StatusOr<Verdict> Classify(const BearingPairs& pairs,
       ExplainByHomography(verdict.inliers, max_error_rad, kDegenerateShare, context));
   if (static_cast<double>(plane.inliers.size()) >= enough) verdict.kind = TwoViewKind::kPlanar;
   return verdict;
-}
-
-/// Takes over what the inliers are, and what follows from them.
-void SetInliers(const BearingPairs& inliers,
-                std::span<const FeatureMatch> matches,
-                TwoViewGeometry& geometry) {
-  geometry.inliers.clear();
-  std::vector<Vector3d> a;
-  std::vector<Vector3d> b;
-  for (size_t i = 0; i < inliers.Size(); ++i) {
-    geometry.inliers.push_back(matches[inliers.order[i]]);
-    a.push_back(inliers.A(i));
-    b.push_back(inliers.B(i));
-  }
-  std::sort(geometry.inliers.begin(), geometry.inliers.end());
-  geometry.spread = SphereSpread(a);
-  geometry.median_angle_rad = MedianAngle({std::move(a), std::move(b)}, geometry.b_from_a.rotation);
 }
 
 /// The geometry of the given matches, whatever they show.
@@ -302,8 +243,7 @@ struct PairView {
   [[nodiscard]] std::vector<uint32_t> Agreeing(const BearingPairs& pairs,
                                                const TwoViewGeometry& geometry) const {
     const Rigid3& pose = geometry.b_from_a;
-    if (geometry.kind != TwoViewKind::kPureRotation)
-      return InFrontOfBoth(pairs, EpipolarInliers(pairs, pose, max_error_rad), pose, max_error_rad);
+    if (geometry.kind != TwoViewKind::kPureRotation) return InliersOf(pairs, pose, max_error_rad);
     std::vector<uint32_t> inliers;
     for (uint32_t i = 0; i < pairs.Size(); ++i) {
       if (AngleBetween(pose.rotation * pairs.A(i), pairs.B(i)) <= max_error_rad)
@@ -340,10 +280,8 @@ struct PairView {
         static_cast<double>(kept.size()) > most) {
       return geometry;
     }
-    const SelectedBearings selected = SelectPairs(pairs, kept);
     TwoViewGeometry scene = geometry;
-    scene.b_from_a = MinimiseEpipolarResiduals(
-        geometry.b_from_a, selected.a, selected.b, 0.5 * max_error_rad, kFinalSteps);
+    scene.b_from_a = RefinePose(pairs, kept, geometry.b_from_a, max_error_rad);
     if (StandsStill(putative, scene)) return geometry;
     SetInliers(Subset(pairs, kept), matches, scene);
     return scene;

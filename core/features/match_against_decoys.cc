@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/features/descriptor_distance.h"
-#include "core/features/match_guided.h"
+#include "core/features/match_descriptors.h"
+#include "core/features/nearest_in_planes.h"
 #include "core/geometry/place_pairs.h"
 #include "core/robust/false_alarms.h"
 
@@ -24,23 +24,37 @@ constexpr double kTiltDeg = 6.0;
 /// The street as it would be seen by a camera turned past its width, still upright.
 constexpr double kYawDeg = 25.0;
 
-/// A match and how many times as far its descriptors are as the nearest in the whole image.
+/// A match and how many times as far its descriptors are as the nearest other of either.
 struct RankedMatch {
   double slack = 1.0;
   FeatureMatch match{};
 };
 
-std::vector<RankedMatch> Rank(const Features& a,
-                              const Features& b,
-                              const std::vector<FeatureMatch>& matches,
+/// What planes of one geometry find.
+struct PlaneMatches {
+  NearestTwoBothWays nearest{};
+  std::vector<FeatureMatch> accepted{};
+};
+
+void MergeInto(const std::vector<NearestTwo>& from, std::vector<NearestTwo>& into) {
+  for (size_t i = 0; i < into.size(); ++i) into[i] = MergeNearest(into[i], from[i]);
+}
+
+/// Squared distance of the nearest feature other than `index`.
+double NearestOther(const NearestTwo& nearest, FeatureIndex index) {
+  return nearest.index == index ? nearest.second : nearest.best;
+}
+
+std::vector<RankedMatch> Rank(const std::vector<FeatureMatch>& matches,
+                              const NearestTwoBothWays& in_planes,
                               const NearestTwoBothWays& nearest) {
   std::vector<RankedMatch> ranked;
   ranked.reserve(matches.size());
   for (const FeatureMatch& match : matches) {
-    const double squared = SquaredDistance(a.Descriptor(match.a), b.Descriptor(match.b));
-    const double least = std::min(nearest.of_a[match.a].best, nearest.of_b[match.b].best);
-    const double slack = squared <= least ? 1.0 : std::sqrt(squared / std::max(1.0, least));
-    ranked.push_back({slack, match});
+    const double squared = in_planes.of_a[match.a].best;
+    const double other = std::min(NearestOther(nearest.of_a[match.a], match.b),
+                                  NearestOther(nearest.of_b[match.b], match.a));
+    ranked.push_back({std::sqrt(squared / std::max(1.0, other)), match});
   }
   std::ranges::sort(ranked, [](const RankedMatch& x, const RankedMatch& y) {
     return x.slack != y.slack ? x.slack < y.slack : x.match < y.match;
@@ -48,10 +62,10 @@ std::vector<RankedMatch> Rank(const Features& a,
   return ranked;
 }
 
-std::array<Rigid3, 2> DecoysOf(const Rigid3& b_from_a) {
+std::array<Eigen::Quaterniond, 2> DecoysOf(const Rigid3& b_from_a) {
   const auto turned = [&](double angle_deg, const Eigen::Vector3d& axis) {
     const Eigen::AngleAxisd turn(angle_deg * kRadiansPerDegree, axis);
-    return Rigid3{(turn * b_from_a.rotation).normalized(), b_from_a.translation};
+    return (turn * b_from_a.rotation).normalized();
   };
   return {turned(kTiltDeg, b_from_a.translation.normalized()),
           turned(kYawDeg, Eigen::Vector3d::UnitY())};
@@ -65,18 +79,30 @@ std::vector<FeatureMatch> Without(std::vector<FeatureMatch> matches,
   return matches;
 }
 
-/// How many of the matches that are nearest in the whole image speak for themselves, beside those
-/// that are known.
-size_t CountTelling(const Features& a,
-                    const Features& b,
-                    const std::vector<RankedMatch>& ranked,
-                    std::span<const FeatureMatch> known) {
-  PlacePairs places;
-  for (const FeatureMatch& match : known) places.Add(a.Bearing(match.a), b.Bearing(match.b));
-  return static_cast<size_t>(std::ranges::count_if(ranked, [&](const RankedMatch& each) {
-    return each.slack <= 1.0 && places.Add(a.Bearing(each.match.a), b.Bearing(each.match.b));
-  }));
-}
+/// Counts the matches without slack that speak for themselves, beside those that are known.
+class TellingMatches {
+ public:
+  TellingMatches(const PairSide& a, const PairSide& b, std::span<const FeatureMatch> known)
+      : a_(a), b_(b) {
+    for (const FeatureMatch& match : known) Add(known_, match);
+  }
+
+  [[nodiscard]] size_t Count(const std::vector<RankedMatch>& ranked) const {
+    PlacePairs places = known_;
+    return static_cast<size_t>(std::ranges::count_if(ranked, [&](const RankedMatch& each) {
+      return each.slack <= 1.0 && Add(places, each.match);
+    }));
+  }
+
+ private:
+  bool Add(PlacePairs& places, const FeatureMatch& match) const {
+    return places.Add(a_.bearings[match.a], b_.bearings[match.b]);
+  }
+
+  const PairSide& a_;
+  const PairSide& b_;
+  PlacePairs known_{};
+};
 
 /// The longest list of which wrong_share is wrong at most.
 size_t LongestTrusted(const std::vector<RankedMatch>& target,
@@ -99,28 +125,45 @@ size_t LongestTrusted(const std::vector<RankedMatch>& target,
 
 }  // namespace
 
-PredictedMatches MatchAgainstDecoys(const Features& a,
-                                    const Features& b,
+PredictedMatches MatchAgainstDecoys(const PairSide& a,
+                                    const PairSide& b,
                                     const Rigid3& b_from_a,
                                     double max_error_rad,
-                                    const NearestTwoBothWays& nearest,
-                                    std::span<const FeatureMatch> known,
+                                    const NearestTwoBothWays* nearest,
+                                    std::optional<std::span<const FeatureMatch>> known,
                                     const MatchOptions& options) {
-  const std::vector<FeatureMatch> found = MatchGuided(a, b, b_from_a, max_error_rad, options);
-  const std::vector<RankedMatch> target = Rank(a, b, found, nearest);
-  std::vector<std::vector<RankedMatch>> decoys;
-  size_t most_by_chance = 0;
-  for (const Rigid3& decoy : DecoysOf(b_from_a)) {
-    const std::vector<FeatureMatch> wrong =
-        Without(MatchGuided(a, b, decoy, max_error_rad, options), found);
-    decoys.push_back(Rank(a, b, wrong, nearest));
-    most_by_chance = std::max(most_by_chance, CountTelling(a, b, decoys.back(), known));
+  const NearestInPlanes planes(a, b, b_from_a.translation, max_error_rad);
+  const auto match = [&](const Eigen::Quaterniond& rotation) {
+    PlaneMatches found{.nearest = planes.Find(rotation)};
+    found.accepted = AcceptGuided(found.nearest, options);
+    return found;
+  };
+  const PlaneMatches target = match(b_from_a.rotation);
+  std::vector<PlaneMatches> decoys;
+  for (const Eigen::Quaterniond& decoy : DecoysOf(b_from_a)) decoys.push_back(match(decoy));
+
+  NearestTwoBothWays all = nearest != nullptr ? *nearest : target.nearest;
+  for (const PlaneMatches& decoy : decoys) {
+    if (nearest != nullptr) break;
+    MergeInto(decoy.nearest.of_a, all.of_a);
+    MergeInto(decoy.nearest.of_b, all.of_b);
   }
-  const size_t new_ones = CountTelling(a, b, Rank(a, b, Without(found, known), nearest), known);
-  PredictedMatches predicted{
-      .log10_chance = Log10PoissonTail(new_ones, static_cast<double>(most_by_chance + 1))};
-  const size_t trusted = LongestTrusted(target, decoys, options.guided_max_wrong_share);
-  for (size_t i = 0; i < trusted; ++i) predicted.matches.push_back(target[i].match);
+  const std::vector<RankedMatch> ranked = Rank(target.accepted, target.nearest, all);
+  std::vector<std::vector<RankedMatch>> wrong;
+  for (const PlaneMatches& decoy : decoys)
+    wrong.push_back(Rank(Without(decoy.accepted, target.accepted), decoy.nearest, all));
+
+  PredictedMatches predicted;
+  if (known) {
+    const TellingMatches telling(a, b, *known);
+    size_t most_by_chance = 0;
+    for (const auto& each : wrong) most_by_chance = std::max(most_by_chance, telling.Count(each));
+    const size_t new_ones =
+        telling.Count(Rank(Without(target.accepted, *known), target.nearest, all));
+    predicted.log10_chance = Log10PoissonTail(new_ones, static_cast<double>(most_by_chance + 1));
+  }
+  const size_t trusted = LongestTrusted(ranked, wrong, options.guided_max_wrong_share);
+  for (size_t i = 0; i < trusted; ++i) predicted.matches.push_back(ranked[i].match);
   std::ranges::sort(predicted.matches);
   return predicted;
 }

@@ -20,4 +20,9 @@ std::vector<FeatureMatch> AcceptNearest(const NearestTwoBothWays& nearest,
   return AcceptMatches(nearest, {options.max_ratio, options.max_distance, options.cross_check});
 }
 
+std::vector<FeatureMatch> AcceptGuided(const NearestTwoBothWays& nearest,
+                                       const MatchOptions& options) {
+  return AcceptMatches(nearest, {options.guided_max_ratio, options.max_distance, true});
+}
+
 }  // namespace orbweave

@@ -22,4 +22,11 @@ namespace orbweave {
 [[nodiscard]] std::vector<FeatureMatch> AcceptNearest(const NearestTwoBothWays& nearest,
                                                       const MatchOptions& options);
 
+/// Matches of nearest neighbours near epipolar planes (NearestInPlanes): by `guided_max_ratio`,
+/// `max_distance` and cross check. There are few candidates in a plane, so an unmatched feature
+/// easily finds one by chance: the ratio is what keeps such matches out. Sorted by (a, b),
+/// one-to-one.
+[[nodiscard]] std::vector<FeatureMatch> AcceptGuided(const NearestTwoBothWays& nearest,
+                                                     const MatchOptions& options);
+
 }  // namespace orbweave

@@ -10,6 +10,7 @@ struct MatchOptions {
   double max_ratio = 0.8;
   double max_distance = 0.7;
   bool cross_check = true;
+  int largest_first = 2000;
   bool guided = true;
   double guided_max_ratio = 0.8;
   double guided_max_wrong_share = 0.2;
@@ -25,6 +26,10 @@ struct MatchOptions {
           "largest distance of unit descriptors",
           Range{0.01, 2.0});
     visit("cross_check", self.cross_check, "a match must be the best in both directions");
+    visit("largest_first",
+          self.largest_first,
+          "features of the largest scales that are matched first; all where these leave doubt",
+          Range{0, 65536});
     visit("guided", self.guided, "match again along epipolar planes once the geometry is known");
     visit("guided_max_ratio",
           self.guided_max_ratio,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,15 @@ struct NearestTwo {
 
   friend bool operator==(const NearestTwo&, const NearestTwo&) = default;
 };
+
+/// The two nearest of two sets, which may have some in common.
+[[nodiscard]] inline NearestTwo MergeNearest(const NearestTwo& x, const NearestTwo& y) {
+  if (x.best == y.best && x.index == y.index)
+    return {x.best, std::min(x.second, y.second), x.index};
+  const bool is_x = x.best != y.best ? x.best < y.best : x.index < y.index;
+  const NearestTwo& nearer = is_x ? x : y;
+  return {nearer.best, std::min(nearer.second, is_x ? y.best : x.best), nearer.index};
+}
 
 struct NearestTwoBothWays {
   std::vector<NearestTwo> of_a{};  ///< for every descriptor of a its nearest in b

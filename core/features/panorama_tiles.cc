@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/features/row_across_poles.h"
+
 namespace orbweave {
 namespace {
 
@@ -13,7 +15,6 @@ int FloorTo(int value, int step) {
   return value >= 0 ? value / step * step : -((-value + step - 1) / step * step);
 }
 int CeilTo(int value, int step) { return -FloorTo(-value, step); }
-int Modulo(int value, int n) { return ((value % n) + n) % n; }
 
 struct Interval {
   int begin = 0;
@@ -31,17 +32,6 @@ std::vector<Interval> Split(int begin, int end, int size) {
 
 Interval Padded(const Interval& core, int margin) {
   return {FloorTo(core.begin - margin, kTileAlignment), CeilTo(core.end + margin, kTileAlignment)};
-}
-
-/// The row of the panorama that continues it beyond a pole, and whether it lies half a turn away.
-struct SourceRow {
-  int row = 0;
-  bool turned = false;
-};
-
-SourceRow RowAcrossPoles(int row, int height) {
-  const int folded = Modulo(row, 2 * height);  // once round the sphere, through both poles
-  return folded < height ? SourceRow{folded, false} : SourceRow{2 * height - 1 - folded, true};
 }
 
 }  // namespace

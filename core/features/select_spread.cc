@@ -14,14 +14,14 @@ namespace {
 constexpr int kCellColumns = 24;
 constexpr int kCellRows = 12;
 
-auto PlaceOf(const SiftCandidate& c) {
+auto PlaceOf(const ScoredKeypoint& c) {
   return std::tie(
       c.keypoint.y_px, c.keypoint.x_px, c.keypoint.scale_px, c.keypoint.orientation_rad);
 }
 
 struct Ranked {
   double merit = 0.0;
-  const SiftCandidate* candidate = nullptr;
+  const ScoredKeypoint* candidate = nullptr;
 };
 
 bool Better(const Ranked& x, const Ranked& y) {
@@ -40,13 +40,13 @@ int CellOf(const EquirectangularCamera& camera, const Keypoint& keypoint) {
 
 /// How likely a candidate is found again in another image: with its contrast, and with its scale,
 /// since the finest scales of panoramas are mostly noise of the sensor and of the stitching.
-double MeritOf(const SiftCandidate& candidate) {
+double MeritOf(const ScoredKeypoint& candidate) {
   return double{candidate.response} * candidate.keypoint.scale_px;
 }
 
-std::vector<Ranked> RankedByMerit(const std::vector<SiftCandidate>& candidates) {
+std::vector<Ranked> RankedByMerit(std::span<const ScoredKeypoint> candidates) {
   std::vector<Ranked> ranked;
-  for (const SiftCandidate& candidate : candidates)
+  for (const ScoredKeypoint& candidate : candidates)
     ranked.push_back({MeritOf(candidate), &candidate});
   std::sort(ranked.begin(), ranked.end(), Better);
   return ranked;
@@ -54,9 +54,9 @@ std::vector<Ranked> RankedByMerit(const std::vector<SiftCandidate>& candidates) 
 
 }  // namespace
 
-std::vector<SiftCandidate> SelectSpread(const EquirectangularCamera& camera,
-                                        const std::vector<SiftCandidate>& candidates,
-                                        size_t max_features) {
+std::vector<uint32_t> SelectSpread(const EquirectangularCamera& camera,
+                                   std::span<const ScoredKeypoint> candidates,
+                                   size_t max_features) {
   std::vector<Ranked> ranked = RankedByMerit(candidates);
   const double fair_share = static_cast<double>(max_features) / (kCellColumns * kCellRows);
   std::vector<double> ahead_in_cell(kCellColumns * kCellRows, 0.0);
@@ -65,14 +65,17 @@ std::vector<SiftCandidate> SelectSpread(const EquirectangularCamera& camera,
     r.merit /= std::sqrt(1.0 + ahead / fair_share);
     ahead += 1.0;
   }
-  std::sort(ranked.begin(), ranked.end(), Better);
-  ranked.resize(std::min(ranked.size(), max_features));
-
-  std::vector<SiftCandidate> selected;
-  for (const Ranked& r : ranked) selected.push_back(*r.candidate);
-  std::sort(selected.begin(), selected.end(), [](const auto& a, const auto& b) {
-    return PlaceOf(a) < PlaceOf(b);
+  if (ranked.size() > max_features) {
+    const auto end = ranked.begin() + static_cast<std::ptrdiff_t>(max_features);
+    std::nth_element(ranked.begin(), end, ranked.end(), Better);
+    ranked.erase(end, ranked.end());
+  }
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return PlaceOf(*a.candidate) < PlaceOf(*b.candidate);
   });
+  std::vector<uint32_t> selected;
+  for (const Ranked& r : ranked)
+    selected.push_back(static_cast<uint32_t>(r.candidate - candidates.data()));
   return selected;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/stage_context.h"
 #include "core/features/panorama_tiles.h"
+#include "core/features/sift_thresholds.h"
 #include "core/scene/features.h"
 
 namespace orbweave {
@@ -20,11 +21,6 @@ struct SiftLevel {
   std::vector<Tile> tiles{};
   cv::Point2d panorama_from_level{1.0, 1.0};  ///< column and row factors, corner convention
   int last_octave = 0;
-};
-
-struct SiftThresholds {
-  double contrast = 0.02;
-  double edge = 10.0;
 };
 
 /// An extremum of the difference of Gaussians with one of its orientations.

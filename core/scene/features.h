@@ -51,4 +51,7 @@ struct Features {
   }
 };
 
+/// All bearings of a panorama, once, for those who ask for many.
+[[nodiscard]] std::vector<Eigen::Vector3d> BearingsOf(const Features& features);
+
 }  // namespace orbweave

@@ -21,7 +21,6 @@ enum class TwoViewKind : uint8_t {
   kPlanar = 3,        ///< general, but nearly all inliers lie on one plane
 };
 
-/// What two panoramas say about each other.
 /// How the matches of a pair were found: the rungs of a ladder, each tried where those before it
 /// find no evidence.
 enum class MatchRung : uint8_t {
@@ -29,8 +28,9 @@ enum class MatchRung : uint8_t {
   kDescriptors = 1,  ///< nearest descriptors, a pose by minimal samples of any orientation
   kUpright = 2,      ///< the same matches, by samples of cameras that stand upright
   kGuided = 3,       ///< too little by themselves; what they predict was found along the planes
+  kLargest = 4,      ///< tried first: as kDescriptors, of the features of the largest scales alone
 };
-constexpr size_t kNumMatchRungs = 4;
+constexpr size_t kNumMatchRungs = 5;
 
 template <>
 struct EnumNames<MatchRung> {
@@ -38,9 +38,11 @@ struct EnumNames<MatchRung> {
       {{MatchRung::kGiven, "given"},
        {MatchRung::kDescriptors, "descriptors"},
        {MatchRung::kUpright, "upright_samples"},
-       {MatchRung::kGuided, "predicted_matches"}}};
+       {MatchRung::kGuided, "predicted_matches"},
+       {MatchRung::kLargest, "largest_features"}}};
 };
 
+/// What two panoramas say about each other.
 struct TwoViewGeometry {
   ImagePair pair{};
   TwoViewKind kind = TwoViewKind::kNone;

@@ -8,22 +8,14 @@
 #include "core/base/stage_context.h"
 #include "core/estimators/two_view_options.h"
 #include "core/features/match_options.h"
-#include "core/scene/features.h"
+#include "core/features/pair_side.h"
 #include "core/scene/two_view_geometry.h"
 
 namespace orbweave {
 
-/// All bearings of an image, once, for the pairs it takes part in.
-[[nodiscard]] std::vector<Eigen::Vector3d> BearingsOf(const Features& features);
-
-/// One image of a pair: its features and their bearings.
-struct PairSide {
-  const Features& features;
-  const std::vector<Eigen::Vector3d>& bearings;
-};
-
 /// The verified matches of two panoramas, by a ladder (MatchRung): nearest descriptors and geometry
-/// on rays; where these are no evidence, samples of cameras that stand upright. What a geometry
+/// on rays, first of the largest features alone (matching.largest_first), of all where these leave
+/// doubt; where all are no evidence, samples of cameras that stand upright. What a geometry
 /// predicts is then looked for along its epipolar planes (matching.guided), against decoys
 /// (MatchAgainstDecoys): matches that the ratio test lost are recovered, and a pair whose few
 /// matches are no evidence by themselves is kept where those that they predict are; then

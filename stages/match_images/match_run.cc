@@ -15,8 +15,7 @@ namespace orbweave {
 namespace {
 
 struct LoadedImage {
-  Features features{};
-  std::vector<Eigen::Vector3d> bearings{};
+  PairSide side;
   Digest digest{};
 };
 
@@ -25,8 +24,7 @@ absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<Feat
   std::map<ImageId, LoadedImage> images;
   for (const FeatureFile& file : files) {
     ORBWEAVE_ASSIGN_OR_RETURN(Features features, FetchBlob<Features>(file.features, blobs));
-    std::vector<Eigen::Vector3d> bearings = BearingsOf(features);
-    images[file.image] = {std::move(features), std::move(bearings), file.features};
+    images.emplace(file.image, LoadedImage{PairSide(std::move(features)), file.features});
   }
   return images;
 }
@@ -39,7 +37,7 @@ StageContext PairContext(const StageContext& context, const LoadedImage& a, cons
 
 bool MatchesExist(const MatchRecipe::Pair& pair, const LoadedImage& a, const LoadedImage& b) {
   return std::all_of(pair.matches.begin(), pair.matches.end(), [&](const FeatureMatch& match) {
-    return match.a < a.features.size() && match.b < b.features.size();
+    return match.a < a.side.features.size() && match.b < b.side.features.size();
   });
 }
 
@@ -63,8 +61,8 @@ absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
     }
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
                               MatchImagePair(pair.pair,
-                                             {a.features, a.bearings},
-                                             {b.features, b.bearings},
+                                             a.side,
+                                             b.side,
                                              pair.matches,
                                              match_options,
                                              two_view_options,

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "stages/match_images/match_image_pair.h"
+#include "core/scene/features.h"
 
 namespace orbweave {
 

@@ -48,20 +48,13 @@ struct Orientated {
 namespace orientate_internal {
 
 inline std::vector<TwoViewGeometry> Verify(const Corridor& corridor) {
-  std::vector<std::vector<Eigen::Vector3d>> bearings;
-  for (const Features& features : corridor.features) bearings.push_back(BearingsOf(features));
+  const std::vector<PairSide> sides(corridor.features.begin(), corridor.features.end());
   std::vector<TwoViewGeometry> geometries;
   for (const PairMatches& pair : corridor.pairs) {
     const uint32_t a = pair.pair.a.value;
     const uint32_t b = pair.pair.b.value;
     const StageContext context{.seed = Random((uint64_t{a} << 32) | b).Next()};
-    auto geometry = MatchImagePair(pair.pair,
-                                   {corridor.features[a], bearings[a]},
-                                   {corridor.features[b], bearings[b]},
-                                   pair.matches,
-                                   {},
-                                   {},
-                                   context);
+    auto geometry = MatchImagePair(pair.pair, sides[a], sides[b], pair.matches, {}, {}, context);
     EXPECT_TRUE(geometry.ok()) << geometry.status();
     if (geometry.ok()) geometries.push_back(*std::move(geometry));
   }

@@ -33,8 +33,8 @@ PairInspection Inspect(const testing::TwoViewWorld& world,
   const Features b = FeaturesOf(world.bearings_b);
   std::vector<FeatureMatch> matches;
   for (uint32_t i = 0; i < a.size(); ++i) matches.push_back({i, i});
-  const auto inspection = InspectPair(
-      kPair, {a, BearingsOf(a)}, {b, BearingsOf(b)}, matches, verified, {}, options, {});
+  const auto inspection =
+      InspectPair(kPair, PairSide(a), PairSide(b), matches, verified, {}, options, {});
   EXPECT_TRUE(inspection.ok()) << inspection.status();
   return *inspection;
 }

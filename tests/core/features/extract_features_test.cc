@@ -18,6 +18,12 @@ using ::testing::HasSubstr;
 
 constexpr int kWidth = 512;
 
+ExtractOptions With(SiftDetector detector) {
+  ExtractOptions options;
+  options.detector = detector;
+  return options;
+}
+
 Features Extract(const cv::Mat& panorama,
                  const ExtractOptions& options = {},
                  const std::string& mask = {}) {
@@ -57,23 +63,32 @@ bool Equal(const Features& a, const Features& b) {
          a.descriptors == b.descriptors && a.colors == b.colors && a.sigma_rad == b.sigma_rad;
 }
 
-TEST(ExtractFeatures, IsEquivariantToTurningThePanorama) {
+class EveryDetector : public ::testing::TestWithParam<SiftDetector> {};
+
+INSTANTIATE_TEST_SUITE_P(ExtractFeatures,
+                         EveryDetector,
+                         ::testing::Values(SiftDetector::kStreaming, SiftDetector::kOpencv));
+
+TEST_P(EveryDetector, IsEquivariantToTurningThePanorama) {
+  const ExtractOptions options = With(GetParam());
   const cv::Mat panorama = TexturedPanorama(kWidth, 1);
-  const Features upright = Extract(panorama);
+  const Features upright = Extract(panorama, options);
   ASSERT_GT(upright.size(), 500U);
   Random random(2);
   for (int trial = 0; trial < 3; ++trial) {
     const int columns =
         16 * static_cast<int>(random.Index(kWidth / 16));  // on the grid of all octaves
-    EXPECT_GT(ShareFound(upright, Extract(Rolled(panorama, columns)), columns), 0.99) << columns;
+    EXPECT_GT(ShareFound(upright, Extract(Rolled(panorama, columns), options), columns), 0.99)
+        << columns;
   }
   const int odd_columns =
       1 + 2 * static_cast<int>(random.Index(kWidth / 2));  // coarse octaves resampled
-  EXPECT_GT(ShareFound(upright, Extract(Rolled(panorama, odd_columns)), odd_columns), 0.85)
+  EXPECT_GT(ShareFound(upright, Extract(Rolled(panorama, odd_columns), options), odd_columns), 0.85)
       << odd_columns;
 }
 
-TEST(ExtractFeatures, FindsAsManyFeaturesAtTheSeamAsElsewhere) {
+TEST_P(EveryDetector, FindsAsManyFeaturesAtTheSeamAsElsewhere) {
+  const ExtractOptions options = With(GetParam());
   const cv::Mat panorama = TexturedPanorama(kWidth, 3);
   const auto near_column = [](const Features& features, double column) {
     return std::count_if(
@@ -81,16 +96,16 @@ TEST(ExtractFeatures, FindsAsManyFeaturesAtTheSeamAsElsewhere) {
           return std::abs(std::remainder(p.x_px - column, kWidth)) < 8.0;
         });
   };
-  const auto at_seam = near_column(Extract(Rolled(panorama, kWidth / 2)), 0.0);
+  const auto at_seam = near_column(Extract(Rolled(panorama, kWidth / 2), options), 0.0);
   EXPECT_GT(at_seam, 10);
-  EXPECT_EQ(at_seam, near_column(Extract(panorama), kWidth / 2.0));
+  EXPECT_EQ(at_seam, near_column(Extract(panorama, options), kWidth / 2.0));
 }
 
 TEST(ExtractFeatures, DoesNotDependOnTheTiles) {
   const cv::Mat panorama = TexturedPanorama(kWidth, 4);
-  ExtractOptions small_tiles;
+  ExtractOptions small_tiles = With(SiftDetector::kOpencv);
   small_tiles.tile_size_px = 128;
-  const Features whole = Extract(panorama);
+  const Features whole = Extract(panorama, With(SiftDetector::kOpencv));
   const Features tiled = Extract(panorama, small_tiles);
   EXPECT_NEAR(static_cast<double>(whole.size()),
               static_cast<double>(tiled.size()),
@@ -99,9 +114,9 @@ TEST(ExtractFeatures, DoesNotDependOnTheTiles) {
   EXPECT_GT(ShareFound(tiled, whole, 0), 0.995);
 }
 
-TEST(ExtractFeatures, DoesNotDependOnTheNumberOfThreads) {
+TEST_P(EveryDetector, DoesNotDependOnTheNumberOfThreads) {
   const std::string image = Encoded(TexturedPanorama(kWidth, 5), ".png");
-  ExtractOptions options;
+  ExtractOptions options = With(GetParam());
   options.tile_size_px = 128;
   const auto one = ExtractFeatures({.encoded_image = image}, options, {.num_threads = 1});
   const auto three = ExtractFeatures({.encoded_image = image}, options, {.num_threads = 3});
@@ -112,7 +127,7 @@ TEST(ExtractFeatures, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_TRUE(Equal(*one, *opencv_two));
 }
 
-TEST(ExtractFeatures, LocatesBlobsWithoutBias) {
+TEST_P(EveryDetector, LocatesBlobsWithoutBias) {
   Random random(6);
   std::vector<Blob> blobs;
   for (int y = 80; y < 180; y += 24) {
@@ -122,7 +137,7 @@ TEST(ExtractFeatures, LocatesBlobsWithoutBias) {
                        .sigma_px = random.Uniform(1.5, 3.0)});
     }
   }
-  ExtractOptions blobs_only;
+  ExtractOptions blobs_only = With(GetParam());
   blobs_only.contrast_threshold = 0.03;  // not the steps of 8 bits around them
   const Features features = Extract(DrawBlobs(kWidth, blobs), blobs_only);
   double found = 0.0;
@@ -148,10 +163,11 @@ TEST(ExtractFeatures, LocatesBlobsWithoutBias) {
   EXPECT_NEAR(sum_y / found, 0.0, 0.01);
 }
 
-TEST(ExtractFeatures, MeasuresBlobsScales) {
+TEST_P(EveryDetector, MeasuresBlobsScales) {
   for (const double sigma_px : {2.0, 5.0, 14.0}) {
     const Features features =
-        Extract(DrawBlobs(kWidth, {{.x_px = 256.3, .y_px = 128.2, .sigma_px = sigma_px}}));
+        Extract(DrawBlobs(kWidth, {{.x_px = 256.3, .y_px = 128.2, .sigma_px = sigma_px}}),
+                With(GetParam()));
     ASSERT_FALSE(features.keypoints.empty()) << sigma_px;
     const auto nearest = std::min_element(
         features.keypoints.begin(), features.keypoints.end(), [](const auto& p, const auto& q) {
@@ -162,6 +178,69 @@ TEST(ExtractFeatures, MeasuresBlobsScales) {
     EXPECT_NEAR(nearest->x_px, 256.3, 0.05 * sigma_px);
     EXPECT_NEAR(nearest->y_px, 128.2, 0.05 * sigma_px);
   }
+}
+
+/// Mean difference of keypoints that are nearest to each other, of the same scale and direction.
+struct MeanDifference {
+  size_t count = 0;
+  double x_px = 0.0;
+  double y_px = 0.0;
+  double log_scale = 0.0;
+  double turn_rad = 0.0;
+};
+
+MeanDifference Compare(const Features& a, const Features& b) {
+  MeanDifference mean;
+  for (const Keypoint& p : a.keypoints) {
+    for (const Keypoint& q : b.keypoints) {
+      const double dx = std::remainder(q.x_px - p.x_px, a.camera.width_px);
+      const double dy = q.y_px - p.y_px;
+      const double log_scale = std::log(q.scale_px / p.scale_px);
+      const double turn =
+          std::remainder(q.orientation_rad - p.orientation_rad, 2.0 * std::numbers::pi);
+      if (std::hypot(dx, dy) > 0.3 * p.scale_px || std::abs(log_scale) > 0.1 ||
+          std::abs(turn) > 0.2)
+        continue;
+      ++mean.count;
+      mean.x_px += dx;
+      mean.y_px += dy;
+      mean.log_scale += log_scale;
+      mean.turn_rad += turn;
+    }
+  }
+  const auto n = static_cast<double>(mean.count);
+  return {mean.count, mean.x_px / n, mean.y_px / n, mean.log_scale / n, mean.turn_rad / n};
+}
+
+TEST(ExtractFeatures, AgreesWithOpencvWithoutBias) {
+  const cv::Mat panorama = TexturedPanorama(2 * kWidth, 17);
+  const Features expected = Extract(panorama, With(SiftDetector::kOpencv));
+  const Features features = Extract(panorama);
+  EXPECT_NEAR(static_cast<double>(features.size()),
+              static_cast<double>(expected.size()),
+              0.05 * static_cast<double>(expected.size()));
+  const MeanDifference mean = Compare(expected, features);
+  EXPECT_GT(static_cast<double>(mean.count), 0.8 * static_cast<double>(expected.size()));
+  EXPECT_NEAR(mean.x_px, 0.0, 0.02);
+  EXPECT_NEAR(mean.y_px, 0.0, 0.02);
+  EXPECT_NEAR(mean.log_scale, 0.0, 0.01);
+  EXPECT_NEAR(mean.turn_rad, 0.0, 0.01);
+}
+
+TEST(ExtractFeatures, DoublesNarrowPanoramasUnlessTold) {
+  const cv::Mat panorama = TexturedPanorama(kWidth, 18);
+  ExtractOptions doubled;
+  doubled.first_octave = FirstOctave::kDoubled;
+  ExtractOptions full;
+  full.first_octave = FirstOctave::kFull;
+  const Features automatic = Extract(panorama);
+  EXPECT_TRUE(Equal(automatic, Extract(panorama, doubled)));
+  const Features of_full = Extract(panorama, full);
+  ASSERT_GT(of_full.size(), 100U);
+  EXPECT_LT(of_full.size(), automatic.size());
+  for (const Keypoint& p : of_full.keypoints) EXPECT_GT(p.scale_px, 1.26F);
+  const cv::Mat wide = TexturedPanorama(6016, 19);
+  EXPECT_TRUE(Equal(Extract(wide), Extract(wide, full)));
 }
 
 TEST(ExtractFeatures, FillsEveryFieldForEveryFeature) {

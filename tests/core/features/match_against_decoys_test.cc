@@ -74,12 +74,17 @@ Scene MakeScene(uint64_t seed, int num_common, int num_others) {
   return scene;
 }
 
-PredictedMatches Match(const Scene& scene, const std::vector<FeatureMatch>& known = {}) {
-  return MatchAgainstDecoys(scene.a,
-                            scene.b,
+enum class Yardstick { kWholeImages, kPlanesThatCompete };
+
+PredictedMatches Match(const Scene& scene,
+                       const std::vector<FeatureMatch>& known = {},
+                       Yardstick yardstick = Yardstick::kWholeImages) {
+  const NearestTwoBothWays nearest = FindNearestTwo(scene.a.descriptors, scene.b.descriptors);
+  return MatchAgainstDecoys(PairSide(scene.a),
+                            PairSide(scene.b),
                             scene.b_from_a,
                             kMaxErrorRad,
-                            FindNearestTwo(scene.a.descriptors, scene.b.descriptors),
+                            yardstick == Yardstick::kWholeImages ? &nearest : nullptr,
                             known,
                             {});
 }
@@ -109,6 +114,25 @@ TEST(MatchAgainstDecoys, TakesNoEvidenceFromWhatIsKnown) {
   const PredictedMatches predicted = Match(scene, known);
   EXPECT_GT(predicted.log10_chance, -3.0);
   EXPECT_GE(predicted.matches.size(), 50U);
+}
+
+TEST(MatchAgainstDecoys, PlanesThatCompeteFindWhatWholeImagesDo) {
+  const Scene scene = MakeScene(4, 400, 1500);
+  const PredictedMatches whole = Match(scene);
+  const PredictedMatches competing = Match(scene, {}, Yardstick::kPlanesThatCompete);
+  size_t right = 0;
+  for (const FeatureMatch& match : competing.matches) right += match.a == match.b && match.a < 400;
+  EXPECT_GE(right, 0.95 * static_cast<double>(whole.matches.size()));
+  EXPECT_LE(competing.matches.size() - right, competing.matches.size() / 5);
+}
+
+TEST(MatchAgainstDecoys, PlanesThatCompeteFindNothingWhereNothingIsCommon) {
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    const PredictedMatches predicted =
+        Match(MakeScene(seed, 0, 2000), {}, Yardstick::kPlanesThatCompete);
+    EXPECT_LT(predicted.matches.size(), 10U) << seed;
+    EXPECT_GT(predicted.log10_chance, -4.0) << seed;
+  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/features/match_guided.h"
+#include "core/features/nearest_in_planes.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,10 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/features/axial_features.h"
 #include "core/features/match_descriptors.h"
 #include "core/features/match_options.h"
+#include "core/geometry/rigid3.h"
 
 namespace orbweave {
 namespace {
@@ -51,6 +53,17 @@ struct Scene {
   Rigid3 b_from_a{};
 };
 
+std::vector<FeatureMatch> MatchGuided(const Features& a,
+                                      const Features& b,
+                                      const Rigid3& b_from_a,
+                                      double max_error_rad,
+                                      const MatchOptions& options) {
+  const PairSide side_a(a);
+  const PairSide side_b(b);
+  const NearestInPlanes planes(side_a, side_b, b_from_a.translation, max_error_rad);
+  return AcceptGuided(planes.Find(b_from_a.rotation), options);
+}
+
 /// Points all round two cameras; feature i of both is the same point.
 Scene MakeScene(uint64_t seed, int count) {
   Random random(seed);
@@ -71,7 +84,7 @@ Scene MakeScene(uint64_t seed, int count) {
   return scene;
 }
 
-TEST(MatchGuided, FindsPlantedMatchesAllRoundTheSphere) {
+TEST(NearestInPlanes, FindsPlantedMatchesAllRoundTheSphere) {
   for (uint64_t seed = 1; seed <= 5; ++seed) {
     const Scene scene = MakeScene(seed, 400);
     const auto matches = MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {});
@@ -80,7 +93,7 @@ TEST(MatchGuided, FindsPlantedMatchesAllRoundTheSphere) {
   }
 }
 
-TEST(MatchGuided, FindsPointsOnTheBaselineItself) {
+TEST(NearestInPlanes, FindsPointsOnTheBaselineItself) {
   Scene scene = MakeScene(6, 0);
   scene.b_from_a.rotation = Eigen::Quaterniond::Identity();
   scene.b_from_a.translation = {0.0, 0.0, -1.0};  // b one step ahead of a
@@ -94,7 +107,7 @@ TEST(MatchGuided, FindsPointsOnTheBaselineItself) {
             (std::vector<FeatureMatch>{{0, 0}, {1, 1}}));
 }
 
-TEST(MatchGuided, TellsEqualDescriptorsApartByGeometry) {
+TEST(NearestInPlanes, TellsEqualDescriptorsApartByGeometry) {
   Scene scene = MakeScene(8, 40);
   for (Features* features : {&scene.a, &scene.b}) {  // repeated windows: five kinds of descriptor
     for (size_t i = 5; i < 40; ++i) {
@@ -109,7 +122,7 @@ TEST(MatchGuided, TellsEqualDescriptorsApartByGeometry) {
   for (const FeatureMatch& match : matches) EXPECT_EQ(match.a, match.b);
 }
 
-TEST(MatchGuided, RejectsPointsOffTheEpipolarPlane) {
+TEST(NearestInPlanes, RejectsPointsOffTheEpipolarPlane) {
   const Scene scene = MakeScene(9, 300);
   const Eigen::Vector3d axis = scene.b_from_a.translation;
   for (const double error_px : {3.0, 6.0}) {
@@ -131,7 +144,7 @@ TEST(MatchGuided, RejectsPointsOffTheEpipolarPlane) {
   }
 }
 
-TEST(MatchGuided, RejectsPointsBehindASphere) {
+TEST(NearestInPlanes, RejectsPointsBehindASphere) {
   Scene scene = MakeScene(10, 200);
   for (FeatureIndex i = 0; i < scene.b.size(); ++i) {  // the antipode lies on the same great circle
     const Eigen::Vector2d pixel = kCamera.PixelFromBearing(-scene.b.Bearing(i));
@@ -141,7 +154,7 @@ TEST(MatchGuided, RejectsPointsBehindASphere) {
   EXPECT_LT(MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {}).size(), 4U);
 }
 
-TEST(MatchGuided, RejectsBearingsThatMeetBehindTheCameras) {
+TEST(NearestInPlanes, RejectsBearingsThatMeetBehindTheCameras) {
   // In b the point must appear further from the direction of motion than in a; exchanged, the
   // rays part and meet behind.
   Scene scene = MakeScene(11, 200);
@@ -149,7 +162,7 @@ TEST(MatchGuided, RejectsBearingsThatMeetBehindTheCameras) {
   EXPECT_LT(MatchGuided(scene.a, scene.b, backwards, kMaxErrorRad, {}).size(), 20U);
 }
 
-TEST(MatchGuided, IsSymmetric) {
+TEST(NearestInPlanes, IsSymmetric) {
   Scene scene = MakeScene(12, 300);
   const Scene noise = MakeScene(13, 300);
   scene.b.keypoints.insert(
@@ -169,7 +182,7 @@ TEST(MatchGuided, IsSymmetric) {
   EXPECT_EQ(ab, ba);
 }
 
-TEST(MatchGuided, IsOneToOne) {
+TEST(NearestInPlanes, IsOneToOne) {
   const Scene scene = MakeScene(14, 50);
   Features twice = scene.b;
   twice.keypoints.insert(twice.keypoints.end(), scene.b.keypoints.begin(), scene.b.keypoints.end());
@@ -184,13 +197,62 @@ TEST(MatchGuided, IsOneToOne) {
   }
 }
 
-TEST(MatchGuided, ReturnsNothingWithoutABaselineOrDescriptors) {
-  const Scene scene = MakeScene(15, 10);
-  EXPECT_TRUE(
-      MatchGuided(
-          scene.a, scene.b, {scene.b_from_a.rotation, Eigen::Vector3d::Zero()}, kMaxErrorRad, {})
-          .empty());
-  EXPECT_TRUE(MatchGuided({}, scene.b, scene.b_from_a, kMaxErrorRad, {}).empty());
+/// By the angles themselves.
+bool IsWithin(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double max_error_rad) {
+  const double polar_a = std::atan2(std::hypot(a.x(), a.y()), a.z());
+  const double polar_b = std::atan2(std::hypot(b.x(), b.y()), b.z());
+  if (polar_b > polar_a + max_error_rad) return false;
+  const double sine = std::sin(max_error_rad);
+  const double largest = std::max(std::sin(polar_a), std::sin(polar_b));
+  if (largest <= sine) return std::abs(polar_a - polar_b) < 0.5 * pi;
+  const double angle = std::atan2(a.y(), a.x()) - std::atan2(b.y(), b.x());
+  return std::cos(angle) > 0.0 && largest * std::abs(std::sin(angle)) <= sine;
+}
+
+TEST(AxialFeatures, FindsAllAndOnlyWhatIsWithinAWedge) {
+  Random random(16);
+  const auto direction = [&] {
+    return Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+  };
+  std::vector<Eigen::Vector3d> bearings = {
+      {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, -1, 0}};
+  for (int i = 0; i < 3000; ++i) bearings.push_back(direction());
+  for (int i = 0; i < 200; ++i)  // near both ends of the axis, and where the turn begins and ends
+    bearings.push_back((Eigen::Vector3d(i % 3 - 1, 0, 0) + 0.02 * direction()).normalized());
+  for (int i = 0; i < 200; ++i)
+    bearings.push_back(
+        (Eigen::Vector3d(0, 0, i % 2 == 0 ? 1 : -1) + 0.02 * direction()).normalized());
+  const AxialFeatures axial(bearings, Eigen::Quaterniond::Identity());
+  constexpr double kRoundingRad = 2e-6;
+  for (const double max_error_rad : {0.001, 0.02, 0.3, 0.5}) {
+    for (size_t row = 0; row < axial.size(); row += 41) {
+      std::vector<uint32_t> rows;
+      axial.Within(EpipolarWedge(axial.At(row), max_error_rad), rows);
+      std::set<FeatureIndex> found;
+      for (const uint32_t i : rows) EXPECT_TRUE(found.insert(axial.IndexOf(i)).second);
+      const Eigen::Vector3d& a = bearings[axial.IndexOf(row)];
+      for (FeatureIndex i = 0; i < bearings.size(); ++i) {
+        const bool is_inside = IsWithin(a, bearings[i], max_error_rad - kRoundingRad);
+        const bool is_outside = !IsWithin(a, bearings[i], max_error_rad + kRoundingRad);
+        if (is_inside || is_outside) {
+          ASSERT_EQ(found.contains(i), is_inside) << row << " " << i << " " << max_error_rad;
+        }
+      }
+    }
+  }
+}
+
+TEST(PseudoAngle, GrowsWithTheAngle) {
+  float last = -1.0F;
+  for (int i = 0; i < 3600; ++i) {
+    const double angle = i * pi / 1800.0;
+    const float pseudo =
+        PseudoAngle(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+    EXPECT_GE(pseudo, last);
+    EXPECT_LE(pseudo - std::max(last, 0.0F), 1.0001 * pi / 1800.0);
+    last = pseudo;
+  }
+  EXPECT_NEAR(last, 4.0F, 0.01F);
 }
 
 }  // namespace

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/estimators/grow_two_view.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/estimators/bearing_pairs.h"
+#include "core/estimators/split_by_height.h"
+#include "core/estimators/split_by_motion.h"
+#include "core/estimators/two_view_inliers.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kHardlyAny = 0.1;  // of the inliers: fewer were not taken for the scene
+
+bool IsHardlyAny(size_t some, size_t all) {
+  return static_cast<double>(some) < kHardlyAny * static_cast<double>(all);
+}
+
+std::vector<uint32_t> AllOf(const BearingPairs& pairs) {
+  std::vector<uint32_t> all(pairs.Size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+/// Some pairs, and those among them that are sure not to be sky; all where that cannot be told.
+std::vector<uint32_t> BelowSky(const BearingPairs& pairs,
+                               const Rigid3& b_from_a,
+                               double max_error_rad) {
+  std::vector<uint32_t> all = AllOf(pairs);
+  std::vector<uint32_t> kept = WithoutSky(pairs, all, b_from_a, max_error_rad);
+  return kept.empty() ? all : kept;
+}
+
+}  // namespace
+
+TwoViewGeometry GrowTwoView(const TwoViewGeometry& geometry,
+                            std::span<const Vector3d> bearings_a,
+                            std::span<const Vector3d> bearings_b,
+                            std::span<const FeatureMatch> matches,
+                            double max_error_rad,
+                            uint64_t seed) {
+  const auto arranged = [&](std::span<const FeatureMatch> some) {
+    return ArrangePairs(bearings_a, bearings_b, some, seed);
+  };
+  const auto by_motion = [&](std::span<const FeatureMatch> some) {
+    return SplitByMotion(bearings_a, bearings_b, some, max_error_rad);
+  };
+  const size_t num_inliers = geometry.inliers.size();
+  std::vector<FeatureMatch> likely(matches.begin(), matches.end());
+  if (IsHardlyAny(by_motion(geometry.inliers).fixed.size(), num_inliers))
+    likely = by_motion(matches).moved;
+
+  BearingPairs pairs = arranged(likely);
+  std::vector<uint32_t> scene = BelowSky(pairs, geometry.b_from_a, max_error_rad);
+  for (uint32_t i = 0; i < pairs.Size(); ++i) {
+    if (std::ranges::binary_search(geometry.inliers, likely[pairs.order[i]])) scene.push_back(i);
+  }
+  std::ranges::sort(scene);
+  scene.erase(std::ranges::unique(scene).begin(), scene.end());
+  pairs = Subset(pairs, scene);
+  const Rigid3 pose = RefinePose(
+      pairs, InliersOf(pairs, geometry.b_from_a, max_error_rad), geometry.b_from_a, max_error_rad);
+  const ResolvedPose grown =
+      RefineToConvergence(pairs, {pose, InliersOf(pairs, pose, max_error_rad)}, max_error_rad);
+  if (grown.inliers.size() <= num_inliers) return geometry;
+  TwoViewGeometry result = geometry;
+  result.b_from_a = grown.b_from_a;
+  SetInliers(Subset(pairs, grown.inliers), likely, result);
+  return result;
+}
+
+}  // namespace orbweave

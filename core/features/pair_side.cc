@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/features/pair_side.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace orbweave {
+namespace {
+
+std::vector<FeatureIndex> OrderByScale(const Features& features) {
+  std::vector<FeatureIndex> order(features.size());
+  std::iota(order.begin(), order.end(), FeatureIndex{0});
+  std::ranges::sort(order, [&](FeatureIndex x, FeatureIndex y) {
+    const float scale_x = features.keypoints[x].scale_px;
+    const float scale_y = features.keypoints[y].scale_px;
+    return scale_x != scale_y ? scale_x > scale_y : x < y;
+  });
+  return order;
+}
+
+}  // namespace
+
+PairSide::PairSide(Features image_features)
+    : features(std::move(image_features)),
+      bearings(BearingsOf(features)),
+      by_scale(OrderByScale(features)) {
+  descriptors_by_scale.reserve(features.descriptors.size());
+  for (const FeatureIndex i : by_scale) {
+    if (features.descriptors.empty()) break;
+    const uint8_t* const descriptor = features.Descriptor(i);
+    descriptors_by_scale.insert(
+        descriptors_by_scale.end(), descriptor, descriptor + kDescriptorSize);
+  }
+}
+
+}  // namespace orbweave
