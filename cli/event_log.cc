@@ -45,10 +45,14 @@ std::string LogEventToJson(const LogEvent& event, double time_s) {
       {"time", FormatTime(time_s)}, {"level", LogLevelName(event.level)}, {"event", event.event}};
   if (!event.job.IsZero()) line["job"] = event.job.ToHex();
   if (!event.stage.empty()) line["stage"] = event.stage;
+  if (event.run) line["run"] = *event.run;
   if (event.part) line["part"] = *event.part;
   if (!event.task.IsZero()) line["task"] = event.task.ToHex();
   if (!event.worker.empty()) line["worker"] = event.worker;
+  if (event.slot) line["slot"] = *event.slot;
   if (event.epoch != 0) line["epoch"] = event.epoch;
+  if (event.since_epoch) line["since_epoch"] = *event.since_epoch;
+  if (!event.traceparent.empty()) line["traceparent"] = event.traceparent;
   if (!event.message.empty()) line["message"] = event.message;
   return line.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }

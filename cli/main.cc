@@ -31,6 +31,7 @@
 #include "cli/single_threaded_libraries.h"
 #include "cli/status_command.h"
 #include "cli/stop_command.h"
+#include "cli/store_command.h"
 #include "cli/submit_command.h"
 #include "cli/synth_command.h"
 #include "cli/work_command.h"
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
   orbweave::AddStopCommand(app, selected);
   orbweave::AddForgetCommand(app, selected);
   orbweave::AddGcCommand(app, selected);
+  orbweave::AddStoreCommand(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -17,13 +17,16 @@
 #include "cli/root_argument.h"
 #include "cli/see_workers_off.h"
 #include "cli/stop_signals.h"
+#include "cli/store_argument.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
 #include "coordinator/http_pages.h"
 #include "coordinator/journal_copy.h"
 #include "coordinator/journal_meter.h"
 #include "coordinator/postgres_journal.h"
+#include "coordinator/span_sender.h"
 #include "core/base/sleep.h"
+#include "objects/s3_store.h"
 
 namespace orbweave {
 namespace {
@@ -34,6 +37,9 @@ struct ServeOptions {
   std::string journal_folder{};  ///< where it is instead, with a copy in the state folder
   std::string http{};            ///< address to serve HttpPages on; empty: nowhere
   HttpServerOptions http_server{};
+  std::string store{};  ///< address of an object store; empty: none
+  std::string store_keys{};
+  std::string otlp{};  ///< URL of a collector of traces; empty: none
   AnnounceArgument announce{};
   ServerOptions server{};
   CoordinatorOptions coordinator{};
@@ -47,6 +53,20 @@ absl::StatusOr<EventLog> OpenLog(const std::string& state_dir, MetricsCounters& 
     file(event);
     LogToStderr(event);
   };
+}
+
+/// Null when nobody asked for it.
+absl::StatusOr<std::unique_ptr<SpanSender>> StartSpanSender(const ServeOptions& options,
+                                                            MetricsCounters& counters,
+                                                            const EventLog& log) {
+  if (options.otlp.empty()) return nullptr;
+  ORBWEAVE_ASSIGN_OR_RETURN(HttpUrl collector, ParseHttpUrl(options.otlp));
+  if (collector.target == "/") collector.target = "/v1/traces";
+  const auto count = [&counters](std::string_view outcome, uint64_t spans) {
+    counters.CountSpans(outcome, spans);
+  };
+  return std::make_unique<SpanSender>(
+      SpanSenderOptions{.collector = std::move(collector), .count = count, .log = log});
 }
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& options,
@@ -92,8 +112,12 @@ absl::Status Serve(const ServeOptions& options) {
   const SteadyClock clock;
   MetricsCounters counters;
   ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir, counters));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto spans, StartSpanSender(options, counters, log));
   CoordinatorOptions coordinator_options = options.coordinator;
-  coordinator_options.log = log;
+  coordinator_options.log = [&log, &spans](const LogEvent& event) {
+    log(event);
+    if (spans != nullptr) spans->Take(event);
+  };
   coordinator_options.lost = [&end] { end.request_stop(); };
   std::atomic<bool> is_told{false};
   coordinator_options.stop = [&end, &is_told] {
@@ -104,6 +128,10 @@ absl::Status Serve(const ServeOptions& options) {
     return OpenMeteredJournal(options, log, counters);
   };
   server_options.log = log;
+  if (!options.store.empty()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(coordinator_options.objects,
+                              OpenS3Store(options.store, options.store_keys));
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
@@ -156,6 +184,12 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
           "Folder on a disk of this machine to keep the journal in, where the state folder "
           "is on NFS, Lustre and their like; a copy goes there each minute and at the end")
       ->excludes(journal);
+  CLI::Option* const store = command->add_option(
+      "--store",
+      options->store,
+      "Object store for large blobs, as s3://BUCKET/PREFIX?region=R or "
+      "s3://BUCKET/PREFIX?endpoint=https://HOST; workers read and write there without keys");
+  AddStoreKeysArgument(*command, options->store_keys)->needs(store);
   AddAnnounceArguments(*command, options->announce);
   AddTlsArgument(*command, options->server.tls_folder)
       ->description(
@@ -180,6 +214,11 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
                  options->http_server.is_open,
                  "Let other machines read these pages: they are neither encrypted nor protected")
       ->needs(http);
+  command->add_option(
+      "--otlp",
+      options->otlp,
+      "Send the spans of jobs, stages and attempts to the collector of OpenTelemetry at "
+      "http://HOST:4318; what it does not take in time is dropped");
   command
       ->add_option("--max-slots",
                    options->coordinator.max_slots,
@@ -200,6 +239,8 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
       "  orbweave serve --listen 0.0.0.0:0 --tls keys/coordinator --state state --announce "
       "shared/coordinator.json\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state --http 127.0.0.1:9464\n"
+      "  orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state --store "
+      "'s3://city-blobs/orbweave?region=eu-central-1' --store-keys store.keys\n"
       "Started again on the same state it goes on where it was. The log, one JSON object per line, "
       "goes to stderr and to logs/coordinator.log in the state folder.");
   command->callback(

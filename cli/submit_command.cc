@@ -18,6 +18,7 @@
 #include "cli/stop_signals.h"
 #include "cli/wait_for_job.h"
 #include "cli/write_job.h"
+#include "coordinator/traceparent.h"
 #include "core/io/file.h"
 #include "stages/prepare_job.h"
 
@@ -31,6 +32,7 @@ struct SubmitArguments {
   std::string database{};  ///< instead of images
   std::string clusters{};
   std::string output{};
+  std::string traceparent{};
   bool dense = false;
   FailOn fail_on{};
   OptionArguments options{};
@@ -65,7 +67,8 @@ absl::Status WaitAndWrite(ClientApi& coordinator,
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, Wait(coordinator, job, stop));
   ORBWEAVE_RETURN_IF_ERROR(WriteJob(coordinator, sparse, arguments.output, arguments.fail_on));
   if (!arguments.dense) return absl::OkStatus();
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, DenseJobOf(coordinator, sparse, options));
+  ORBWEAVE_ASSIGN_OR_RETURN(JobSpec spec, DenseJobOf(coordinator, sparse, options));
+  spec.traceparent = arguments.traceparent;
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest dense, coordinator.SubmitJob(spec));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus cloud, Wait(coordinator, dense, stop));
   return WriteJob(coordinator, cloud, arguments.output + "/dense");
@@ -73,14 +76,17 @@ absl::Status WaitAndWrite(ClientApi& coordinator,
 
 absl::Status Submit(const SubmitArguments& arguments) {
   const StopSignals signals;
+  if (!arguments.traceparent.empty())
+    ORBWEAVE_RETURN_IF_ERROR(ParseTraceparent(arguments.traceparent).status());
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   if (!arguments.output.empty()) ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(arguments.output));
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto coordinator,
       Connect(arguments.coordinator,
               {.patience_s = kJobPatience_s, .stop = signals.token(), .roots = arguments.roots}));
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec,
+  ORBWEAVE_ASSIGN_OR_RETURN(JobSpec spec,
                             Prepare(*coordinator, arguments, options, {.stop = signals.token()}));
+  spec.traceparent = arguments.traceparent;
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator->SubmitJob(spec));
   if (!arguments.output.empty())
     return WaitAndWrite(*coordinator, job, arguments, options, signals.token());
@@ -116,6 +122,12 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
       ->needs(output)
       ->excludes(database);
   AddFailOnArgument(*command, arguments->fail_on)->needs(output);
+  command
+      ->add_option("--traceparent",
+                   arguments->traceparent,
+                   "The span that asks for it (W3C Trace Context), as parent of the job's spans "
+                   "where the coordinator sends them (serve --otlp)")
+      ->envname("TRACEPARENT");
   AddOptionArguments(*command, arguments->options);
   command->footer(
       "Examples:\n"

@@ -14,7 +14,7 @@ namespace orbweave {
 namespace {
 
 absl::StatusOr<JobNeeds> NeedsOfAllJobs(const PlanLookup& find_plan,
-                                        BlobStore& blobs,
+                                        KeptBlobs& blobs,
                                         Journal& journal) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobEntry> jobs, journal.LoadJobs());
   JobNeeds needs;
@@ -33,7 +33,7 @@ absl::StatusOr<JobNeeds> NeedsOfAllJobs(const PlanLookup& find_plan,
   return needs;
 }
 
-bool IsComplete(const TaskResult& result, const BlobStore& blobs) {
+bool IsComplete(const TaskResult& result, KeptBlobs& blobs) {
   const auto is_there = [&blobs](const Digest& blob) { return blobs.Has(blob); };
   return std::ranges::all_of(result.outputs, is_there) &&
          std::ranges::all_of(result.recipes, is_there);
@@ -43,7 +43,7 @@ bool IsComplete(const TaskResult& result, const BlobStore& blobs) {
 
 absl::StatusOr<GarbageReport> CollectGarbage(const GarbageOptions& options,
                                              const PlanLookup& find_plan,
-                                             BlobStore& blobs,
+                                             KeptBlobs& blobs,
                                              Journal& journal) {
   if (!std::isfinite(options.unused_s) || options.unused_s < 0.0)
     return absl::InvalidArgumentError("blobs are unused for a number of seconds");
@@ -59,14 +59,14 @@ absl::StatusOr<GarbageReport> CollectGarbage(const GarbageOptions& options,
     if (needs.blobs.contains(blob.digest)) {
       ++report.needed_blobs;
       report.needed_bytes += blob.size_bytes;
-    } else if (options.dry_run ? blobs.IsUnused(blob.digest, options.unused_s)
-                               : blobs.RemoveUnused(blob.digest, options.unused_s)) {
-      ++report.removed_blobs;
-      report.removed_bytes += blob.size_bytes;
-    } else {
-      ++report.recent_blobs;
-      report.recent_bytes += blob.size_bytes;
+      continue;
     }
+    bool is_removed = blobs.IsUnused(blob.digest, options.unused_s);
+    if (!options.dry_run) {
+      ORBWEAVE_ASSIGN_OR_RETURN(is_removed, blobs.RemoveUnused(blob.digest, options.unused_s));
+    }
+    ++(is_removed ? report.removed_blobs : report.recent_blobs);
+    (is_removed ? report.removed_bytes : report.recent_bytes) += blob.size_bytes;
   }
   if (options.dry_run) return report;
   ORBWEAVE_ASSIGN_OR_RETURN(

@@ -4,8 +4,8 @@
 
 #include "coordinator/job_service.h"
 #include "coordinator/journal.h"
+#include "coordinator/kept_blobs.h"
 #include "core/pipeline/admin_api.h"
-#include "core/storage/blob_store.h"
 
 namespace orbweave {
 
@@ -13,7 +13,7 @@ namespace orbweave {
 /// asks for or finds meanwhile counts as used.
 [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(const GarbageOptions& options,
                                                            const PlanLookup& find_plan,
-                                                           BlobStore& blobs,
+                                                           KeptBlobs& blobs,
                                                            Journal& journal);
 
 }  // namespace orbweave

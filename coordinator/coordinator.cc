@@ -16,13 +16,11 @@ constexpr double kBeat = 0.1;
 
 }  // namespace
 
-std::string BlobFolderOf(const std::string& state_dir) { return state_dir + "/blobs"; }
-
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const CoordinatorOptions& options,
                                                                const Clock& clock) {
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(StateLock lock, StateLock::Acquire(options.state_dir));
-  ORBWEAVE_ASSIGN_OR_RETURN(BlobStore blobs, BlobStore::Open(BlobFolderOf(options.state_dir)));
+  ORBWEAVE_ASSIGN_OR_RETURN(KeptBlobs blobs, KeptBlobs::Open(options.state_dir, options.objects));
   ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
                             options.open_journal(options.state_dir));
   std::unique_ptr<Coordinator> coordinator(
@@ -41,7 +39,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
 Coordinator::Coordinator(const CoordinatorOptions& options,
                          const Clock& clock,
                          StateLock lock,
-                         BlobStore blobs,
+                         KeptBlobs blobs,
                          std::unique_ptr<Journal> journal)
     : options_(options),
       clock_(clock),

@@ -13,6 +13,7 @@
 #include "coordinator/job_service.h"
 #include "coordinator/journal.h"
 #include "coordinator/journal_watch.h"
+#include "coordinator/kept_blobs.h"
 #include "coordinator/lease_desk.h"
 #include "coordinator/matchmaker.h"
 #include "coordinator/open_journal.h"
@@ -22,7 +23,6 @@
 #include "coordinator/wanted_slots.h"
 #include "core/base/clock.h"
 #include "core/pipeline/log_event.h"
-#include "core/storage/blob_store.h"
 
 namespace orbweave {
 
@@ -39,13 +39,11 @@ struct CoordinatorOptions {
   PlanLookup find_plan = FindNoPlan;
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
       open_journal = OpenJournal;
+  std::shared_ptr<ObjectStore> objects{};  ///< for large blobs; null: all stay in its folder
   EventLog log{};
   std::function<void()> lost{};  ///< called when health() is OK no more
   std::function<void()> stop{};  ///< called when an administrator wants it to end
 };
-
-/// Where a coordinator with this state folder keeps its blobs.
-[[nodiscard]] std::string BlobFolderOf(const std::string& state_dir);
 
 /// What a coordinator that shuts down tells its workers.
 enum class Farewell {
@@ -108,6 +106,8 @@ class Coordinator final : public ServedApi {
   [[nodiscard]] absl::StatusOr<std::vector<bool>> StatBlobs(
       const std::vector<Digest>& digests) override;
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
+  [[nodiscard]] absl::StatusOr<std::vector<BlobGrant>> GrantBlobs(
+      const std::vector<WantedBlob>& blobs, GrantVerb verb) override;
   [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(
       const GarbageOptions& options) override;
 
@@ -134,7 +134,7 @@ class Coordinator final : public ServedApi {
   Coordinator(const CoordinatorOptions& options,
               const Clock& clock,
               StateLock lock,
-              BlobStore blobs,
+              KeptBlobs blobs,
               std::unique_ptr<Journal> journal);
   /// What `look` says of a job, with the lock. NotFound: there is no such job.
   template <typename Look>
@@ -161,7 +161,7 @@ class Coordinator final : public ServedApi {
   CoordinatorOptions options_;
   const Clock& clock_;
   StateLock lock_;
-  BlobStore blobs_;
+  KeptBlobs blobs_;
   std::unique_ptr<Journal> journal_;
   std::atomic<uint64_t> bytes_in_{0};
   std::atomic<uint64_t> bytes_out_{0};

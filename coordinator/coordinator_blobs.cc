@@ -44,6 +44,11 @@ absl::Status Coordinator::LinkFile(const Digest& digest, const std::string& path
   return blobs_.LinkFile(digest, path);
 }
 
+absl::StatusOr<std::vector<BlobGrant>> Coordinator::GrantBlobs(const std::vector<WantedBlob>& blobs,
+                                                               GrantVerb verb) {
+  return blobs_.Grant(blobs, verb, kGrant_s);
+}
+
 absl::StatusOr<GarbageReport> Coordinator::CollectGarbage(const GarbageOptions& options) {
   const std::lock_guard collecting(collecting_mutex_);
   ORBWEAVE_ASSIGN_OR_RETURN(

@@ -8,17 +8,6 @@
 #include "coordinator/coordinator.h"
 
 namespace orbweave {
-namespace {
-
-/// Bytes are stored, read and removed again.
-absl::Status ProbeBlobs(BlobStore& blobs, std::string_view bytes) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, blobs.Put(bytes));
-  ORBWEAVE_RETURN_IF_ERROR(blobs.Get(digest).status());
-  (void)blobs.RemoveUnused(digest, 0.0);  // or else there is one blob more until it is garbage
-  return absl::OkStatus();
-}
-
-}  // namespace
 
 absl::Status Coordinator::CheckLive() const {
   const double now_s = clock_.NowSeconds();
@@ -34,7 +23,7 @@ absl::Status Coordinator::CheckLive() const {
 absl::Status Coordinator::CheckReady() {
   ORBWEAVE_RETURN_IF_ERROR(Annotate(journal_->TrySave(), "journal"));
   ORBWEAVE_RETURN_IF_ERROR(Annotate(
-      ProbeBlobs(blobs_, absl::StrCat("probe of generation ", journal_->generation())), "blobs"));
+      blobs_.Probe(absl::StrCat("probe of generation ", journal_->generation())), "blobs"));
   const std::lock_guard lock(mutex_);
   ORBWEAVE_RETURN_IF_ERROR(health_);
   return stopping_ ? absl::UnavailableError("the coordinator is shutting down") : absl::OkStatus();

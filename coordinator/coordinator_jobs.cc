@@ -12,7 +12,8 @@ namespace orbweave {
 absl::StatusOr<Digest> Coordinator::SubmitJob(const JobSpec& spec) {
   ORBWEAVE_RETURN_IF_ERROR(CheckSizeOf(spec));
   for (const Digest& input : spec.inputs) {
-    if (blobs_.Use(input)) continue;
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_stored, blobs_.Confirm(input));
+    if (is_stored) continue;
     return absl::NotFoundError(
         absl::StrCat("the job's input blob ", input.ToShortHex(), " is not stored"));
   }

@@ -99,7 +99,10 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
   ORBWEAVE_RETURN_IF_ERROR(CheckSizeOf(result));
   for (const auto* blobs : {&result.outputs, &result.recipes}) {
     for (const Digest& blob : *blobs) {
-      if (blobs_.Use(blob)) continue;
+      const absl::StatusOr<bool> is_stored = blobs_.Confirm(blob);
+      // What ails the store is no fault of the result.
+      if (!is_stored.ok()) return absl::UnavailableError(is_stored.status().message());
+      if (*is_stored) continue;
       return absl::InvalidArgumentError(absl::StrCat("the result of task ",
                                                      lease.task.ToShortHex(),
                                                      " names blob ",

@@ -332,9 +332,11 @@ LogEvent Dispatcher::Describe(const LeaseEntry& entry, const std::string& event)
                      .job = entry.job,
                      .task = entry.task,
                      .worker = entry.worker,
+                     .slot = entry.slot,
                      .epoch = entry.epoch};
   if (!entry.ref) return described;
   described.stage = jobs_.At(entry.job).machine->Spec(*entry.ref).stage;
+  described.run = entry.ref->run;
   described.part = entry.ref->part;
   return described;
 }

@@ -12,6 +12,7 @@
 #include "core/pipeline/damaged_blob.h"
 #include "proto/codec/coordinator_codec.h"
 #include "proto/codec/garbage_codec.h"
+#include "proto/codec/grants_codec.h"
 
 namespace orbweave {
 namespace {
@@ -239,6 +240,16 @@ grpc::Status GrpcService::PutBlob(Context* context,
   };
   ORBWEAVE_GRPC_RETURN_IF_ERROR(api_.Write(digest, size_bytes, next));
   reply->set_digest(ToProto(digest));
+  return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::GrantBlobs(Context*,
+                                     const v1::GrantBlobsRequest* request,
+                                     v1::GrantBlobsReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const BlobQuestion question, FromProto(*request));
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::vector<BlobGrant> grants,
+                                 api_.GrantBlobs(question.blobs, question.verb));
+  *reply = ToProto(grants);
   return grpc::Status::OK;
 }
 

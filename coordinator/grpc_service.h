@@ -66,6 +66,7 @@ class GrpcService final
                        const v1::GetBlobRequest*,
                        grpc::ServerWriter<v1::BlobChunk>*) override;
   grpc::Status PutBlob(Context*, grpc::ServerReader<v1::BlobChunk>*, v1::PutBlobReply*) override;
+  grpc::Status GrantBlobs(Context*, const v1::GrantBlobsRequest*, v1::GrantBlobsReply*) override;
 
  private:
   [[nodiscard]] absl::StatusOr<JoinReply> JoinAs(const Context& context, const WorkerInfo& worker);

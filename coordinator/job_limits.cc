@@ -5,6 +5,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "coordinator/traceparent.h"
 
 namespace orbweave {
 namespace {
@@ -24,6 +25,8 @@ absl::Status CheckSizeOf(const JobSpec& spec) {
   ORBWEAVE_RETURN_IF_ERROR(CheckLength("a job's label, in bytes,", spec.label.size(), 1024));
   ORBWEAVE_RETURN_IF_ERROR(
       CheckLength("a job's options, in bytes,", spec.options_text.size(), 16 * 1024));
+  if (!spec.traceparent.empty())
+    ORBWEAVE_RETURN_IF_ERROR(ParseTraceparent(spec.traceparent).status());
   return CheckLength("a job's inputs", spec.inputs.size(), 64);
 }
 

@@ -9,8 +9,8 @@
 namespace orbweave {
 
 /// Whether a job's description is of a size that its status is far from filling a message: a label
-/// of 1 KiB at most, options of 16 KiB (all there are take 10), a kind of 64 bytes, 64 inputs.
-/// InvalidArgument says what is too long.
+/// of 1 KiB at most, options of 16 KiB (all there are take 10), a kind of 64 bytes, 64 inputs; and
+/// its traceparent one. InvalidArgument says what is too long or no traceparent.
 [[nodiscard]] absl::Status CheckSizeOf(const JobSpec& spec);
 
 /// Whether a result is of a size that a message holds, with what is said beside it: a report of

@@ -9,6 +9,15 @@
 namespace orbweave {
 namespace {
 
+LogEvent DescribeBegin(const char* event, const Job& job) {
+  const JobSpec& spec = job.machine->spec();
+  return {.event = event,
+          .job = spec.Id(),
+          .since_epoch = job.since_epoch,
+          .traceparent = spec.traceparent,
+          .message = spec.label};
+}
+
 LogEvent DescribeEnd(const Digest& id, const JobEntry& entry) {
   switch (entry.state) {
     case JobState::kFailed:
@@ -48,6 +57,7 @@ absl::Status JobService::ResumeJobs() {
     if (entry.state == JobState::kCancelled) job.machine->JobIsCancelled(now_s);
     job.is_saved = entry.state != JobState::kRunning;
     job.had_ended = job.is_saved;
+    if (!job.had_ended) dispatcher_.Log(DescribeBegin("job_resumed", job));
   }
   return absl::OkStatus();
 }
@@ -103,7 +113,7 @@ absl::StatusOr<Digest> JobService::Submit(const JobSpec& spec) {
   job.reruns = 0;
   job.damage = {};
   job.since_epoch = since_epoch;
-  dispatcher_.Log({.event = "job_submitted", .job = id, .message = spec.label});
+  dispatcher_.Log(DescribeBegin("job_submitted", job));
   return id;
 }
 

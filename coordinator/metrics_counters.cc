@@ -30,7 +30,16 @@ MetricsCounters::MetricsCounters()
       save_errors_(prometheus::BuildCounter()
                        .Name("orbweave_journal_save_errors_total")
                        .Help("What could not be saved in the journal")
-                       .Register(*registry_)) {}
+                       .Register(*registry_)),
+      spans_(prometheus::BuildCounter()
+                 .Name("orbweave_spans_total")
+                 .Help("Spans of jobs by what became of them")
+                 .Register(*registry_)) {
+  // That nothing failed is told too: a counter that appears with its first error never rises.
+  for (const char* what : {"job", "start", "result", "ends", "blames", "forget", "probe"})
+    save_errors_.Add({{"what", what}});
+  for (const char* outcome : {"sent", "dropped", "refused"}) spans_.Add({{"outcome", outcome}});
+}
 
 void MetricsCounters::CountEvent(const LogEvent& event) {
   events_.Add({{"event", event.event}, {"level", LogLevelName(event.level)}}).Increment();
@@ -40,6 +49,10 @@ void MetricsCounters::CountSave(std::string_view what, double wait_s, const absl
   const std::string label(what);
   saves_.Add({{"what", label}}, SaveBuckets_s()).Observe(wait_s);
   if (!status.ok()) save_errors_.Add({{"what", label}}).Increment();
+}
+
+void MetricsCounters::CountSpans(std::string_view outcome, uint64_t spans) {
+  spans_.Add({{"outcome", std::string(outcome)}}).Increment(static_cast<double>(spans));
 }
 
 }  // namespace orbweave

@@ -10,10 +10,10 @@
 #include "coordinator/dispatcher.h"
 #include "coordinator/job_service.h"
 #include "coordinator/journal.h"
+#include "coordinator/kept_blobs.h"
 #include "coordinator/pulse.h"
 #include "coordinator/wanted_slots.h"
 #include "core/base/clock.h"
-#include "core/storage/blob_store.h"
 
 namespace orbweave {
 
@@ -27,7 +27,7 @@ class Planner {
           Dispatcher& dispatcher,
           WantedSlots& wanted,
           JobService& job_service,
-          BlobStore& blobs,
+          KeptBlobs& blobs,
           Journal& journal,
           const Clock& clock)
       : mutex_(mutex),
@@ -60,7 +60,7 @@ class Planner {
   Dispatcher& dispatcher_;
   WantedSlots& wanted_;
   JobService& job_service_;
-  BlobStore& blobs_;
+  KeptBlobs& blobs_;
   Journal& journal_;
   const Clock& clock_;
   Pulse pulse_;

@@ -8,7 +8,7 @@
 namespace orbweave {
 namespace {
 
-bool IsComplete(const TaskResult& result, bool verify, BlobStore& blobs) {
+bool IsComplete(const TaskResult& result, bool verify, KeptBlobs& blobs) {
   const auto is_there = [&](const Digest& blob) {
     return blobs.Use(blob) && (!verify || blobs.Verify(blob));
   };
@@ -25,12 +25,13 @@ absl::StatusOr<StagePlan> PlanSnapshot(const JobSnapshot& snapshot, BlobAccess& 
 }
 
 absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
-                                           BlobStore& blobs,
+                                           KeptBlobs& blobs,
                                            Journal& journal) {
   ORBWEAVE_ASSIGN_OR_RETURN(StagePlan plan, PlanSnapshot(snapshot, blobs));
   for (const std::string& collection : plan.collections) {
     ORBWEAVE_RETURN_IF_ERROR(blobs.Put(collection).status());
   }
+  if (snapshot.verify) ORBWEAVE_RETURN_IF_ERROR(blobs.Refresh());
   PreparedStage prepared{.tasks = std::move(plan.tasks)};
   std::vector<Digest> ids;
   for (const TaskSpec& task : prepared.tasks) ids.push_back(task.Id());

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "coordinator/journal.h"
+#include "coordinator/kept_blobs.h"
 #include "core/pipeline/plan_stage.h"
-#include "core/storage/blob_store.h"
 
 namespace orbweave {
 
@@ -36,7 +36,7 @@ struct JobSnapshot {
 /// journal. A result counts as found when all its blobs are there (and, with `verify`, are right).
 /// Errors: those of PlanStage and of the store.
 [[nodiscard]] absl::StatusOr<PreparedStage> PrepareStage(const JobSnapshot& snapshot,
-                                                         BlobStore& blobs,
+                                                         KeptBlobs& blobs,
                                                          Journal& journal);
 
 }  // namespace orbweave

@@ -6,13 +6,18 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
+#include "core/pipeline/blob_grant.h"
 #include "core/pipeline/coordinator_api.h"
 
 namespace orbweave {
 
 /// Told the answer to a question for a task, once.
 using TakeLease = std::function<void(absl::StatusOr<std::optional<Lease>> answer)>;
+
+/// How long a right to an object holds.
+inline constexpr int kGrant_s = 600;
 
 /// A coordinator that can be served without a thread for each worker that waits.
 class ServedApi : public CoordinatorApi {
@@ -24,6 +29,11 @@ class ServedApi : public CoordinatorApi {
                           double wait_s,
                           const std::stop_token& left,
                           TakeLease take) = 0;
+
+  /// Where each of these blobs is to be read or written; in an object store by a right that holds
+  /// for kGrant_s. Empty: there is no such store. InvalidArgument: more than kMostGrants of them.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<BlobGrant>> GrantBlobs(
+      const std::vector<WantedBlob>& blobs, GrantVerb verb) = 0;
 };
 
 }  // namespace orbweave

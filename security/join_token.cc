@@ -5,7 +5,6 @@
 
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
-#include <openssl/hmac.h>
 #include <openssl/rand.h>
 
 #include <array>
@@ -16,6 +15,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "security/hmac.h"
 
 namespace orbweave {
 namespace {
@@ -30,20 +30,6 @@ std::string RandomHex(size_t num_bytes) {
   ORBWEAVE_CHECK(
       RAND_bytes(reinterpret_cast<unsigned char*>(bytes.data()), static_cast<int>(num_bytes)) == 1);
   return absl::BytesToHexString(bytes);
-}
-
-std::string Hmac(const std::string& key, std::string_view text) {
-  std::string mac(EVP_MAX_MD_SIZE, '\0');
-  unsigned int size = 0;
-  ORBWEAVE_CHECK(HMAC(EVP_sha256(),
-                      key.data(),
-                      static_cast<int>(key.size()),
-                      reinterpret_cast<const unsigned char*>(text.data()),
-                      text.size(),
-                      reinterpret_cast<unsigned char*>(mac.data()),
-                      &size) != nullptr);
-  mac.resize(size);
-  return mac;
 }
 
 /// The parts of "orbweave-join-2.PAYLOAD.MAC", the last two decoded.
@@ -104,7 +90,7 @@ std::string MakeJoinToken(const std::string& key, JoinClaims claims) {
                                            "\n",
                                            claims.authority_pem);
   const std::string text = absl::StrCat(std::string(kPrefix), absl::WebSafeBase64Escape(payload));
-  return absl::StrCat(text, ".", absl::WebSafeBase64Escape(Hmac(key, text)));
+  return absl::StrCat(text, ".", absl::WebSafeBase64Escape(HmacSha256(key, text)));
 }
 
 absl::StatusOr<JoinClaims> ReadJoinToken(std::string_view token) {
@@ -117,7 +103,7 @@ absl::StatusOr<JoinClaims> VerifyJoinToken(const std::string& key,
                                            int64_t now_unix_s) {
   const absl::StatusOr<TokenParts> parts = Split(token);
   if (!parts.ok()) return absl::PermissionDeniedError(parts.status().message());
-  const std::string mac = Hmac(key, parts->signed_text);
+  const std::string mac = HmacSha256(key, parts->signed_text);
   if (parts->mac.size() != mac.size() ||
       CRYPTO_memcmp(parts->mac.data(), mac.data(), mac.size()) != 0) {
     return absl::PermissionDeniedError("the join token was not made for this coordinator");

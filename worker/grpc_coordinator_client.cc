@@ -120,14 +120,16 @@ absl::StatusOr<Digest> GrpcCoordinatorClient::Put(std::string_view bytes) {
 
 absl::Status GrpcCoordinatorClient::Read(const Digest& digest, const TakePiece& take) {
   ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Connect());
-  return ReceiveBlob(*link->stub, digest, take);
+  const std::optional<absl::Status> read = granted_.Read(*link->stub, digest, take);
+  return read ? *read : ReceiveBlob(*link->stub, digest, take);
 }
 
 absl::Status GrpcCoordinatorClient::Write(const Digest& digest,
                                           uint64_t size_bytes,
                                           const NextPiece& next) {
   ORBWEAVE_ASSIGN_OR_RETURN(const LinkHandle link, Connect());
-  return SendBlob(*link->stub, digest, size_bytes, next);
+  const std::optional<absl::Status> written = granted_.Write(*link->stub, digest, size_bytes, next);
+  return written ? *written : SendBlob(*link->stub, digest, size_bytes, next);
 }
 
 absl::StatusOr<JoinReply> GrpcCoordinatorClient::Join(const WorkerInfo& worker) {

@@ -11,6 +11,7 @@
 #include "core/pipeline/coordinator_api.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 #include "worker/coordinator_address.h"
+#include "worker/grpc_granted_blobs.h"
 #include "worker/refused_handshake.h"
 
 namespace orbweave {
@@ -105,6 +106,7 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   std::mutex mutex_;
   LinkHandle link_;
   std::map<std::string, std::string> roots_;
+  GrantedBlobs granted_;
 };
 
 }  // namespace orbweave

@@ -9,14 +9,15 @@
 
 namespace orbweave {
 
-/// The waits between attempts to reach the coordinator: 0.2 s, doubled up to 5 s.
+/// The waits between attempts to reach the coordinator or a store: 0.2 s, doubled up to 5 s, each
+/// times a random number from 0.5 to 1, so that many who failed together do not come back together.
 class Backoff {
  public:
   /// Waits the next time; ends early, with false, when `stop` is requested.
   bool Wait(const std::stop_token& stop);
 
  private:
-  double next_s_ = 0.2;
+  double longest_s_ = 0.2;  ///< of the next wait
 };
 
 /// How long a call is repeated.

@@ -17,6 +17,9 @@ struct JobSpec {
   std::vector<Digest> inputs{};  ///< blobs put before the job is submitted
   std::string options_text{};
   std::string label{};  ///< for people
+  /// The span that asked for it, as W3C Trace Context writes it; empty: none. Where the job's own
+  /// spans are told, it is their parent.
+  std::string traceparent{};
 
   /// Digest of kind, inputs and options: submitting the same job again joins it.
   [[nodiscard]] Digest Id() const;

@@ -27,10 +27,14 @@ struct LogEvent {
   std::string event{};  ///< what happened, in one word: "task_done"
   Digest job{};
   std::string stage{};
+  std::optional<uint32_t> run{};  ///< of the job's stages, as in MeasuredTask
   std::optional<uint32_t> part{};
   Digest task{};
   std::string worker{};
-  uint64_t epoch = 0;  ///< of the attempt at the task
+  std::optional<uint32_t> slot{};
+  uint64_t epoch = 0;                     ///< of the attempt at the task
+  std::optional<uint64_t> since_epoch{};  ///< of a job that begins: later attempts are made for it
+  std::string traceparent{};              ///< of a job that begins; see JobSpec
   std::string message{};
 };
 

@@ -200,11 +200,15 @@ v1::JobSpec ToProto(const JobSpec& job) {
   AddDigests(job.inputs, proto.mutable_inputs());
   proto.set_options_text(job.options_text);
   proto.set_label(job.label);
+  proto.set_traceparent(job.traceparent);
   return proto;
 }
 
 absl::StatusOr<JobSpec> FromProto(const v1::JobSpec& proto) {
-  JobSpec job{.kind = proto.kind(), .options_text = proto.options_text(), .label = proto.label()};
+  JobSpec job{.kind = proto.kind(),
+              .options_text = proto.options_text(),
+              .label = proto.label(),
+              .traceparent = proto.traceparent()};
   ORBWEAVE_ASSIGN_OR_RETURN(job.inputs, DigestsFromProto(proto.inputs()));
   return job;
 }

@@ -15,15 +15,24 @@ namespace orbweave::architecture {
 namespace {
 
 const std::vector<std::string> kProductRoots = {
-    "core", "proto", "security", "stages", "coordinator", "worker", "cli"};
+    "core", "proto", "security", "objects", "stages", "coordinator", "worker", "cli"};
 
-const std::vector<std::string> kSourceRoots = {
-    "core", "proto", "security", "stages", "coordinator", "worker", "cli", "tests", "bench"};
+const std::vector<std::string> kSourceRoots = {"core",
+                                               "proto",
+                                               "security",
+                                               "objects",
+                                               "stages",
+                                               "coordinator",
+                                               "worker",
+                                               "cli",
+                                               "tests",
+                                               "bench"};
 
 // All that is under version control, apart from hidden folders.
 const std::vector<std::string> kAllRoots = {"core",
                                             "proto",
                                             "security",
+                                            "objects",
                                             "stages",
                                             "coordinator",
                                             "worker",

@@ -20,10 +20,14 @@ TEST(LogEventToJson, NamesWhatIsKnownAndNothingElse) {
                        .event = "task_not_done",
                        .job = DigestOf("job"),
                        .stage = "square",
+                       .run = 2,
                        .part = 0,
                        .task = DigestOf("task"),
                        .worker = "w",
+                       .slot = 0,
                        .epoch = 7,
+                       .since_epoch = 5,
+                       .traceparent = "00-trace",
                        .message = "two\nlines"};
   const nlohmann::json line = nlohmann::json::parse(LogEventToJson(event, 1.5));
   const nlohmann::json expected = {{"time", "1970-01-01T00:00:01.500Z"},
@@ -31,10 +35,14 @@ TEST(LogEventToJson, NamesWhatIsKnownAndNothingElse) {
                                    {"event", "task_not_done"},
                                    {"job", DigestOf("job").ToHex()},
                                    {"stage", "square"},
+                                   {"run", 2},
                                    {"part", 0},
                                    {"task", DigestOf("task").ToHex()},
                                    {"worker", "w"},
+                                   {"slot", 0},
                                    {"epoch", 7},
+                                   {"since_epoch", 5},
+                                   {"traceparent", "00-trace"},
                                    {"message", "two\nlines"}};
   EXPECT_EQ(line, expected);
   EXPECT_EQ(nlohmann::json::parse(LogEventToJson({.event = "ready"}, 0.0)).size(), 3U);

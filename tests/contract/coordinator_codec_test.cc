@@ -19,7 +19,8 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
                          .spec = {.kind = "sparse",
                                   .inputs = {DigestOf("a")},
                                   .options_text = "x.y=1\n",
-                                  .label = "street"},
+                                  .label = "street",
+                                  .traceparent = "00-trace"},
                          .elapsed_s = 1.5,
                          .stages = {{"align", 9, 8, 7, 1, 2, 3.5, 4.5, 0.25}}};
   const auto back = FromProto(ToProto(status));
@@ -30,6 +31,7 @@ TEST(CoordinatorCodec, JobStatusSurvivesTheRoundTrip) {
   EXPECT_EQ(back->unmet, status.unmet);
   EXPECT_EQ(back->spec.Id(), status.spec.Id());
   EXPECT_EQ(back->spec.label, "street");
+  EXPECT_EQ(back->spec.traceparent, "00-trace");
   EXPECT_EQ(back->elapsed_s, 1.5);
   const StageStatus& stage = back->stages.at(0);
   EXPECT_EQ(stage.stage, "align");

@@ -393,6 +393,18 @@ TEST_P(CoordinatorContract, RefusesAJobOfUnknownKindOrWithoutItsInput) {
       Api().SubmitJob({.kind = "toy", .inputs = {DigestOf("never put")}}).status()));
 }
 
+TEST_P(CoordinatorContract, KeepsWhoAskedForAJobOutOfItsId) {
+  JobSpec job = *PrepareToyJob(Api(), "1");
+  const Digest id = job.Id();
+  job.traceparent = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01";
+  EXPECT_EQ(job.Id(), id);
+  ASSERT_EQ(*Api().SubmitJob(job), id);
+  EXPECT_EQ(Api().GetJob(id)->spec.traceparent, job.traceparent);
+  JobSpec wrong = *PrepareToyJob(Api(), "2");
+  wrong.traceparent = "00-0-0-0";
+  EXPECT_TRUE(absl::IsInvalidArgument(Api().SubmitJob(wrong).status()));
+}
+
 TEST_P(CoordinatorContract, RefusesAJobWhoseDescriptionWouldFillTheListOfAll) {
   const JobSpec job = *PrepareToyJob(Api(), "1");
   JobSpec labelled = job;

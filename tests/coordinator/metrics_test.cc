@@ -135,7 +135,8 @@ TEST(MetricsText, TellsWhatAJobDid) {
   EXPECT_THAT(text, HasSubstr("orbweave_jobs{state=\"done\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("orbweave_slots 1\n"));
   EXPECT_THAT(text, HasSubstr("orbweave_slots_wanted 3\n"));
-  EXPECT_THAT(text, Not(HasSubstr("save_errors_total{")));
+  EXPECT_THAT(text, HasSubstr("orbweave_journal_save_errors_total{what=\"result\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("orbweave_spans_total{outcome=\"dropped\"} 0\n"));
   // "1 2 3"; "1", "2", "3"; "1", "4", "9"; "14"; and two collections, which the coordinator makes.
   EXPECT_THAT(text, HasSubstr("orbweave_blob_bytes_total{direction=\"in\"} 13\n"));
 }

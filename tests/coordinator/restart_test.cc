@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <mutex>
 #include <thread>
 
 #include "coordinator/coordinator.h"
@@ -44,6 +45,10 @@ class RestartTest : public ::testing::Test {
         .state_dir = folder_.Path(), .leases_survive = leases_survive, .find_plan = find_plan_};
     options.lost = [this] { was_told_ = true; };
     options.open_journal = testing::OpenFailingJournal(fails_);
+    options.log = [this](const LogEvent& event) {
+      const std::lock_guard lock(events_mutex_);
+      if (event.event.starts_with("job_")) job_events_.push_back(event);
+    };
     auto opened = Coordinator::Open(options, clock_);
     ASSERT_TRUE(opened.ok()) << opened.status();
     coordinator_ = *std::move(opened);
@@ -95,8 +100,30 @@ class RestartTest : public ::testing::Test {
   ManualClock clock_;
   testing::StageMap stages_ = ToyStages();
   std::atomic<bool> was_told_{false};
+  std::mutex events_mutex_;
+  std::vector<LogEvent> job_events_;
   std::unique_ptr<Coordinator> coordinator_;
 };
+
+TEST_F(RestartTest, SaysOfAJobThatGoesOnWhatItSaidWhenItBegan) {
+  auto job = PrepareToyJob(*coordinator_, "1 2");
+  ASSERT_TRUE(job.ok());
+  job->traceparent = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01";
+  ASSERT_TRUE(coordinator_->SubmitJob(*job).ok());
+  Restart();
+  ASSERT_TRUE(coordinator_->CancelJob(job->Id()).ok());
+  Restart();
+  const std::lock_guard lock(events_mutex_);
+  ASSERT_EQ(job_events_.size(), 3U) << "with one that has ended nobody goes on";
+  const LogEvent& submitted = job_events_[0];
+  const LogEvent& resumed = job_events_[1];
+  EXPECT_EQ(submitted.event, "job_submitted");
+  EXPECT_EQ(resumed.event, "job_resumed");
+  EXPECT_EQ(resumed.job, job->Id());
+  EXPECT_EQ(resumed.since_epoch, submitted.since_epoch);
+  EXPECT_EQ(resumed.traceparent, job->traceparent);
+  EXPECT_EQ(job_events_[2].event, "job_cancelled");
+}
 
 TEST_F(RestartTest, WhoLostTheJournalGivesAndTakesNothingMore) {
   Submit("3");

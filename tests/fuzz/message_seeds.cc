@@ -3,6 +3,7 @@
 
 #include "core/io/byte_stream.h"
 #include "proto/codec/coordinator_codec.h"
+#include "proto/codec/grants_codec.h"
 #include "tests/fuzz/seeds.h"
 
 namespace orbweave {
@@ -33,6 +34,10 @@ void AddMessageSeeds(Seeds& seeds) {
   add("join_reply", JoinReply{7, 30.0, 5.0});
   add("lease", Lease{digest, uint64_t{1} << 33, {"stage", "1", {digest}, "o.p=1\n", 4}, 3});
   add("heartbeat_reply", HeartbeatReply{{digest}, true});
+  add("blob_question", BlobQuestion{{{digest, uint64_t{1} << 33}}, GrantVerb::kPut});
+  add("blob_grants",
+      std::vector<BlobGrant>{{BlobGrant::Where::kObject, {"https://store/key?a=b", {"x: y"}}},
+                             {BlobGrant::Where::kNowhere}});
   seeds["message_channel"] = {ByteWriter()
                                   .Put(uint64_t{5})
                                   .Put(uint64_t{3})

@@ -34,6 +34,22 @@ void AddTextSeeds(Seeds& seeds) {
       "POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n1\r\nx\r\n0\r\n\r\n",
       "GET / HTTP/1.1\r\nHost: x\r\nContent-Length: 18446744073709551615\r\nUpgrade: h2c\r\n "
       "x\r\n\r\n"};
+  seeds["traceparent"] = {"00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01",
+                          "cc-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-02-more"};
+  seeds["collector_answer"] = {
+      "{\"partialSuccess\":{\"rejectedSpans\":\"3\",\"errorMessage\":\"x\"}}",
+      "{\"partialSuccess\":{\"rejectedSpans\":4}}"};
+  seeds["object_page"] = {
+      "<ListBucketResult><EncodingType>url</EncodingType><Contents><Key>a%2Fb</"
+      "Key><LastModified>2009-10-12T17:50:30.000Z</LastModified><Size>434234</Size></"
+      "Contents><IsTruncated>true</IsTruncated><NextContinuationToken>a&amp;b</"
+      "NextContinuationToken></ListBucketResult>",
+      "<ListBucketResult><IsTruncated>false</IsTruncated></ListBucketResult>"};
+  seeds["s3_address"] = {"s3://city-blobs/orbweave/a?region=eu-central-1&style=host",
+                         "s3://blobs?endpoint=http%3A//127.0.0.1:9000&plain=yes"};
+  seeds["s3_keys"] = {
+      "# ours\n[default]\naws_access_key_id = A\naws_secret_access_key=b\naws_session_token = "
+      "c\nregion = d\n"};
   seeds["identity"] = {"orbweave://city/worker/node7"};
   seeds["revocations"] = {"name node7\nserial 0A1B\n", "token 0123456789abcdef0123456789abcdef\n"};
   seeds["digest"] = {DigestOf("blob").ToHex()};

@@ -205,6 +205,18 @@ TEST(BadInput, ADatabaseWithAPinholeCameraIsRefused) {
   EXPECT_THAT(run.err, HasSubstr("PINHOLE"));
 }
 
+TEST(BadInput, ATraceparentThatIsNoneIsRefusedBeforeAnythingIsSent) {
+  const CommandOutcome outcome = RunCommand({ORBWEAVE_BINARY,
+                                             "submit",
+                                             "--coordinator",
+                                             "unix:/nobody",
+                                             "--traceparent",
+                                             "00-trace",
+                                             "images"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("'00-trace' is no traceparent"));
+}
+
 TEST(BadInput, AListenerBeyondThisMachineIsRefused) {
   const TemporaryFolder folder;
   const CommandOutcome run =

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "coordinator/kept_blobs.h"
+
+#include <map>
+#include <random>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/storage/durable_file.h"
+
+namespace orbweave {
+namespace {
+
+/// What names the coordinator's state to others: random digits in a file, made once.
+absl::StatusOr<std::string> NameOfState(const std::string& state_dir) {
+  const std::string path = state_dir + "/store_owner";
+  const absl::StatusOr<std::string> known = ReadWholeFile(path);
+  if (!absl::IsNotFound(known.status())) return known;
+  std::random_device device;
+  const std::string name = absl::StrCat("orbweave coordinator ",
+                                        absl::Hex(device()),
+                                        absl::Hex(device()),
+                                        absl::Hex(device()),
+                                        absl::Hex(device()));
+  ORBWEAVE_RETURN_IF_ERROR(WriteFileDurably(state_dir, path, name));
+  return name;
+}
+
+}  // namespace
+
+std::string BlobFolderOf(const std::string& state_dir) { return state_dir + "/blobs"; }
+
+absl::StatusOr<KeptBlobs> KeptBlobs::Open(const std::string& state_dir,
+                                          std::shared_ptr<ObjectStore> objects) {
+  ORBWEAVE_ASSIGN_OR_RETURN(BlobStore folder, BlobStore::Open(BlobFolderOf(state_dir)));
+  if (objects == nullptr) return KeptBlobs(std::move(folder), nullptr);
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::string owner, NameOfState(state_dir));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<ObjectShelf> shelf,
+                            ObjectShelf::Open(std::move(objects), owner));
+  return KeptBlobs(std::move(folder), std::move(shelf));
+}
+
+absl::StatusOr<std::string> KeptBlobs::Get(const Digest& digest) {
+  std::string bytes;
+  ORBWEAVE_RETURN_IF_ERROR(Read(digest, [&bytes](std::string_view piece) {
+    bytes += piece;
+    return absl::OkStatus();
+  }));
+  return bytes;
+}
+
+absl::StatusOr<Digest> KeptBlobs::Put(std::string_view bytes) { return folder_.Put(bytes); }
+
+absl::Status KeptBlobs::Read(const Digest& digest, const TakePiece& take) {
+  // What is not there is noticed before the first piece.
+  const absl::Status read = folder_.Read(digest, take);
+  return absl::IsNotFound(read) && shelf_ ? shelf_->Read(digest, take) : read;
+}
+
+absl::Status KeptBlobs::Write(const Digest& digest, uint64_t size_bytes, const NextPiece& next) {
+  return folder_.Write(digest, size_bytes, next);
+}
+
+absl::StatusOr<std::vector<bool>> KeptBlobs::StatBlobs(const std::vector<Digest>& digests) {
+  std::vector<bool> stored;
+  for (const Digest& digest : digests) stored.push_back(Use(digest));
+  return stored;
+}
+
+absl::Status KeptBlobs::LinkFile(const Digest& digest, const std::string& path) {
+  return folder_.LinkFile(digest, path);
+}
+
+absl::StatusOr<std::vector<BlobGrant>> KeptBlobs::Grant(const std::vector<WantedBlob>& blobs,
+                                                        GrantVerb verb,
+                                                        int valid_s) {
+  if (!shelf_) return std::vector<BlobGrant>();
+  if (blobs.size() > kMostGrants)
+    return absl::InvalidArgumentError(absl::StrCat("grants for more than ", kMostGrants, " blobs"));
+  std::vector<BlobGrant> grants;
+  for (const WantedBlob& blob : blobs) {
+    ORBWEAVE_ASSIGN_OR_RETURN(grants.emplace_back(), GrantOne(blob, verb, valid_s));
+  }
+  return grants;
+}
+
+absl::StatusOr<BlobGrant> KeptBlobs::GrantOne(const WantedBlob& blob, GrantVerb verb, int valid_s) {
+  using Where = BlobGrant::Where;
+  if (verb == GrantVerb::kGet) {
+    if (folder_.Has(blob.digest)) return BlobGrant{};
+    const std::optional<ObjectGrant> grant = shelf_->GrantGet(blob.digest, valid_s);
+    return grant ? BlobGrant{Where::kObject, *grant} : BlobGrant{};
+  }
+  if (blob.size_bytes < kLeastObjectBytes || blob.size_bytes > kMostObjectBytes) return BlobGrant{};
+  if (Use(blob.digest)) return BlobGrant{.where = Where::kNowhere};
+  ORBWEAVE_ASSIGN_OR_RETURN(ObjectGrant grant,
+                            shelf_->GrantPut(blob.digest, blob.size_bytes, valid_s));
+  return BlobGrant{Where::kObject, std::move(grant)};
+}
+
+bool KeptBlobs::Has(const Digest& digest) {
+  return folder_.Has(digest) || (shelf_ && shelf_->Has(digest));
+}
+
+bool KeptBlobs::Use(const Digest& digest) {
+  return folder_.Use(digest) || (shelf_ && shelf_->Use(digest));
+}
+
+absl::StatusOr<bool> KeptBlobs::Confirm(const Digest& digest) {
+  if (folder_.Use(digest)) return true;
+  if (!shelf_) return false;
+  return shelf_->Confirm(digest);
+}
+
+bool KeptBlobs::Verify(const Digest& digest) {
+  return folder_.Verify(digest) || (shelf_ && shelf_->Use(digest));
+}
+
+absl::Status KeptBlobs::Refresh() {
+  constexpr int64_t kMostAge_s = 300;
+  return shelf_ ? shelf_->Refresh(kMostAge_s) : absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<StoredBlob>> KeptBlobs::List() {
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<StoredBlob> listed, folder_.List());
+  if (!shelf_) return listed;
+  ORBWEAVE_RETURN_IF_ERROR(shelf_->Refresh());
+  std::map<Digest, uint64_t> sizes;
+  for (const StoredBlob& blob : listed) sizes[blob.digest] += blob.size_bytes;
+  for (const StoredBlob& blob : shelf_->List()) sizes[blob.digest] += blob.size_bytes;
+  listed.clear();
+  for (const auto& [digest, size_bytes] : sizes) listed.push_back({digest, size_bytes});
+  return listed;
+}
+
+bool KeptBlobs::IsUnused(const Digest& digest, double unused_s) {
+  return folder_.IsUnused(digest, unused_s) && (!shelf_ || shelf_->IsUnused(digest, unused_s));
+}
+
+absl::StatusOr<bool> KeptBlobs::RemoveUnused(const Digest& digest, double unused_s) {
+  if (!IsUnused(digest, unused_s) || !folder_.RemoveUnused(digest, unused_s)) return false;
+  if (!shelf_) return true;
+  return shelf_->RemoveUnused(digest, unused_s);
+}
+
+absl::Status KeptBlobs::Probe(std::string_view bytes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, folder_.Put(bytes));
+  ORBWEAVE_RETURN_IF_ERROR(folder_.Get(digest).status());
+  (void)folder_.RemoveUnused(digest, 0.0);  // or else there is one blob more until it is garbage
+  return shelf_ ? shelf_->Probe() : absl::OkStatus();
+}
+
+}  // namespace orbweave

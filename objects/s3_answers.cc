@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "objects/s3_answers.h"
+
+#include <cstdlib>
+#include <ctime>
+#include <optional>
+
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "objects/s3_address.h"
+
+namespace orbweave {
+namespace {
+
+/// Clocks that differ by less are not to blame.
+constexpr int64_t kSkew_s = 120;
+
+/// The text between <NAME> and </NAME>, the first time from `begin` on; nothing: there is none.
+/// `begin` becomes its end.
+std::optional<std::string_view> NextElement(std::string_view xml,
+                                            const std::string& name,
+                                            size_t& begin) {
+  const std::string opens = absl::StrCat("<", name, ">");
+  const std::string closes = absl::StrCat("</", name, ">");
+  const size_t from = xml.find(opens, begin);
+  if (from == std::string_view::npos) return std::nullopt;
+  const size_t to = xml.find(closes, from + opens.size());
+  if (to == std::string_view::npos) return std::nullopt;
+  begin = to + closes.size();
+  return xml.substr(from + opens.size(), to - from - opens.size());
+}
+
+std::string TextOf(std::string_view xml, const std::string& name) {
+  size_t begin = 0;
+  const std::optional<std::string_view> element = NextElement(xml, name, begin);
+  if (!element) return {};
+  std::string text;
+  for (size_t i = 0; i < element->size(); ++i) {
+    const std::string_view rest = element->substr(i);
+    const auto take = [&](std::string_view entity, char c) {
+      if (!rest.starts_with(entity)) return false;
+      text += c;
+      i += entity.size() - 1;
+      return true;
+    };
+    if (!take("&amp;", '&') && !take("&lt;", '<') && !take("&gt;", '>') && !take("&quot;", '"') &&
+        !take("&apos;", '\'')) {
+      text += rest.front();
+    }
+  }
+  return text;
+}
+
+/// How far our clock is from the server's, in words, where it is to blame.
+std::string BlameClock(const HttpAnswer& answer, int64_t now_unix_s) {
+  const absl::StatusOr<int64_t> theirs = ParseHttpTime(answer.Header("date"));
+  if (!theirs.ok() || std::abs(now_unix_s - *theirs) < kSkew_s) return {};
+  return absl::StrCat("; the clock of this machine is ",
+                      std::abs(now_unix_s - *theirs),
+                      " s ",
+                      now_unix_s > *theirs ? "ahead of" : "behind",
+                      " the store's: set it right");
+}
+
+bool IsPassing(int status, const std::string& code) {
+  return status == 409 || status == 429 || status >= 500 || code == "RequestTimeout" ||
+         code == "RequestTimeTooSkewed" || code == "RequestExpired" || code == "SlowDown";
+}
+
+absl::StatusCode CodeOf(int status, const std::string& code, const std::string& message) {
+  using Code = absl::StatusCode;
+  if (code == "NoSuchBucket") return Code::kFailedPrecondition;
+  if (status == 404) return Code::kNotFound;
+  if (status == 412) return Code::kAlreadyExists;
+  if (status == 416) return Code::kOutOfRange;
+  if (status == 501 || code == "NotImplemented") return Code::kUnimplemented;
+  if (status >= 300 && status < 400) return Code::kFailedPrecondition;
+  if (IsPassing(status, code)) return Code::kUnavailable;
+  if (message.find("expired") != std::string::npos) return Code::kUnavailable;
+  if (code == "BadDigest" || code == "XAmzContentSHA256Mismatch" ||
+      code == "XAmzContentChecksumMismatch" || code == "InvalidDigest") {
+    return Code::kDataLoss;
+  }
+  return Code::kPermissionDenied;
+}
+
+}  // namespace
+
+absl::Status StatusOfS3(const HttpAnswer& answer, const std::string& what, int64_t now_unix_s) {
+  if (answer.IsSuccess()) return absl::OkStatus();
+  const std::string code = TextOf(answer.body, "Code");
+  const std::string message = TextOf(answer.body, "Message");
+  const std::string region = answer.Header("x-amz-bucket-region");
+  const absl::StatusCode kind = CodeOf(answer.status, code, message);
+  std::string clock = answer.status == 403 ? BlameClock(answer, now_unix_s) : std::string();
+  // A clock that is wrong is set right, whatever the server says of what follows from it.
+  const bool is_skewed = !clock.empty();
+  return {is_skewed ? absl::StatusCode::kUnavailable : kind,
+          absl::StrCat(what,
+                       ": the store answers ",
+                       answer.status,
+                       code.empty() ? "" : " ",
+                       code,
+                       message.empty() ? "" : ", ",
+                       message,
+                       kind == absl::StatusCode::kFailedPrecondition && !region.empty()
+                           ? absl::StrCat("; the bucket is in region ", region)
+                           : "",
+                       clock)};
+}
+
+absl::StatusOr<ObjectPage> ParseObjectPage(std::string_view xml) {
+  if (xml.find("<ListBucketResult") == std::string_view::npos)
+    return absl::DataLossError("the store answers with no list of objects");
+  const bool is_encoded = TextOf(xml, "EncodingType") == "url";
+  ObjectPage page;
+  size_t begin = 0;
+  while (const auto element = NextElement(xml, "Contents", begin)) {
+    ObjectInfo& object = page.objects.emplace_back();
+    object.key = TextOf(*element, "Key");
+    if (is_encoded) {
+      ORBWEAVE_ASSIGN_OR_RETURN(object.key, UriDecode(object.key));
+    }
+    const absl::StatusOr<int64_t> modified = ParseHttpTime(TextOf(*element, "LastModified"));
+    if (!modified.ok() || !absl::SimpleAtoi(TextOf(*element, "Size"), &object.size_bytes))
+      return absl::DataLossError("the store lists an object without its size or time");
+    object.modified_unix_s = *modified;
+  }
+  if (TextOf(xml, "IsTruncated") != "true") return page;
+  page.next = TextOf(xml, "NextContinuationToken");
+  if (page.next.empty()) return absl::DataLossError("the store lists half and not how to go on");
+  return page;
+}
+
+absl::StatusOr<int64_t> ParseHttpTime(const std::string& text) {
+  for (const char* form : {"%a, %d %b %Y %H:%M:%S GMT", "%Y-%m-%dT%H:%M:%S"}) {
+    std::tm utc{};
+    const char* const rest = ::strptime(text.c_str(), form, &utc);
+    if (rest == nullptr || (*rest != '\0' && *rest != '.' && *rest != 'Z')) continue;
+    return static_cast<int64_t>(::timegm(&utc));
+  }
+  return absl::InvalidArgumentError("no time of HTTP");
+}
+
+}  // namespace orbweave

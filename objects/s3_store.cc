@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "objects/s3_store.h"
+
+#include <utility>
+
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "core/base/sleep.h"
+#include "objects/granted_object.h"
+#include "objects/s3_answers.h"
+
+namespace orbweave {
+namespace {
+
+/// The rights of this process to its own requests.
+constexpr int kOwn_s = 600;
+/// Signed, and said by who sends the bytes.
+constexpr char kLength[] = "content-length";
+
+/// What `call()` answers, tried a few times while that is Unavailable.
+template <typename Call>
+auto TryAgain(Call&& call) -> decltype(call()) {
+  for (int attempt = 1;; ++attempt) {
+    auto answer = call();
+    const absl::Status status = internal::StatusOf(answer);
+    if (!absl::IsUnavailable(status) || attempt == kMostAttempts) return answer;
+    SleepUnlessStopped(PauseBefore_s(attempt), {});
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<S3Store>> S3Store::Make(S3Address address,
+                                                       S3Keys keys,
+                                                       const HttpPatience& patience,
+                                                       UnixClock clock) {
+  constexpr char kUsualRegion[] = "us-east-1";
+  if (!address.region.empty()) keys.region = address.region;
+  if (keys.region.empty()) keys.region = kUsualRegion;
+  if (address.host.empty()) address.host = absl::StrCat("s3.", keys.region, ".amazonaws.com");
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<HttpClient> http, HttpClient::Make(patience));
+  return std::unique_ptr<S3Store>(
+      new S3Store(std::move(address), std::move(keys), std::move(clock), std::move(http)));
+}
+
+std::string S3Store::NameOf(const std::string& key) const {
+  return key.empty() ? address_.ToText() : absl::StrCat(address_.ToText(), "/", key);
+}
+
+ObjectGrant S3Store::Grant(S3Request request, int valid_s) const {
+  request.host = address_.HostOfBucket();
+  ObjectGrant grant;
+  for (const auto& [name, value] : request.headers) {
+    if (name != kLength) grant.headers.push_back(absl::StrCat(name, ": ", value));
+  }
+  const std::string server = absl::StrCat(address_.scheme, "://", request.host);
+  grant.url = server + Presign(std::move(request), keys_, clock_(), valid_s);
+  return grant;
+}
+
+ObjectGrant S3Store::GrantGet(const std::string& key, int valid_s) {
+  return Grant({.path = address_.PathOf(key)}, valid_s);
+}
+
+ObjectGrant S3Store::GrantPut(const std::string& key,
+                              const Digest& digest,
+                              uint64_t size_bytes,
+                              int valid_s) {
+  S3Request request{
+      .method = "PUT",
+      .path = address_.PathOf(key),
+      .headers = {{kLength, absl::StrCat(size_bytes)}, {"x-amz-content-sha256", digest.ToHex()}}};
+  if (knows_conditions_) request.headers["if-none-match"] = "*";
+  return Grant(std::move(request), valid_s);
+}
+
+absl::StatusOr<HttpAnswer> S3Store::Ask(const S3Request& request, const std::string& what) {
+  return TryAgain([&]() -> absl::StatusOr<HttpAnswer> {
+    const ObjectGrant grant = Grant(request, kOwn_s);
+    absl::StatusOr<HttpAnswer> answer =
+        http_->Do({.method = request.method, .url = grant.url, .headers = grant.headers});
+    if (answer.ok()) ORBWEAVE_RETURN_IF_ERROR(StatusOfS3(*answer, what, clock_()));
+    return answer;
+  });
+}
+
+absl::StatusOr<ObjectInfo> S3Store::Head(const std::string& key) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const HttpAnswer answer,
+                            Ask({.method = "HEAD", .path = address_.PathOf(key)}, NameOf(key)));
+  ObjectInfo info;
+  const absl::StatusOr<int64_t> modified = ParseHttpTime(answer.Header("last-modified"));
+  if (!modified.ok() || !absl::SimpleAtoi(answer.Header("content-length"), &info.size_bytes))
+    return absl::DataLossError(absl::StrCat(NameOf(key), ": the store tells no size or time"));
+  info.modified_unix_s = *modified;
+  return info;
+}
+
+absl::Status S3Store::Get(const std::string& key,
+                          const std::optional<ByteRange>& range,
+                          const TakePiece& take) {
+  return ReadGranted(*http_, GrantGet(key, kOwn_s), range, NameOf(key), take);
+}
+
+absl::Status S3Store::Put(const std::string& key, const Digest& digest, std::string_view bytes) {
+  const auto put = [&] {
+    return WriteGranted(*http_,
+                        GrantPut(key, digest, bytes.size(), kOwn_s),
+                        bytes.size(),
+                        NameOf(key),
+                        PiecesOf(bytes));
+  };
+  const absl::Status status = TryAgain(put);
+  if (!absl::IsUnimplemented(status) || !knows_conditions_.exchange(false)) return status;
+  return TryAgain(put);
+}
+
+absl::Status S3Store::Delete(const std::string& key) {
+  const absl::Status status =
+      Ask({.method = "DELETE", .path = address_.PathOf(key)}, NameOf(key)).status();
+  return absl::IsNotFound(status) ? absl::OkStatus() : status;
+}
+
+absl::StatusOr<std::vector<ObjectInfo>> S3Store::List() {
+  const std::string folder = address_.prefix.empty() ? "" : address_.prefix + "/";
+  S3Request request{.path = address_.PathOf(""),
+                    .query = {{"encoding-type", "url"}, {"list-type", "2"}, {"prefix", folder}}};
+  std::vector<ObjectInfo> objects;
+  do {
+    ORBWEAVE_ASSIGN_OR_RETURN(const HttpAnswer answer, Ask(request, NameOf("")));
+    ORBWEAVE_ASSIGN_OR_RETURN(ObjectPage page, ParseObjectPage(answer.body));
+    for (ObjectInfo& object : page.objects) {
+      if (!object.key.starts_with(folder)) continue;
+      object.key.erase(0, folder.size());
+      objects.push_back(std::move(object));
+    }
+    request.query["continuation-token"] = page.next;
+  } while (!request.query["continuation-token"].empty());
+  return objects;
+}
+
+absl::StatusOr<std::unique_ptr<S3Store>> OpenS3Store(const std::string& address,
+                                                     const std::string& keys_path) {
+  ORBWEAVE_ASSIGN_OR_RETURN(S3Address parsed, ParseS3Address(address));
+  ORBWEAVE_ASSIGN_OR_RETURN(S3Keys keys, FindS3Keys(keys_path));
+  return S3Store::Make(std::move(parsed), std::move(keys));
+}
+
+}  // namespace orbweave
