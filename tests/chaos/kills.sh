@@ -24,6 +24,26 @@ kill_worker() {
   end_by KILL "$picked" && start_worker "$picked"
 }
 
+# A worker amid a task, so that its attempt ends without a result: its processes are held first, or a short task would be
+# done meanwhile.
+kill_busy_worker() {
+  local i tasks
+  for i in "${workers[@]}"; do
+    has_task "$i" || continue
+    tasks=$(tasks_of "$i")
+    # shellcheck disable=SC2086
+    [ -n "$tasks" ] && kill -STOP $tasks 2>/dev/null || continue
+    sleep 0.1 # what was done before is logged now
+    if has_task "$i"; then
+      end_by KILL "$i" && start_worker "$i"
+      return
+    fi
+    # shellcheck disable=SC2086
+    kill -CONT $tasks
+  done
+  return 1
+}
+
 kill_coordinator() { end_by KILL coordinator && start_coordinator; }
 
 # What is left is the state folder.
@@ -71,7 +91,7 @@ kill_at_point() {
   while is_running submit; do
     if is_running coordinator; then
       # Attempts end without a result only when they are disturbed.
-      if [[ $1 = ends.* ]] && ((${#coordinator_by[@]})); then pause && kill_worker; fi
+      if [[ $1 = ends.* ]] && ((${#coordinator_by[@]})) && kill_busy_worker; then pause; fi
       sleep 0.02
       continue
     fi
