@@ -103,36 +103,51 @@ absl::StatusOr<std::unique_ptr<HttpServer>> ServeHttp(const ServeOptions& option
   return server;
 }
 
+/// Why a coordinator ends.
+struct EndOfService {
+  std::stop_source end{};            ///< a signal, a command, or the journal was lost
+  std::atomic<bool> is_told{false};  ///< by `orbweave stop`
+};
+
+/// Those given, with what this process has for the coordinator. All arguments outlive it.
+absl::StatusOr<CoordinatorOptions> CompleteOptions(const ServeOptions& options,
+                                                   const EventLog& log,
+                                                   SpanSender* spans,
+                                                   MetricsCounters& counters,
+                                                   EndOfService& service) {
+  CoordinatorOptions complete = options.coordinator;
+  complete.log = [&log, spans](const LogEvent& event) {
+    log(event);
+    if (spans != nullptr) spans->Take(event);
+  };
+  complete.lost = [&service] { service.end.request_stop(); };
+  complete.stop = [&service] {
+    service.is_told = true;
+    service.end.request_stop();
+  };
+  complete.open_journal = [&](const std::string&) {
+    return OpenMeteredJournal(options, log, counters);
+  };
+  if (!options.store.empty()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(complete.objects, OpenS3Store(options.store, options.store_keys));
+  }
+  return complete;
+}
+
 absl::Status Serve(const ServeOptions& options) {
   const StopSignals signals;
-  std::stop_source end;  // a signal, or the journal was lost
-  const std::stop_callback on_signal(signals.token(), [&end] { end.request_stop(); });
-  ServerOptions server_options = options.server;
-  server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
+  EndOfService service;
+  const std::stop_callback on_signal(signals.token(), [&service] { service.end.request_stop(); });
   const SteadyClock clock;
   MetricsCounters counters;
   ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir, counters));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto spans, StartSpanSender(options, counters, log));
-  CoordinatorOptions coordinator_options = options.coordinator;
-  coordinator_options.log = [&log, &spans](const LogEvent& event) {
-    log(event);
-    if (spans != nullptr) spans->Take(event);
-  };
-  coordinator_options.lost = [&end] { end.request_stop(); };
-  std::atomic<bool> is_told{false};
-  coordinator_options.stop = [&end, &is_told] {
-    is_told = true;
-    end.request_stop();
-  };
-  coordinator_options.open_journal = [&](const std::string&) {
-    return OpenMeteredJournal(options, log, counters);
-  };
-  server_options.log = log;
-  if (!options.store.empty()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(coordinator_options.objects,
-                              OpenS3Store(options.store, options.store_keys));
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const CoordinatorOptions coordinator_options,
+                            CompleteOptions(options, log, spans.get(), counters, service));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
+  ServerOptions server_options = options.server;
+  server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
+  server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto http,
@@ -142,11 +157,11 @@ absl::Status Serve(const ServeOptions& options) {
   log({.event = "coordinator_ready",
        .message =
            absl::StrCat("address=", server->address(), " state=", options.coordinator.state_dir)});
-  SleepUntilStopped(end.get_token());
+  SleepUntilStopped(service.end.get_token());
   ORBWEAVE_RETURN_IF_ERROR(coordinator->health());  // workers stay, for the other coordinator
   // An engine stops it to start it again, here or elsewhere; who presses Ctrl-C, or says so by
   // `orbweave stop`, is done with it.
-  const bool is_over = is_told || signals.first() == SIGINT;
+  const bool is_over = service.is_told || signals.first() == SIGINT;
   coordinator->BeginShutdown(is_over ? Farewell::kDismissWorkers : Farewell::kComeBack);
   log({.event = "coordinator_stops",
        .message = absl::StrCat("its jobs go on when it is started again on the same state; ",

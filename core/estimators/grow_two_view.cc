@@ -3,7 +3,6 @@
 
 #include "core/estimators/grow_two_view.h"
 
-#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -58,13 +57,11 @@ TwoViewGeometry GrowTwoView(const TwoViewGeometry& geometry,
     likely = by_motion(matches).moved;
 
   BearingPairs pairs = arranged(likely);
-  std::vector<uint32_t> scene = BelowSky(pairs, geometry.b_from_a, max_error_rad);
-  for (uint32_t i = 0; i < pairs.Size(); ++i) {
-    if (std::ranges::binary_search(geometry.inliers, likely[pairs.order[i]])) scene.push_back(i);
-  }
-  std::ranges::sort(scene);
-  scene.erase(std::ranges::unique(scene).begin(), scene.end());
-  pairs = Subset(pairs, scene);
+  const size_t num_low =
+      BelowSky(arranged(geometry.inliers), geometry.b_from_a, max_error_rad).size();
+  if (IsHardlyAny(num_inliers - num_low, num_inliers))
+    pairs = Subset(pairs, BelowSky(pairs, geometry.b_from_a, max_error_rad));
+
   const Rigid3 pose = RefinePose(
       pairs, InliersOf(pairs, geometry.b_from_a, max_error_rad), geometry.b_from_a, max_error_rad);
   const ResolvedPose grown =

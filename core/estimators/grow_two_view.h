@@ -12,10 +12,11 @@ namespace orbweave {
 
 /// A verified geometry (EstimateTwoView) with more matches, found along its planes: its pose
 /// refined over those of `matches` that agree with it, which become its inliers; or as it was where
-/// these are no more than it has. What lies on any plane is not taken from there: what is at the
-/// same place of both panoramas, the carrier, where the geometry had left that out; and what is
-/// high and far (WithoutSky), clouds that drift, unless it was an inlier before. Kind, evidence and
-/// rung stay. `seed` as for EstimateTwoView; kinds with a baseline.
+/// these are no more than it has. What the geometry had left out stays out, since it would come
+/// back with matches along its own planes: what is at the same place of both panoramas, the
+/// carrier, which lies on every plane of cameras that have not turned; and what is high and far
+/// (WithoutSky), clouds that drift. Kind, evidence and rung stay. `seed` as for EstimateTwoView;
+/// kinds with a baseline.
 [[nodiscard]] TwoViewGeometry GrowTwoView(const TwoViewGeometry& geometry,
                                           std::span<const Eigen::Vector3d> bearings_a,
                                           std::span<const Eigen::Vector3d> bearings_b,

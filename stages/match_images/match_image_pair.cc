@@ -71,8 +71,10 @@ struct PairMatcher {
       ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
                                 Verify(AcceptNearest(nearest.Nearest(), match_options), strict));
       geometry.rung = MatchRung::kLargest;
-      if (geometry.kind == TwoViewKind::kGeneral) return geometry;
-      if (geometry.kind != TwoViewKind::kNone) return nothing;  // all may show what is off a plane
+      if (geometry.kind == TwoViewKind::kGeneral && geometry.median_angle_rad > 2.0 * MaxError())
+        return geometry;
+      // All may show what is off a plane, or that the camera only turned.
+      if (geometry.kind != TwoViewKind::kNone) return nothing;
     }
   }
 
