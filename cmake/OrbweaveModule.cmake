@@ -76,6 +76,7 @@ function(orbweave_test)
   target_link_libraries(${target} PRIVATE ${T_DEPS} ${T_LIBS} orbweave_warnings GTest::gmock GTest::gtest_main)
   target_compile_options(${target} PRIVATE ${ORBWEAVE_TEST_OPTIONS})
   orbweave_use_pch(${target} test)
+  orbweave_compile_together(${target} 8 ${T_SOURCES})
   target_compile_definitions(${target} PRIVATE ORBWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   include(GoogleTest)
   gtest_discover_tests(${target} TEST_PREFIX "${T_NAME}/" NO_PRETTY_VALUES DISCOVERY_TIMEOUT 120

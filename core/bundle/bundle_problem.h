@@ -21,11 +21,14 @@ struct BundleObservation {
 };
 
 /// Robust prior on a camera centre: |diag(1/sigma) (C + bias[group] - position)|^2 under a Cauchy
-/// loss of one sigma. Cameras of one drive share a bias group; no group, no bias.
+/// loss of loss_sigmas: 1 hardly heeds positions that are off; with several of them positions pull
+/// back a street that has drifted off by as many sigmas. Cameras of one drive share a bias group;
+/// no group, no bias.
 struct PositionPrior {
   uint32_t pose = 0;
   Eigen::Vector3d position_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
+  double loss_sigmas = 1.0;
   std::optional<uint32_t> bias_group{};
 };
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <memory>
 
 #include "core/bundle/bearing_residual.h"
@@ -194,7 +195,7 @@ struct CeresBundle {
   std::vector<Eigen::Vector3d> biases{};
   Eigen::Vector3d no_bias = Eigen::Vector3d::Zero();
   PoseManifold manifold{};
-  ceres::CauchyLoss prior_loss{1.0};
+  std::deque<ceres::CauchyLoss> position_losses{};
   std::unique_ptr<ceres::LossFunction> loss{};
   std::unique_ptr<ceres::Problem> problem{};
   uint32_t num_free_poses = 0;
@@ -260,7 +261,7 @@ void AddPositionPriors(const BundleProblem& problem, CeresBundle& bundle) {
         prior.bias_group ? bundle.biases[*prior.bias_group].data() : bundle.no_bias.data();
     bundle.problem->AddResidualBlock(new ceres::AutoDiffCostFunction<PositionCost, 3, 7, 3>(
                                          new PositionCost{prior.position_in_world, prior.sigma_m}),
-                                     &bundle.prior_loss,
+                                     &bundle.position_losses.emplace_back(prior.loss_sigmas),
                                      bundle.poses[prior.pose].data(),
                                      bias);
   }

@@ -3,10 +3,9 @@
 
 #include "core/bundle/prior_terms.h"
 
-#include <cmath>
-
 #include "core/bundle/bearing_term.h"
 #include "core/geometry/rotation.h"
+#include "core/robust/loss.h"
 
 namespace orbweave {
 namespace {
@@ -36,7 +35,7 @@ void AddPositionTerms(const BundleProblem& problem,
                       ReducedSystem& system) {
   for (const PositionPrior& prior : problem.position_priors) {
     const Eigen::Vector3d residual = WhitenedResidual(prior, state);
-    const double loss_weight = 1.0 / (1.0 + residual.squaredNorm());
+    const double loss_weight = CauchyLoss(prior.loss_sigmas).Weight(residual.squaredNorm());
     const Eigen::Vector3d weight = loss_weight * prior.sigma_m.cwiseAbs2().cwiseInverse();
     const Eigen::Vector3d gradient = loss_weight * residual.cwiseQuotient(prior.sigma_m);
     const uint32_t pose = layout.pose_block[prior.pose];
@@ -91,7 +90,7 @@ Eigen::Vector3d WhitenedResidual(const PositionPrior& prior, const BundleState& 
 double PriorCost(const BundleProblem& problem, const BundleState& state) {
   double cost = 0.0;
   for (const PositionPrior& prior : problem.position_priors) {
-    cost += 0.5 * std::log1p(WhitenedResidual(prior, state).squaredNorm());
+    cost += 0.5 * CauchyLoss(prior.loss_sigmas).Cost(WhitenedResidual(prior, state).squaredNorm());
   }
   for (size_t g = 0; g < state.biases.size(); ++g) {
     const double sigma = problem.bias_sigma_m[g];

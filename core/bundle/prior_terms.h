@@ -14,8 +14,8 @@ namespace orbweave {
 [[nodiscard]] Eigen::Vector3d WhitenedResidual(const PositionPrior& prior,
                                                const BundleState& state);
 
-/// Half the Cauchy losses (scale one sigma) of the position priors, the squares of the biases and
-/// those of the direction priors.
+/// Half the Cauchy losses (PositionPrior::loss_sigmas) of the position priors, the squares of the
+/// biases and those of the direction priors.
 [[nodiscard]] double PriorCost(const BundleProblem& problem, const BundleState& state);
 
 /// Their normal equations. A bias takes a block whose rotation rows stand alone.

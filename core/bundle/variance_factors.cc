@@ -41,9 +41,11 @@ Eigen::Vector3d PositionVarianceFactors(const BundleProblem& problem, const Bund
   Eigen::Vector3d squared_slopes = Eigen::Vector3d::Zero();
   for (const PositionPrior& prior : problem.position_priors) {
     const Eigen::Vector3d r2 = WhitenedResidual(prior, state).cwiseAbs2();
-    const double weight = 1.0 / (1.0 + r2.sum());
+    const double scale2 = prior.loss_sigmas * prior.loss_sigmas;
+    const double weight = 1.0 / (1.0 + r2.sum() / scale2);
     squares += weight * weight * r2;
-    const Eigen::Vector3d slope = Eigen::Vector3d::Constant(weight) - 2.0 * weight * weight * r2;
+    const Eigen::Vector3d slope =
+        Eigen::Vector3d::Constant(weight) - 2.0 / scale2 * weight * weight * r2;
     slopes += slope;
     squared_slopes += slope.cwiseAbs2();
   }

@@ -6,13 +6,14 @@
 #include <algorithm>
 
 #include "core/features/descriptor_distance.h"
+#include "core/geometry/rotation.h"
 
 namespace orbweave {
 namespace {
 
 /// Rotation that takes the axis to z.
 Eigen::Quaterniond AxialFrame(const Eigen::Vector3d& axis) {
-  return Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ());
+  return RotationBetween(axis, Eigen::Vector3d::UnitZ());
 }
 
 void Update(NearestTwo& nearest, int32_t distance, FeatureIndex index) {

@@ -34,6 +34,10 @@ double RotationAngle(const Eigen::Quaterniond& q) {
   return 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
 }
 
+Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& bearing) {
   int axis = 0;
   bearing.cwiseAbs().minCoeff(&axis);

@@ -19,6 +19,10 @@ Eigen::Vector3d VectorFromRotation(const Eigen::Quaterniond& q);
 /// Angle of a rotation in radians, in [0, pi].
 double RotationAngle(const Eigen::Quaterniond& q);
 
+/// The shortest rotation that turns the non-zero vector `from` into the direction of `to`; of
+/// opposite vectors half a turn about some axis orthogonal to them.
+Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// Two unit columns that span the plane orthogonal to the unit vector `bearing` (3x2). Chosen
 /// without a singular direction jump at the poles or the seam: the axis least aligned with it.
 Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& bearing);

@@ -13,6 +13,8 @@ namespace orbweave {
 namespace {
 
 constexpr double kMinSigmaPx = 0.1;
+/// So many of its stated sigmas off a position begins to lose weight.
+constexpr double kStatedSigmas = 3.0;
 constexpr uint32_t kNoPose = std::numeric_limits<uint32_t>::max();
 
 /// Poses of the bundle problem: slots in order, and the inverse.
@@ -48,6 +50,22 @@ void AddPoint(const MappingState& state,
   }
 }
 
+/// The poses of the problem begin with those of `images`.
+void AddPositions(const MappingState& state,
+                  std::span<const ImageSlot> images,
+                  BundleProblem& problem) {
+  for (uint32_t pose = 0; pose < images.size(); ++pose) {
+    const PosePrior& prior = state.Problem().images[images[pose]].prior;
+    if (!prior.position_in_enu) continue;
+    const Eigen::Vector3d sigma_m = {
+        prior.horizontal_sigma_m, prior.horizontal_sigma_m, prior.vertical_sigma_m};
+    problem.position_priors.push_back({.pose = pose,
+                                       .position_in_world = *prior.position_in_enu,
+                                       .sigma_m = state.PositionFactor() * sigma_m,
+                                       .loss_sigmas = kStatedSigmas / state.PositionFactor()});
+  }
+}
+
 }  // namespace
 
 double NodeSigma(const MappingState& state, Node node) {
@@ -66,6 +84,8 @@ absl::StatusOr<BundleReport> AdjustPart(MappingState& state,
   table.pose_of_slot.assign(state.Graph().NumImages(), kNoPose);
   for (const ImageSlot image : images) AddPose(state, image, false, table, problem);
   for (const PointIndex point : points) AddPoint(state, point, table, problem);
+
+  if (state.IsInEnu()) AddPositions(state, images, problem);
 
   ORBWEAVE_ASSIGN_OR_RETURN(BundleReport report, AdjustBundle(problem, options, context));
   for (size_t i = 0; i < images.size(); ++i) state.SetPose(images[i], problem.cams_from_world[i]);

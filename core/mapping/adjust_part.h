@@ -12,8 +12,10 @@
 namespace orbweave {
 
 /// Adjusts the poses of `images` and the positions of `points` to all observations of those points;
-/// other images that see them are held. Writes the result back. `images` and `points`: registered
-/// and existing, without repetition. Cancelled when asked to stop; the state is then unchanged.
+/// other images that see them are held. Where the state is in east, north and up, its images are
+/// held to their GNSS positions too (PositionPrior). Writes the result back. `images` and `points`:
+/// registered and existing, without repetition. Cancelled when asked to stop; the state is then
+/// unchanged.
 [[nodiscard]] absl::StatusOr<BundleReport> AdjustPart(MappingState& state,
                                                       std::span<const ImageSlot> images,
                                                       std::span<const PointIndex> points,

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "core/averaging/average_differences.h"
-#include "core/base/quantile.h"
+#include "core/base/shortest_half.h"
 #include "core/graph/disjoint_sets.h"
 
 namespace orbweave {
@@ -21,6 +21,14 @@ constexpr size_t kMinShared = 8;
 constexpr int kMaxPartners = 4;
 /// Towards the baseline itself depths are as good as unknown.
 constexpr double kMinSine = 0.05;
+/// Directions of baselines are no better than half a degree, nor are depths with them.
+constexpr double kRatioFloor = 0.01;
+/// A ratio is clear where its half lies within a fifth.
+constexpr double kClearWidth = 0.2;
+/// Steps of GNSS that say less than this say nothing: their lengths are those of the noise. None
+/// counts as better than a tenth: a wrong position makes long steps, which seem the most exact.
+constexpr double kMaxStepSigma = 0.5;
+constexpr double kMinStepSigma = 0.1;
 
 /// The depth of a ray as one pair has it.
 struct DepthSample {
@@ -60,6 +68,33 @@ std::vector<DepthSample> SampleDepths(const ClusterProblem& problem,
   return samples;
 }
 
+/// log s_b - log s_a of two pairs, by the rays that they share in one image.
+struct Ratio {
+  SeenRatio seen{};
+  double sigma = 1.0;
+  bool is_clear = false;
+};
+
+/// From where they lie closest, and those near.
+Ratio RatioOf(uint32_t a, uint32_t b, const std::vector<double>& samples) {
+  constexpr double kNear = 2.5;
+  constexpr double kMedianOfNormal = 0.6745;
+  const Interval half = ShortestHalf(samples);
+  const double width = std::max(half.high - half.low, kRatioFloor);
+  const double sigma = 0.5 * width / kMedianOfNormal;
+  const double centre = 0.5 * (half.low + half.high);
+  double sum = 0.0;
+  double near = 0.0;
+  for (const double sample : samples) {
+    if (std::abs(sample - centre) > kNear * sigma) continue;
+    sum += sample;
+    near += 1.0;
+  }
+  return {.seen = {a, b, sum / near},
+          .sigma = std::hypot(sigma / std::sqrt(near), kRatioFloor),
+          .is_clear = width <= kClearWidth};
+}
+
 /// What two pairs say of the ratio of their baselines in one image: a sample per shared ray.
 class RatioTable {
  public:
@@ -80,20 +115,16 @@ class RatioTable {
     }
   }
 
-  /// Appends edges between pairs with enough shared rays: those that share most first, as long as
-  /// one of the two has few edges yet.
-  void AppendEdges(DifferenceGraph& graph,
-                   std::vector<double>& ratios,
-                   std::vector<double>& counts) {
+  /// Appends ratios of pairs with enough shared rays: those that share most first, as long as one
+  /// of the two has few yet.
+  void Append(std::vector<Ratio>& ratios) {
     std::vector<int> edges_of(pairs_.size(), 0);
     for (const auto& [i, j] : RankedCells()) {
       if (std::min(edges_of[i], edges_of[j]) >= kMaxPartners) continue;
       ++edges_of[i];
       ++edges_of[j];
       const std::vector<double>& cell = cells_[i * pairs_.size() + j];
-      graph.edges.push_back({pairs_[i], pairs_[j]});
-      ratios.push_back(UpperMedian(cell));
-      counts.push_back(static_cast<double>(cell.size()));
+      ratios.push_back(RatioOf(pairs_[i], pairs_[j], cell));
     }
   }
 
@@ -131,49 +162,99 @@ class RatioTable {
   std::vector<std::vector<double>> cells_{};
 };
 
-DifferenceGraph CompareBaselines(const CorrespondenceGraph& graph,
-                                 const std::vector<DepthSample>& samples,
-                                 uint32_t num_pairs) {
-  DifferenceGraph ratios_graph{.num_nodes = num_pairs};
-  std::vector<double> ratios;
-  std::vector<double> counts;
+std::vector<Ratio> CompareBaselines(const CorrespondenceGraph& graph,
+                                    const std::vector<DepthSample>& samples,
+                                    uint32_t num_pairs) {
+  std::vector<Ratio> ratios;
   RatioTable table(num_pairs);
   for (size_t from = 0, to = 0; from < samples.size(); from = to) {
     const Node end = graph.first_node[graph.image_of_node[samples[from].node] + 1];
     while (to < samples.size() && samples[to].node < end) ++to;
     table.Fill(std::span(samples).subspan(from, to - from));
-    table.AppendEdges(ratios_graph, ratios, counts);
+    table.Append(ratios);
   }
-  const auto count = static_cast<Eigen::Index>(ratios.size());
-  ratios_graph.differences = Eigen::Map<const Eigen::VectorXd>(ratios.data(), count);
-  ratios_graph.weights = Eigen::Map<const Eigen::VectorXd>(counts.data(), count);
-  return ratios_graph;
+  return ratios;
 }
+
+double FactorOf(std::span<const GnssStep> steps, const std::vector<Ratio>& ratios) {
+  std::vector<SeenRatio> clear;
+  for (const Ratio& ratio : ratios) {
+    if (ratio.is_clear) clear.push_back(ratio.seen);
+  }
+  return FactorOfSteps(steps, clear);
+}
+
+/// The logarithms of lengths as node values; the last node is the metre, where there are steps.
+class LengthGraph {
+ public:
+  LengthGraph(uint32_t num_pairs, const std::vector<Ratio>& ratios, std::span<const GnssStep> steps)
+      : metre_(num_pairs) {
+    for (const Ratio& ratio : ratios)
+      Add(ratio.seen.a, ratio.seen.b, ratio.seen.log_ratio, ratio.sigma);
+    if (!steps.empty()) factor_ = FactorOf(steps, ratios);
+    for (uint32_t i = 0; i < steps.size(); ++i) {
+      const double sigma = factor_ * steps[i].sigma;
+      if (sigma <= kMaxStepSigma)
+        Add(metre_, i, steps[i].log_length, std::max(sigma, kMinStepSigma));
+    }
+  }
+
+  absl::StatusOr<BaselineLengths> Solve(const StageContext& context) const {
+    DifferenceGraph graph{.num_nodes = metre_ + 1, .edges = edges_};
+    const auto count = static_cast<Eigen::Index>(edges_.size());
+    graph.differences = Eigen::Map<const Eigen::VectorXd>(differences_.data(), count);
+    graph.weights = Eigen::Map<const Eigen::VectorXd>(weights_.data(), count);
+    ORBWEAVE_ASSIGN_OR_RETURN(const AveragedDifferences averaged,
+                              AverageDifferences(graph, context));
+    DisjointSets sets(metre_ + 1);
+    for (const GraphEdge& edge : edges_) sets.Unite(edge.a, edge.b);
+    const uint32_t largest = LargestSet(sets);
+    BaselineLengths found{.lengths = std::vector<double>(metre_, 0.0),
+                          .in_metres = sets.Find(metre_) == sets.Find(largest),
+                          .step_factor = factor_};
+    const double unit = found.in_metres ? averaged.values(metre_, 0) : 0.0;
+    for (uint32_t i = 0; i < metre_; ++i) {
+      if (sets.Find(i) == sets.Find(largest))
+        found.lengths[i] = std::exp(averaged.values(i, 0) - unit);
+    }
+    return found;
+  }
+
+ private:
+  void Add(uint32_t a, uint32_t b, double difference, double sigma) {
+    edges_.push_back({a, b});
+    differences_.push_back(difference);
+    weights_.push_back(1.0 / (sigma * sigma));
+  }
+
+  /// A member of it.
+  [[nodiscard]] uint32_t LargestSet(DisjointSets& sets) const {
+    uint32_t largest = 0;
+    for (uint32_t i = 0; i < metre_; ++i) {
+      if (sets.SizeOf(i) > sets.SizeOf(largest)) largest = i;
+    }
+    return largest;
+  }
+
+  uint32_t metre_;
+  double factor_ = 1.0;
+  std::vector<GraphEdge> edges_{};
+  std::vector<double> differences_{};
+  std::vector<double> weights_{};
+};
 
 }  // namespace
 
-absl::StatusOr<std::vector<double>> AverageBaselines(const ClusterProblem& problem,
-                                                     const CorrespondenceGraph& graph,
-                                                     std::span<const uint32_t> pairs,
-                                                     double min_angle_rad,
-                                                     const StageContext& context) {
+absl::StatusOr<BaselineLengths> AverageBaselines(const ClusterProblem& problem,
+                                                 const CorrespondenceGraph& graph,
+                                                 std::span<const uint32_t> pairs,
+                                                 std::span<const GnssStep> steps,
+                                                 double min_angle_rad,
+                                                 const StageContext& context) {
   const auto num_pairs = static_cast<uint32_t>(pairs.size());
-  const DifferenceGraph ratios =
+  const std::vector<Ratio> ratios =
       CompareBaselines(graph, SampleDepths(problem, graph, pairs, min_angle_rad), num_pairs);
-  ORBWEAVE_ASSIGN_OR_RETURN(const AveragedDifferences averaged,
-                            AverageDifferences(ratios, context));
-
-  DisjointSets sets(num_pairs);
-  for (const GraphEdge& edge : ratios.edges) sets.Unite(edge.a, edge.b);
-  uint32_t largest = 0;
-  for (uint32_t i = 0; i < num_pairs; ++i) {
-    if (sets.SizeOf(i) > sets.SizeOf(largest)) largest = i;
-  }
-  std::vector<double> lengths(num_pairs, 0.0);
-  for (uint32_t i = 0; i < num_pairs; ++i) {
-    if (sets.Find(i) == sets.Find(largest)) lengths[i] = std::exp(averaged.values(i, 0));
-  }
-  return lengths;
+  return LengthGraph(num_pairs, ratios, steps).Solve(context);
 }
 
 }  // namespace orbweave

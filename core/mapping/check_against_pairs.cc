@@ -10,6 +10,7 @@
 #include "core/base/quantile.h"
 #include "core/geometry/epipolar.h"
 #include "core/graph/disjoint_sets.h"
+#include "core/mapping/position_agreement.h"
 #include "core/mapping/reconstructed_share.h"
 #include "core/mapping/register_image.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kMinAgreeingMatches = 0.5;
 constexpr double kErrorFloorPx = 0.1;
+constexpr double kMinAgreeingPositions = 0.9;
 
 std::vector<LinkedPair> RegisteredPairs(const MappingState& state) {
   std::vector<LinkedPair> pairs;
@@ -94,6 +96,8 @@ PairCheck CheckAgainstPairs(const MappingState& state, const MappingOptions& opt
   check.explained_share /= all;
   check.agreeing_share /= all;
   check.joined_share = JoinedShare(state, pairs);
+  check.is_joined_by_positions =
+      state.IsInEnu() && AgreementWithPositions(state).value_or(0.0) >= kMinAgreeingPositions;
   const std::vector<double> medians = ImageMedians(state);
   if (!medians.empty()) {
     check.worst_image_ratio =
@@ -112,7 +116,7 @@ std::string FaultOf(const PairCheck& check) {
   if (check.explained_share < kMinExplained) {
     return "only " + Percent(check.explained_share) + " of the matches are explained";
   }
-  if (check.joined_share < 1.0) {
+  if (check.joined_share < 1.0 && !check.is_joined_by_positions) {
     return "only " + Percent(check.joined_share) + " of its images are joined by common points";
   }
   if (check.worst_image_ratio > kMaxImageRatio) {

@@ -22,6 +22,9 @@ struct PairCheck {
   /// Share of the images in the largest set that is joined by pairs of which a quarter of the
   /// matches ended in a common point, as registration asks for.
   double joined_share = 0.0;
+  /// Whether GNSS says where images are that no common points join: the state is in east, north and
+  /// up, and nine tenths of its images lie where their positions are (AgreementWithPositions).
+  bool is_joined_by_positions = false;
   /// The largest of the images' median errors over the median of those medians: 1 where all images
   /// are alike; much more where the model is of two minds.
   double worst_image_ratio = 0.0;

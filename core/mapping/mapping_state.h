@@ -34,6 +34,13 @@ class MappingState {
   [[nodiscard]] const ClusterProblem& Problem() const { return *problem_; }
   [[nodiscard]] const CorrespondenceGraph& Graph() const { return *graph_; }
 
+  /// Whether the world is east, north and up in metres, and adjustments hold images to their
+  /// positions there (AdjustPart).
+  [[nodiscard]] bool IsInEnu() const { return position_factor_ > 0.0; }
+  /// By what the stated sigmas of positions are then multiplied.
+  [[nodiscard]] double PositionFactor() const { return position_factor_; }
+  void SetInEnu(double position_factor) { position_factor_ = position_factor; }
+
   /// Registered images in order of registration.
   [[nodiscard]] const std::vector<ImageSlot>& Registered() const { return registered_; }
   [[nodiscard]] bool IsRegistered(ImageSlot image) const { return is_registered_[image] != 0; }
@@ -85,6 +92,7 @@ class MappingState {
   std::vector<uint32_t> visible_neighbours_{};  ///< per node: neighbours with a point
   std::vector<uint8_t> cell_of_node_{};
   std::vector<VisibilityPyramid> visible_{};
+  double position_factor_ = 0.0;
   uint32_t num_points_ = 0;
   uint32_t num_observations_ = 0;
 };

@@ -3,12 +3,15 @@
 
 #include "core/mapping/place_by_pairs.h"
 
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "core/averaging/average_differences.h"
 #include "core/averaging/average_rotations.h"
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/average_baselines.h"
+#include "core/mapping/place_in_enu.h"
 
 namespace orbweave {
 namespace {
@@ -81,6 +84,22 @@ DifferenceGraph DisplacementGraph(const ViewGraph& view_graph,
   return graph;
 }
 
+/// Drops what joins other images.
+void KeepEdgesAmong(const std::vector<ImageSlot>& images, DifferenceGraph& graph) {
+  Eigen::Index row = 0;
+  std::vector<GraphEdge> kept;
+  for (size_t e = 0; e < graph.edges.size(); ++e) {
+    if (!std::ranges::binary_search(images, graph.edges[e].a)) continue;
+    const auto from = static_cast<Eigen::Index>(e);
+    graph.differences.row(row) = graph.differences.row(from).eval();
+    graph.weights[row++] = graph.weights[from];
+    kept.push_back(graph.edges[e]);
+  }
+  graph.edges = std::move(kept);
+  graph.differences.conservativeResize(row, graph.differences.cols());
+  graph.weights.conservativeResize(row);
+}
+
 /// The largest set of images that edges join, ascending; empty without edges.
 std::vector<ImageSlot> LargestPart(const DifferenceGraph& graph) {
   if (graph.edges.empty()) return {};
@@ -119,18 +138,34 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
     edges.push_back(e);
     pairs_of_edges.push_back(pairs[e]);
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      const std::vector<double> lengths,
-      AverageBaselines(problem, graph, pairs_of_edges, min_angle_rad, context));
-  const DifferenceGraph displacements =
-      DisplacementGraph(view_graph, edges, lengths, rotations.cam_from_world);
-  ORBWEAVE_ASSIGN_OR_RETURN(const AveragedDifferences centres,
-                            AverageDifferences(displacements, context));
-
+  ORBWEAVE_ASSIGN_OR_RETURN(const BaselineLengths baselines,
+                            AverageBaselines(problem,
+                                             graph,
+                                             pairs_of_edges,
+                                             GnssSteps(problem, graph, pairs_of_edges),
+                                             min_angle_rad,
+                                             context));
+  DifferenceGraph displacements =
+      DisplacementGraph(view_graph, edges, baselines.lengths, rotations.cam_from_world);
   PairPlacement placement{.images = LargestPart(displacements)};
+  KeepEdgesAmong(placement.images, displacements);
+  std::optional<EnuPlacement> in_enu;
+  if (baselines.in_metres) {
+    ORBWEAVE_ASSIGN_OR_RETURN(in_enu,
+                              PlaceInEnu(problem, placement.images, displacements, context));
+  }
+  if (in_enu) {
+    placement.position_factor = baselines.step_factor;
+  } else {
+    ORBWEAVE_ASSIGN_OR_RETURN(AveragedDifferences averaged,
+                              AverageDifferences(displacements, context));
+    in_enu.emplace(Eigen::Quaterniond::Identity(), std::move(averaged.values));
+  }
+  const EnuPlacement& placed = *in_enu;
   for (const ImageSlot image : placement.images) {
     placement.cams_from_world.push_back(
-        Rigid3::FromCentre(rotations.cam_from_world[image], centres.values.row(image).transpose()));
+        Rigid3::FromCentre(rotations.cam_from_world[image] * placed.enu_from_world.conjugate(),
+                           placed.centres.row(image).transpose()));
   }
   return placement;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,16 +16,20 @@ namespace orbweave {
 struct PairPlacement {
   std::vector<ImageSlot> images{};        ///< ascending
   std::vector<Rigid3> cams_from_world{};  ///< per image
+  /// Where the frame is east, north and up in metres: by what stated sigmas of positions are off
+  /// between neighbours (FactorOfSteps).
+  std::optional<double> position_factor{};
 };
 
 /// Poses of all images at once from pairs alone: rotations by AverageRotations, lengths of
 /// baselines by AverageBaselines, then centres that agree with most displacements, C_b - C_a = s
 /// R_a^T c with the unit baseline c in camera a (AverageDifferences). Noise of the rays turns a
 /// baseline the more the smaller the angles under which points see it: a displacement is as exact
-/// as s / angle. Pairs whose rotation most others contradict take no part; those without depth give
-/// no displacement. Holds the largest set of `available` images that displacements join, which may
-/// be empty. Good to the exactness of pairs: a start for an adjustment. Cancelled when asked to
-/// stop.
+/// as s / angle. Where GNSS has steps their lengths take part, and with positions enough
+/// (PlaceInEnu) centres are in east, north and up and agree with these too. Pairs whose rotation
+/// most others contradict take no part; those without depth give no displacement. Holds the largest
+/// set of `available` images that displacements join, which may be empty. Good to the exactness of
+/// pairs: a start for an adjustment. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
                                                          const CorrespondenceGraph& graph,
                                                          std::span<const uint8_t> available,

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/geometry/rotation.h"
 #include "core/robust/loss.h"
 
 namespace orbweave {
@@ -46,7 +47,7 @@ std::optional<Eigen::Quaterniond> UprightFromWorld(const MappingState& state,
   for (const ImageSlot image : images)
     sum -= state.CamFromWorld(image).rotation.conjugate() * Vector3d::UnitY();
   if (sum.norm() < kMinUpright * static_cast<double>(images.size())) return std::nullopt;
-  return Eigen::Quaterniond::FromTwoVectors(sum, Vector3d::UnitZ());
+  return RotationBetween(sum, Vector3d::UnitZ());
 }
 
 std::vector<Station> StationsOf(const MappingState& state,

@@ -3,6 +3,8 @@
 
 #include "core/mapping/start_globally.h"
 
+#include <algorithm>
+
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/mapping_schedule.h"
@@ -15,6 +17,9 @@ namespace {
 /// Centres from pairs are good to some hundredths of a step: points are first made under limits so
 /// many times as wide.
 constexpr double kSlack = 4.0;
+/// What positions have wrong in common cancels in steps, by which their exactness is measured, and
+/// not in positions.
+constexpr double kLeastFactor = 0.2;
 
 /// Images that see less of the model than registration demands.
 std::vector<ImageSlot> FindUnsupported(const MappingState& state, const MappingOptions& options) {
@@ -41,6 +46,8 @@ absl::StatusOr<bool> StartGlobally(MappingState& state,
   ORBWEAVE_ASSIGN_OR_RETURN(
       const PairPlacement placement,
       PlaceByPairs(state.Problem(), state.Graph(), available, options, context));
+  if (placement.position_factor)
+    state.SetInEnu(std::clamp(*placement.position_factor, kLeastFactor, 1.0));
   for (size_t i = 0; i < placement.images.size(); ++i) {
     state.Register(placement.images[i], placement.cams_from_world[i]);
   }

@@ -43,7 +43,7 @@ bool StatesTilt(const PosePrior& prior) { return prior.pitch_deg && prior.roll_d
 Eigen::Matrix3d LevelFromCamera(const PosePrior& prior) {
   const Eigen::Vector3d down =
       DownInCamera(kRadPerDeg * *prior.pitch_deg, kRadPerDeg * *prior.roll_deg);
-  return Eigen::Quaterniond::FromTwoVectors(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return RotationBetween(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
 }
 
 Attitudes AttitudesOf(const Reconstruction& reconstruction,

@@ -43,7 +43,7 @@ std::optional<Eigen::Vector3d> FindGravity(const Reconstruction& reconstruction)
 }
 
 Eigen::Quaterniond UprightFromDown(const Eigen::Vector3d& down) {
-  return Eigen::Quaterniond::FromTwoVectors(down, -Eigen::Vector3d::UnitZ());
+  return RotationBetween(down, -Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace orbweave

@@ -44,6 +44,24 @@ TEST(VectorFromRotation, TakesTheShortWayForEitherSign) {
   EXPECT_LT((VectorFromRotation(q) - VectorFromRotation(negated)).norm(), 1e-15);
 }
 
+TEST(RotationBetween, TakesTheShortestWay) {
+  Random random(3);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vector3d from = 3.0 * RandomDirection(random);
+    const Vector3d to = 0.5 * RandomDirection(random);
+    const Quaterniond rotation = RotationBetween(from, to);
+    EXPECT_LT((rotation * from.normalized() - to.normalized()).norm(), 1e-12);
+    EXPECT_NEAR(RotationAngle(rotation), AngleBetween(from, to), 1e-9);
+  }
+}
+
+TEST(RotationBetween, TurnsOppositeVectorsByHalfATurn) {
+  const Vector3d from(0.0, 1.0, 0.0);
+  const Quaterniond rotation = RotationBetween(from, -from);
+  EXPECT_LT((rotation * from + from).norm(), 1e-7);
+  EXPECT_NEAR(RotationAngle(rotation), pi, 1e-7);
+}
+
 TEST(SkewSymmetric, IsTheCrossProduct) {
   const Vector3d v(1, -2, 3);
   const Vector3d w(0.4, 5, -6);

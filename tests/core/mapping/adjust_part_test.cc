@@ -24,6 +24,24 @@ TEST(AdjustPart, MovesADisplacedImageBackAndHoldsTheOthers) {
   EXPECT_EQ(state.CamFromWorld(1).translation, street.world.cams_from_world[1].translation);
 }
 
+TEST(AdjustPart, HoldsImagesToTheirPositionsInEnu) {
+  StreetFixture street({.centres = StraightWalk(6, 3.0), .random_rotations = true});
+  for (ImageSlot image = 0; image < 6; ++image) {
+    PosePrior& prior = street.world.problem.images[image].prior;
+    prior.position_in_enu = Eigen::Vector3d(1.0 + 3.6 * image, 1.0, 0.5);
+    prior.horizontal_sigma_m = prior.vertical_sigma_m = 1.0;
+  }
+  for (const bool in_enu : {false, true}) {
+    MappingState state = street.TriangulatedStateWith(FirstImages(6));
+    if (in_enu) state.SetInEnu(1.0);
+    ASSERT_TRUE(AdjustPart(state, FirstImages(6), AllPoints(state), {}, {}).ok());
+    const double step = (state.Centre(5) - state.Centre(0)).norm() / 5.0;
+    EXPECT_NEAR(step, in_enu ? 3.6 : 3.0, 0.01);
+    const double off = (state.Centre(3) - Eigen::Vector3d(11.8, 1.0, 0.5)).norm();
+    EXPECT_EQ(off < 0.05, in_enu);
+  }
+}
+
 TEST(AdjustPart, LeavesTheStateAloneWhenCancelled) {
   const StreetFixture street({.centres = StraightWalk(3, 3.0)});
   MappingState state = street.TriangulatedStateWith(FirstImages(3));

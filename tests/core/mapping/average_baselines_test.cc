@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "tests/core/mapping/true_state.h"
+#include "tests/core/mapping/broken_street.h"
 
 namespace orbweave {
 namespace {
@@ -33,10 +33,10 @@ std::vector<uint32_t> AllPairs(const StreetFixture& street) {
 }
 
 std::vector<double> Averaged(const StreetFixture& street, std::span<const uint32_t> pairs) {
-  const auto lengths =
-      AverageBaselines(street.world.problem, street.graph, pairs, kMinAngleRad, {});
-  EXPECT_TRUE(lengths.ok()) << lengths.status();
-  return lengths.ok() ? *lengths : std::vector<double>(pairs.size(), 0.0);
+  const auto found =
+      AverageBaselines(street.world.problem, street.graph, pairs, {}, kMinAngleRad, {});
+  EXPECT_TRUE(found.ok()) << found.status();
+  return found.ok() ? found->lengths : std::vector<double>(pairs.size(), 0.0);
 }
 
 /// Largest deviation of length / true length from that of the first pair, as a share of it.
@@ -85,6 +85,30 @@ TEST(AverageBaselines, IsZeroForPairsThatNoSharedRaysJoin) {
   for (size_t i = 0; i < pairs.size(); ++i) {
     EXPECT_EQ(lengths[i] > 0.0, street.graph.pairs[pairs[i]].a < 8) << i;
   }
+}
+
+TEST(AverageBaselines, IsInMetresWhereGnssHasTheSteps) {
+  BrokenStreet street({});
+  street.DetachPairsBetween();
+  const ClusterProblem& problem = street.World().problem;
+  std::vector<uint32_t> pairs(street.Graph().pairs.size());
+  std::iota(pairs.begin(), pairs.end(), 0U);
+  const std::vector<GnssStep> steps = GnssSteps(problem, street.Graph(), pairs);
+  const auto with = AverageBaselines(problem, street.Graph(), pairs, steps, kMinAngleRad, {});
+  const auto without = AverageBaselines(problem, street.Graph(), pairs, {}, kMinAngleRad, {});
+  ASSERT_TRUE(with.ok() && without.ok());
+  EXPECT_TRUE(with->in_metres);
+  EXPECT_FALSE(without->in_metres);
+  uint32_t unknown = 0;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const LinkedPair& pair = street.Graph().pairs[pairs[i]];
+    const double truth = (street.PlaceInEnu(pair.a) - street.PlaceInEnu(pair.b)).norm();
+    const bool is_between =
+        pair.a < BrokenStreet::kFirstOfSecond && pair.b >= BrokenStreet::kFirstOfSecond;
+    EXPECT_NEAR(with->lengths[i] / truth, 1.0, is_between ? 0.5 : 0.15) << pair.a << " " << pair.b;
+    unknown += without->lengths[i] == 0.0 ? 1U : 0U;
+  }
+  EXPECT_GT(unknown, pairs.size() / 3) << "one side and what is between";
 }
 
 TEST(AverageBaselines, HasNothingToSayWithoutPairs) {

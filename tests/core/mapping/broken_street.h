@@ -58,6 +58,25 @@ class BrokenStreet {
     return Part(kFirstOfSecond, kImages, TrueAFromB().Inverse());
   }
 
+  /// The pairs between no longer share a ray with any other pair: nothing that is seen carries the
+  /// scale from one side to the other.
+  void DetachPairsBetween() {
+    for (TwoViewGeometry& pair : fixture_.world.problem.pairs) {
+      if (!IsBetween(pair)) continue;
+      for (FeatureMatch& match : pair.inliers) {
+        match.a = CopyFeature(pair.pair.a.value, match.a);
+        match.b = CopyFeature(pair.pair.b.value, match.b);
+      }
+    }
+    Rebuild();
+  }
+
+  /// Where an image truly is in east, north and up.
+  [[nodiscard]] Eigen::Vector3d PlaceInEnu(uint32_t image) const {
+    const Eigen::Vector3d C = fixture_.world.cams_from_world[image].Centre();
+    return {C.x(), C.z(), -C.y()};
+  }
+
   [[nodiscard]] RayStreet& World() { return fixture_.world; }
   [[nodiscard]] const CorrespondenceGraph& Graph() const { return fixture_.graph; }
   void Rebuild() { fixture_.graph = BuildCorrespondenceGraph(fixture_.world.problem).value(); }
@@ -75,6 +94,18 @@ class BrokenStreet {
       centres.emplace_back(x, 0.0, 0.002 * x * x);
     }
     return centres;
+  }
+
+  FeatureIndex CopyFeature(uint32_t image, FeatureIndex feature) {
+    ClusterImage& of = fixture_.world.problem.images[image];
+    // Beside it: what is at the same place is one node.
+    const Eigen::Vector3d bearing = of.bearings[feature];
+    of.bearings.push_back((bearing + 3e-4 * TangentBasis(bearing).col(0)).normalized());
+    of.sigma_rad.push_back(of.sigma_rad[feature]);
+    of.colors.push_back(of.colors[feature]);
+    std::vector<int>& shown = fixture_.world.point_of_feature[image];
+    shown.push_back(shown[feature]);
+    return static_cast<FeatureIndex>(of.bearings.size() - 1);
   }
 
   void GiveGnss() {

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "tests/core/mapping/broken_street.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/true_state.h"
 
@@ -82,6 +85,51 @@ TEST(PlaceByPairs, PlacesNothingWhereTheCameraNeverMoves) {
   const StreetFixture street({.centres = StraightWalk(6, 0.0), .points_per_metre = 80});
   ASSERT_FALSE(street.graph.pairs.empty());
   EXPECT_TRUE(Placed(street).images.empty());
+}
+
+/// Largest distance from where images truly are.
+double WorstInEnu(const BrokenStreet& street, const PairPlacement& placement) {
+  double worst = 0.0;
+  for (size_t i = 0; i < placement.images.size(); ++i) {
+    worst = std::max(
+        worst,
+        (placement.cams_from_world[i].Centre() - street.PlaceInEnu(placement.images[i])).norm());
+  }
+  return worst;
+}
+
+PairPlacement PlacedBroken(BrokenStreet& street) {
+  street.DetachPairsBetween();
+  const std::vector<uint8_t> available(BrokenStreet::kImages, 1);
+  const auto placement = PlaceByPairs(street.World().problem, street.Graph(), available, {}, {});
+  EXPECT_TRUE(placement.ok()) << placement.status();
+  return placement.ok() ? *placement : PairPlacement{};
+}
+
+TEST(PlaceByPairs, GoesOnByGnssWhereNoRayCarriesTheScale) {
+  for (const bool random_rotations : {false, true}) {
+    BrokenStreet street({.random_rotations = random_rotations});
+    const PairPlacement placement = PlacedBroken(street);
+    ASSERT_EQ(placement.images.size(), BrokenStreet::kImages);
+    EXPECT_TRUE(placement.position_factor.has_value());
+    EXPECT_LT(WorstInEnu(street, placement), 3.0);
+  }
+}
+
+TEST(PlaceByPairs, StopsWithoutGnssWhereNoRayCarriesTheScale) {
+  BrokenStreet street({.has_gnss = false});
+  const PairPlacement placement = PlacedBroken(street);
+  EXPECT_EQ(placement.images.size(), BrokenStreet::kFirstOfSecond);
+  EXPECT_FALSE(placement.position_factor.has_value());
+}
+
+TEST(PlaceByPairs, IsNotLedAstrayByAFewPositions) {
+  BrokenStreet street({});
+  for (const uint32_t image : {3U, 14U, 20U})
+    *street.World().problem.images[image].prior.position_in_enu += Eigen::Vector3d(60, -80, 10);
+  const PairPlacement placement = PlacedBroken(street);
+  ASSERT_EQ(placement.images.size(), BrokenStreet::kImages);
+  EXPECT_LT(WorstInEnu(street, placement), 4.0);
 }
 
 }  // namespace

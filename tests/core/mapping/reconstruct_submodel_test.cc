@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/mapping/true_state.h"
+#include "tests/core/mapping/broken_street.h"
 
 namespace orbweave {
 namespace {
@@ -36,6 +36,26 @@ TEST(ReconstructSubmodel, StartsAgainWhereASmallModelCannotGrow) {
   ASSERT_TRUE(result.state.has_value());
   EXPECT_EQ(result.state->Registered().size(), 12U);
   EXPECT_TRUE(result.state->IsRegistered(0));
+}
+
+TEST(ReconstructSubmodel, GoesOnByGnssWhereNoPointCarriesTheScale) {
+  for (const bool has_gnss : {true, false}) {
+    BrokenStreet street({.has_gnss = has_gnss, .random_rotations = true});
+    street.DetachPairsBetween();
+    const std::vector<uint8_t> available(BrokenStreet::kImages, 1);
+    RegistrationLog log(BrokenStreet::kImages);
+    const SubmodelResult result =
+        ReconstructSubmodel(street.World().problem, street.Graph(), available, {}, log, {}).value();
+    ASSERT_TRUE(result.state.has_value());
+    EXPECT_EQ(result.state->IsInEnu(), has_gnss);
+    if (!has_gnss) {
+      EXPECT_EQ(result.state->Registered().size(), BrokenStreet::kFirstOfSecond);
+      continue;
+    }
+    ASSERT_EQ(result.state->Registered().size(), BrokenStreet::kImages);
+    for (ImageSlot image = 0; image < BrokenStreet::kImages; ++image)
+      EXPECT_LT((result.state->Centre(image) - street.PlaceInEnu(image)).norm(), 3.0) << image;
+  }
 }
 
 TEST(ReconstructSubmodel, HasNoAnswerWithoutAPair) {

@@ -9,7 +9,7 @@
 namespace orbweave {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 Track TrackOf(std::vector<FeatureRef> refs) {
   Track track;

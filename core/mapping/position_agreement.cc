@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/position_agreement.h"
+
+#include <cmath>
+#include <vector>
+
+#include "core/estimators/estimate_similarity.h"
+#include "core/robust/loss.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFewestPositions = 10.0;
+constexpr double kMinExtentSigmas = 3.0;
+constexpr double kMaxSigmas = 3.0;
+constexpr int kReweightings = 10;
+
+struct Positions {
+  std::vector<Vector3d> centres{};
+  std::vector<Vector3d> positions{};
+  std::vector<double> sigma_m{};
+};
+
+Positions PositionsOf(const MappingState& state) {
+  Positions found;
+  for (const ImageSlot image : state.Registered()) {
+    const PosePrior& prior = state.Problem().images[image].prior;
+    if (!prior.position_in_enu) continue;
+    found.centres.push_back(state.Centre(image));
+    found.positions.push_back(*prior.position_in_enu);
+    found.sigma_m.push_back(prior.horizontal_sigma_m);
+  }
+  return found;
+}
+
+double ErrorSigmas(const Positions& all, size_t i, const Sim3& enu_from_world) {
+  return (enu_from_world * all.centres[i] - all.positions[i]).head<2>().norm() / all.sigma_m[i];
+}
+
+}  // namespace
+
+bool DoPositionsSpread(const ClusterProblem& problem, std::span<const ImageSlot> images) {
+  Vector3d mean = Vector3d::Zero();
+  double count = 0.0;
+  const auto for_each = [&](const auto& visit) {
+    for (const ImageSlot image : images) {
+      const PosePrior& prior = problem.images[image].prior;
+      if (prior.position_in_enu) visit(*prior.position_in_enu, prior.horizontal_sigma_m);
+    }
+  };
+  for_each([&](const Vector3d& position, double) {
+    mean += position;
+    count += 1.0;
+  });
+  if (count < kFewestPositions) return false;
+  mean /= count;
+  double sum = 0.0;
+  for_each([&](const Vector3d& position, double sigma_m) {
+    sum += (position - mean).head<2>().squaredNorm() / (sigma_m * sigma_m);
+  });
+  return std::sqrt(sum / count) >= kMinExtentSigmas;
+}
+
+std::optional<double> AgreementWithPositions(const MappingState& state) {
+  const Positions all = PositionsOf(state);
+  const size_t count = all.positions.size();
+  if (!DoPositionsSpread(state.Problem(), state.Registered())) return std::nullopt;
+  const CauchyLoss loss(1.0);
+  std::vector<double> weights(count, 1.0);
+  std::optional<Sim3> enu_from_world;
+  for (int round = 0; round <= kReweightings; ++round) {
+    enu_from_world = FitSimilarity(all.centres, all.positions, weights);
+    if (!enu_from_world) return std::nullopt;
+    for (size_t i = 0; i < count; ++i) {
+      const double error = ErrorSigmas(all, i, *enu_from_world);
+      weights[i] = loss.Weight(error * error) / (all.sigma_m[i] * all.sigma_m[i]);
+    }
+  }
+  size_t agreeing = 0;
+  for (size_t i = 0; i < count; ++i)
+    agreeing += ErrorSigmas(all, i, *enu_from_world) <= kMaxSigmas ? 1U : 0U;
+  return static_cast<double>(agreeing) / static_cast<double>(count);
+}
+
+}  // namespace orbweave
