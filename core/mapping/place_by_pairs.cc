@@ -149,23 +149,22 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
       DisplacementGraph(view_graph, edges, baselines.lengths, rotations.cam_from_world);
   PairPlacement placement{.images = LargestPart(displacements)};
   KeepEdgesAmong(placement.images, displacements);
-  std::optional<EnuPlacement> in_enu;
+  std::optional<EnuPlacement> placed;
   if (baselines.in_metres) {
-    ORBWEAVE_ASSIGN_OR_RETURN(in_enu,
+    ORBWEAVE_ASSIGN_OR_RETURN(placed,
                               PlaceInEnu(problem, placement.images, displacements, context));
   }
-  if (in_enu) {
+  if (placed) {
     placement.position_factor = baselines.step_factor;
   } else {
     ORBWEAVE_ASSIGN_OR_RETURN(AveragedDifferences averaged,
                               AverageDifferences(displacements, context));
-    in_enu.emplace(Eigen::Quaterniond::Identity(), std::move(averaged.values));
+    placed = EnuPlacement{.centres = std::move(averaged.values)};
   }
-  const EnuPlacement& placed = *in_enu;
   for (const ImageSlot image : placement.images) {
     placement.cams_from_world.push_back(
-        Rigid3::FromCentre(rotations.cam_from_world[image] * placed.enu_from_world.conjugate(),
-                           placed.centres.row(image).transpose()));
+        Rigid3::FromCentre(rotations.cam_from_world[image] * placed->enu_from_world.conjugate(),
+                           placed->centres.row(image).transpose()));
   }
   return placement;
 }

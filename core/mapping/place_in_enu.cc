@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "core/base/quantile.h"
 #include "core/mapping/position_agreement.h"
@@ -21,7 +21,6 @@ constexpr double kStepShare = 0.1;
 constexpr double kMostOfMedian = 10.0;
 constexpr int kReweightings = 10;
 constexpr double kMinAgreeing = 0.7;
-constexpr double kMaxSigmas = 3.0;
 
 /// The rotation R that makes trace(R^T M) largest.
 Eigen::Quaterniond NearestRotation(const Eigen::Matrix3d& M) {
@@ -108,22 +107,6 @@ absl::StatusOr<Eigen::MatrixXd> Centres(const ClusterProblem& problem,
   return centres;
 }
 
-bool Agree(const ClusterProblem& problem,
-           std::span<const ImageSlot> images,
-           const Eigen::MatrixXd& centres) {
-  size_t all = 0;
-  size_t agreeing = 0;
-  for (const ImageSlot image : images) {
-    const PosePrior& prior = problem.images[image].prior;
-    if (!prior.position_in_enu) continue;
-    const Vector3d centre = centres.row(image).transpose();
-    const double error = (centre - *prior.position_in_enu).head<2>().norm();
-    agreeing += error <= kMaxSigmas * prior.horizontal_sigma_m ? 1U : 0U;
-    ++all;
-  }
-  return static_cast<double>(agreeing) >= kMinAgreeing * static_cast<double>(all);
-}
-
 }  // namespace
 
 absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(const ClusterProblem& problem,
@@ -136,8 +119,10 @@ absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(const ClusterProblem& pro
   TurnToEnu(enu_from_world, displacements);
   ORBWEAVE_ASSIGN_OR_RETURN(Eigen::MatrixXd centres,
                             Centres(problem, images, displacements, context));
-  if (!Agree(problem, images, centres)) return std::optional<EnuPlacement>();
-  return std::optional<EnuPlacement>(std::in_place, enu_from_world, std::move(centres));
+  const auto centre_of = [&](ImageSlot image) -> Vector3d { return centres.row(image); };
+  if (ShareOnPositions(problem, images, centre_of) < kMinAgreeing)
+    return std::optional<EnuPlacement>();
+  return EnuPlacement{enu_from_world, std::move(centres)};
 }
 
 }  // namespace orbweave

@@ -14,11 +14,9 @@ namespace orbweave {
 
 /// Where images are.
 struct EnuPlacement {
-  EnuPlacement(const Eigen::Quaterniond& rotation, Eigen::MatrixXd centres_in_enu)
-      : enu_from_world(rotation), centres(std::move(centres_in_enu)) {}
-
-  Eigen::Quaterniond enu_from_world;  ///< how the frame of the displacements is turned
-  Eigen::MatrixXd centres;            ///< a row per image of the cluster, in metres
+  /// How the frame of the displacements is turned.
+  Eigen::Quaterniond enu_from_world = Eigen::Quaterniond::Identity();
+  Eigen::MatrixXd centres{};  ///< a row per image of the cluster, in metres
 };
 
 /// Centres of images in east, north and up that agree with their displacements, which are in metres

@@ -65,6 +65,21 @@ bool DoPositionsSpread(const ClusterProblem& problem, std::span<const ImageSlot>
   return std::sqrt(sum / count) >= kMinExtentSigmas;
 }
 
+double ShareOnPositions(const ClusterProblem& problem,
+                        std::span<const ImageSlot> images,
+                        const std::function<Vector3d(ImageSlot)>& centre_of) {
+  double all = 0.0;
+  double agreeing = 0.0;
+  for (const ImageSlot image : images) {
+    const PosePrior& prior = problem.images[image].prior;
+    if (!prior.position_in_enu) continue;
+    const double error_m = (centre_of(image) - *prior.position_in_enu).head<2>().norm();
+    agreeing += error_m <= kMaxSigmas * prior.horizontal_sigma_m ? 1.0 : 0.0;
+    all += 1.0;
+  }
+  return agreeing / all;
+}
+
 std::optional<double> AgreementWithPositions(const MappingState& state) {
   const Positions all = PositionsOf(state);
   const size_t count = all.positions.size();
@@ -80,10 +95,9 @@ std::optional<double> AgreementWithPositions(const MappingState& state) {
       weights[i] = loss.Weight(error * error) / (all.sigma_m[i] * all.sigma_m[i]);
     }
   }
-  size_t agreeing = 0;
-  for (size_t i = 0; i < count; ++i)
-    agreeing += ErrorSigmas(all, i, *enu_from_world) <= kMaxSigmas ? 1U : 0U;
-  return static_cast<double>(agreeing) / static_cast<double>(count);
+  return ShareOnPositions(state.Problem(), state.Registered(), [&](ImageSlot image) -> Vector3d {
+    return *enu_from_world * state.Centre(image);
+  });
 }
 
 }  // namespace orbweave

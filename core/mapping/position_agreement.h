@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -13,6 +14,12 @@ namespace orbweave {
 /// from their mean, horizontally) by three sigmas.
 [[nodiscard]] bool DoPositionsSpread(const ClusterProblem& problem,
                                      std::span<const ImageSlot> images);
+
+/// Of those images that have a position, the share whose centre in east, north and up lies within
+/// three horizontal sigmas of it. One at least has a position.
+[[nodiscard]] double ShareOnPositions(const ClusterProblem& problem,
+                                      std::span<const ImageSlot> images,
+                                      const std::function<Eigen::Vector3d(ImageSlot)>& centre_of);
 
 /// Share of the registered images with a GNSS position that come to lie within three horizontal
 /// sigmas of it, under the similarity that fits all best (reweighted least squares, Cauchy). Where

@@ -103,8 +103,7 @@ TEST(AverageBaselines, IsInMetresWhereGnssHasTheSteps) {
   for (size_t i = 0; i < pairs.size(); ++i) {
     const LinkedPair& pair = street.Graph().pairs[pairs[i]];
     const double truth = (street.PlaceInEnu(pair.a) - street.PlaceInEnu(pair.b)).norm();
-    const bool is_between =
-        pair.a < BrokenStreet::kFirstOfSecond && pair.b >= BrokenStreet::kFirstOfSecond;
+    const bool is_between = BrokenStreet::IsBetween(problem.pairs[pair.index]);
     EXPECT_NEAR(with->lengths[i] / truth, 1.0, is_between ? 0.5 : 0.15) << pair.a << " " << pair.b;
     unknown += without->lengths[i] == 0.0 ? 1U : 0U;
   }

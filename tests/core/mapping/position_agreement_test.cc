@@ -21,8 +21,8 @@ std::optional<double> AgreementOf(double stretch, uint32_t with_position = 20) {
   for (int i = 1; i <= 10; ++i) centres.emplace_back(72.0, 0.0, 8.0 * i);
   StreetFixture street({.centres = centres, .points_per_metre = 1, .random_rotations = true});
   const Sim3 enu_from_world{1.7, RotationFromVector({0.3, -2.0, 0.4}), {10.0, -4.0, 7.0}};
-  const Eigen::Quaterniond level = Eigen::Quaterniond::FromTwoVectors(
-      enu_from_world.rotation * -Vector3d::UnitY(), Vector3d::UnitZ());
+  const Eigen::Quaterniond level =
+      RotationBetween(enu_from_world.rotation * -Vector3d::UnitY(), Vector3d::UnitZ());
   Random random(2);
   for (uint32_t i = 0; i < with_position; ++i) {
     PosePrior& prior = street.world.problem.images[i].prior;
