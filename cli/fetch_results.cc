@@ -18,6 +18,7 @@
 #include "stages/plans.h"
 #include "stages/reconstruct_cluster/stage.h"
 #include "stages/review_seams/stage.h"
+#include "stages/select_wider_pairs/stage.h"
 
 namespace orbweave {
 namespace {
@@ -30,6 +31,14 @@ std::vector<std::string> ImageProblems(const JobReader& job) {
     problems.push_back(has_text ? report["problem"].get<std::string>() : "");
   }
   return problems;
+}
+
+/// Nothing of a job on given matches.
+absl::StatusOr<std::optional<WiderPairs>> FetchWiderPairs(const JobPlan& plan, JobReader& job) {
+  const std::string_view stage = SelectWiderPairsStage::kFacts.name;
+  if (std::ranges::find(plan.stages, stage, &StageRule::stage) == plan.stages.end())
+    return std::nullopt;
+  return job.Read(&SelectWiderPairsStage::Outputs::wider);
 }
 
 absl::StatusOr<std::vector<ClusterSummary>> FetchClusters(JobReader& job) {
@@ -92,6 +101,7 @@ absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
   ORBWEAVE_RETURN_IF_ERROR(CheckManifest(results.manifest));
   results.image_problems = ImageProblems(reader);
   results.image_problems.resize(results.manifest.images.size());
+  ORBWEAVE_ASSIGN_OR_RETURN(results.wider_pairs, FetchWiderPairs(plan, reader));
   ORBWEAVE_ASSIGN_OR_RETURN(results.view_graph,
                             reader.Read(&PartitionViewGraphStage::Outputs::divided));
   const Partition& partition = results.view_graph.partition;

@@ -7,20 +7,28 @@
 #include <string>
 
 #include "cli/option_arguments.h"
+#include "cli/store_argument.h"
 #include "core/io/scan_image_folder.h"
 
 namespace orbweave {
 
 /// The arguments that say which images, masks and positions a job is made of.
 inline void AddImageArguments(CLI::App& command, ScanRequest& request) {
-  command.add_option("IMAGES", request.image_folder, "Folder of equirectangular (2:1) images")
+  command
+      .add_option("IMAGES",
+                  request.image_folder,
+                  "Folder of equirectangular (2:1) images, or "
+                  "s3://BUCKET[/PREFIX][?endpoint=https://HOST[:PORT]][&region=R]")
       ->required();
   command.add_option("--gnss",
                      request.gnss_table,
                      "Positions: CSV with name,latitude,longitude,altitude[,accuracy,"
                      "vertical_accuracy,fix,time,drive,heading,pitch,roll,heading_accuracy,"
-                     "pitch_accuracy,roll_accuracy], or POS.txt");
-  command.add_option("--masks", request.mask_folder, "Folder of masks, named like the images");
+                     "pitch_accuracy,roll_accuracy], or POS.txt; a file, or s3://BUCKET/KEY");
+  command.add_option("--masks",
+                     request.mask_folder,
+                     "Folder of masks, named like the images, or s3://BUCKET/PREFIX");
+  AddStoreKeysArgument(command, request.store_keys);
   command
       .add_option("--mask-ignores",
                   request.mask_ignores_white,

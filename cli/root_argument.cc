@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "objects/s3_address.h"
 #include "security/identity.h"
 
 namespace orbweave {
@@ -21,8 +22,10 @@ void AddRootArgument(CLI::App& command,
               const std::string name = text.substr(0, equals);
               if (equals == std::string::npos || !CheckName(name).ok())
                 throw CLI::ValidationError("--root", "'" + text + "' is not NAME=FOLDER");
-              roots[name] =
-                  std::filesystem::absolute(text.substr(equals + 1)).lexically_normal().string();
+              const std::string place = text.substr(equals + 1);
+              roots[name] = IsS3Address(place)
+                                ? place
+                                : std::filesystem::absolute(place).lexically_normal().string();
             }
           },
           help)

@@ -8,7 +8,7 @@
 
 namespace orbweave {
 
-/// Declares `--root NAME=FOLDER`, repeatable. Folders become absolute.
+/// Declares `--root NAME=FOLDER`, repeatable. Folders become absolute; s3://... stays as it is.
 void AddRootArgument(CLI::App& command,
                      std::map<std::string, std::string>& roots,
                      const std::string& help);

@@ -12,6 +12,7 @@
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/run_local_job.h"
+#include "objects/object_place.h"
 #include "stages/prepare_job.h"
 
 namespace orbweave {
@@ -30,14 +31,16 @@ struct RunArguments {
 absl::Status Run(const RunArguments& arguments) {
   const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
-  const LocalJob sparse{.output = arguments.output,
-                        .fleet = arguments.fleet,
-                        .fail_on = arguments.fail_on,
-                        .is_last = !arguments.dense,
-                        .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
-                          return PrepareImageJob(
-                              coordinator, arguments.scan, arguments.clusters, options, context);
-                        }};
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImagePlaces places, OpenImagePlaces(arguments.scan));
+  const LocalJob sparse{
+      .output = arguments.output,
+      .fleet = arguments.fleet,
+      .fail_on = arguments.fail_on,
+      .is_last = !arguments.dense,
+      .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
+        return PrepareImageJob(
+            coordinator, places, arguments.scan, arguments.clusters, options, context);
+      }};
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(sparse, signals));
   if (!arguments.dense) return absl::OkStatus();
   return RunDenseJob(arguments.output, arguments.fleet, options, signals);
@@ -68,6 +71,8 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave run flat --output flat_model --workers 4 --set features.max_features=4096\n"
       "  orbweave run street/images --output model --workers 0 --listen 0.0.0.0:0 --tls "
       "keys/coordinator --announce model.json\n"
+      "  orbweave run 's3://city-images/2026/north?region=eu-central-1' --store-keys reader.keys "
+      "--output model\n"
       "Ctrl-C stops cleanly; the same command goes on where it was. Workers that joined by "
       "--listen "
       "are sent home at the end, and not when an engine stops it by SIGTERM (exit code 75).");

@@ -7,6 +7,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/local_fleet.h"
+#include "cli/preparation_bar.h"
 #include "cli/progress_bar.h"
 #include "cli/write_job.h"
 #include "core/io/file.h"
@@ -14,6 +15,14 @@
 
 namespace orbweave {
 namespace {
+
+absl::StatusOr<JobSpec> PrepareShowingProgress(LocalFleet& fleet,
+                                               const LocalJob& job,
+                                               const std::stop_token& stop) {
+  PreparationBar bar(stderr);
+  const auto show = [&bar](const Progress& progress) { bar.Update(progress); };
+  return job.prepare(fleet.coordinator(), {.stop = stop, .report = show});
+}
 
 absl::StatusOr<JobStatus> RunShowingProgress(LocalFleet& fleet,
                                              const JobSpec& spec,
@@ -33,7 +42,7 @@ absl::Status Interrupted(const std::string& output, int signal) {
 
 /// As long as nobody stops it.
 absl::Status RunOn(LocalFleet& fleet, const LocalJob& job, const std::stop_token& stop) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, job.prepare(fleet.coordinator(), {.stop = stop}));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, PrepareShowingProgress(fleet, job, stop));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus status, RunShowingProgress(fleet, spec, stop));
   if (job.conclude) return job.conclude(fleet.coordinator(), status);
   return WriteJob(fleet.coordinator(), status, job.output, job.fail_on);

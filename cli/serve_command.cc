@@ -3,8 +3,10 @@
 
 #include "cli/serve_command.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -39,7 +41,8 @@ struct ServeOptions {
   HttpServerOptions http_server{};
   std::string store{};  ///< address of an object store; empty: none
   std::string store_keys{};
-  std::string otlp{};  ///< URL of a collector of traces; empty: none
+  std::map<std::string, std::string> roots{};  ///< by name: folders, and parts of object stores
+  std::string otlp{};                          ///< URL of a collector of traces; empty: none
   AnnounceArgument announce{};
   ServerOptions server{};
   CoordinatorOptions coordinator{};
@@ -109,6 +112,32 @@ struct EndOfService {
   std::atomic<bool> is_told{false};  ///< by `orbweave stop`
 };
 
+bool HasObjectRoot(const ServeOptions& options) {
+  return std::ranges::any_of(options.roots,
+                             [](const auto& root) { return IsS3Address(root.second); });
+}
+
+/// Roots that are parts of object stores.
+absl::StatusOr<ObjectRoots> ObjectRootsOf(const ServeOptions& options) {
+  ObjectRoots roots;
+  for (const auto& [name, place] : options.roots) {
+    if (!IsS3Address(place)) continue;
+    ORBWEAVE_ASSIGN_OR_RETURN(std::shared_ptr<ObjectStore> store,
+                              OpenS3Store(place, options.store_keys));
+    ORBWEAVE_ASSIGN_OR_RETURN(const S3Address address, ParseS3Address(place));
+    if (!roots.try_emplace(address.ToText(), std::move(store)).second)
+      return absl::InvalidArgumentError(absl::StrCat(address.ToText(), " is a root twice"));
+  }
+  return roots;
+}
+
+/// Roots that are folders.
+FileRoots FileRootsOf(const ServeOptions& options) {
+  FileRoots roots = options.roots;
+  std::erase_if(roots, [](const auto& root) { return IsS3Address(root.second); });
+  return roots;
+}
+
 /// Those given, with what this process has for the coordinator. All arguments outlive it.
 absl::StatusOr<CoordinatorOptions> CompleteOptions(const ServeOptions& options,
                                                    const EventLog& log,
@@ -131,6 +160,7 @@ absl::StatusOr<CoordinatorOptions> CompleteOptions(const ServeOptions& options,
   if (!options.store.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(complete.objects, OpenS3Store(options.store, options.store_keys));
   }
+  ORBWEAVE_ASSIGN_OR_RETURN(complete.object_roots, ObjectRootsOf(options));
   return complete;
 }
 
@@ -147,6 +177,7 @@ absl::Status Serve(const ServeOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
   ServerOptions server_options = options.server;
   server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
+  server_options.roots = FileRootsOf(options);
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
@@ -199,12 +230,12 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
           "Folder on a disk of this machine to keep the journal in, where the state folder "
           "is on NFS, Lustre and their like; a copy goes there each minute and at the end")
       ->excludes(journal);
-  CLI::Option* const store = command->add_option(
+  command->add_option(
       "--store",
       options->store,
       "Object store for large blobs, as s3://BUCKET/PREFIX?region=R or "
       "s3://BUCKET/PREFIX?endpoint=https://HOST; workers read and write there without keys");
-  AddStoreKeysArgument(*command, options->store_keys)->needs(store);
+  AddStoreKeysArgument(*command, options->store_keys);
   AddAnnounceArguments(*command, options->announce);
   AddTlsArgument(*command, options->server.tls_folder)
       ->description(
@@ -217,9 +248,9 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   AddRootArgument(*command,
-                  options->server.roots,
-                  "Folder beneath which clients may name images, instead of sending them "
-                  "(repeatable)");
+                  options->roots,
+                  "Folder, or s3://BUCKET/PREFIX as for --store, beneath which clients may name "
+                  "images, instead of sending them (repeatable)");
   CLI::Option* http = command->add_option(
       "--http",
       options->http,
@@ -256,10 +287,15 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
       "  orbweave serve --listen 127.0.0.1:7000 --state state --http 127.0.0.1:9464\n"
       "  orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state --store "
       "'s3://city-blobs/orbweave?region=eu-central-1' --store-keys store.keys\n"
+      "  orbweave serve --listen 127.0.0.1:7000 --state state --root "
+      "'city=s3://city-images/2026?region=eu-central-1' --store-keys store.keys\n"
       "Started again on the same state it goes on where it was. The log, one JSON object per line, "
       "goes to stderr and to logs/coordinator.log in the state folder.");
-  command->callback(
-      [options, &selected] { selected.run = [options] { return ReportStatus(Serve(*options)); }; });
+  command->callback([options, &selected] {
+    if (!options->store_keys.empty() && options->store.empty() && !HasObjectRoot(*options))
+      throw CLI::RequiresError("--store-keys", "--store or --root NAME=s3://BUCKET/PREFIX");
+    selected.run = [options] { return ReportStatus(Serve(*options)); };
+  });
 }
 
 }  // namespace orbweave

@@ -13,6 +13,7 @@
 #include "cli/fail_on_argument.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
+#include "cli/preparation_bar.h"
 #include "cli/progress_bar.h"
 #include "cli/root_argument.h"
 #include "cli/stop_signals.h"
@@ -20,6 +21,7 @@
 #include "cli/write_job.h"
 #include "coordinator/traceparent.h"
 #include "core/io/file.h"
+#include "objects/object_place.h"
 #include "stages/prepare_job.h"
 
 namespace orbweave {
@@ -43,10 +45,21 @@ absl::StatusOr<JobSpec> Prepare(BlobDepot& coordinator,
                                 const PipelineOptions& options,
                                 const StageContext& context) {
   const ScanRequest& scan = arguments.scan;
-  if (arguments.database.empty())
-    return PrepareImageJob(coordinator, scan, arguments.clusters, options, context);
+  if (arguments.database.empty()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const ImagePlaces places, OpenImagePlaces(scan));
+    return PrepareImageJob(coordinator, places, scan, arguments.clusters, options, context);
+  }
   return PrepareDatabaseJob(
       coordinator, arguments.database, scan.gnss_table, arguments.clusters, options, context);
+}
+
+absl::StatusOr<JobSpec> PrepareShowingProgress(BlobDepot& coordinator,
+                                               const SubmitArguments& arguments,
+                                               const PipelineOptions& options,
+                                               const StopSignals& signals) {
+  PreparationBar bar(stderr);
+  const auto show = [&bar](const Progress& progress) { bar.Update(progress); };
+  return Prepare(coordinator, arguments, options, {.stop = signals.token(), .report = show});
 }
 
 absl::StatusOr<JobStatus> Wait(ClientApi& coordinator,
@@ -85,7 +98,7 @@ absl::Status Submit(const SubmitArguments& arguments) {
       Connect(arguments.coordinator,
               {.patience_s = kJobPatience_s, .stop = signals.token(), .roots = arguments.roots}));
   ORBWEAVE_ASSIGN_OR_RETURN(JobSpec spec,
-                            Prepare(*coordinator, arguments, options, {.stop = signals.token()}));
+                            PrepareShowingProgress(*coordinator, arguments, options, signals));
   spec.traceparent = arguments.traceparent;
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest job, coordinator->SubmitJob(spec));
   if (!arguments.output.empty())
@@ -136,9 +149,16 @@ void AddSubmitCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave submit --coordinator 127.0.0.1:7000 street/images --gnss street/gnss.csv "
       "--output model\n"
       "  orbweave submit --coordinator 127.0.0.1:7000 --database street.db --output model\n"
+      "  orbweave submit --coordinator 127.0.0.1:7000 "
+      "'s3://city-images/2026/north?region=eu-central-1' --store-keys reader.keys --output model\n"
+      "Objects are read here, for their names and headers; the workers read them from the "
+      "store where the coordinator has it as a root (serve --root NAME=s3://...), else they are "
+      "read again and sent.\n"
       "The same command after an interruption joins the job, or collects its results.");
   command->callback([arguments, images, database, &selected] {
     if (images->empty() && database->empty()) throw CLI::RequiredError("IMAGES or --database");
+    if (images->empty() && IsS3Address(arguments->scan.gnss_table))
+      throw CLI::ValidationError("--gnss", "with --database it is a file, not an object");
     selected.run = [arguments] { return ReportStatus(Submit(*arguments)); };
   });
 }

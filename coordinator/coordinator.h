@@ -40,6 +40,7 @@ struct CoordinatorOptions {
   std::function<absl::StatusOr<std::unique_ptr<Journal>>(const std::string& state_dir)>
       open_journal = OpenJournal;
   std::shared_ptr<ObjectStore> objects{};  ///< for large blobs; null: all stay in its folder
+  ObjectRoots object_roots{};              ///< beneath which clients may name objects
   EventLog log{};
   std::function<void()> lost{};  ///< called when health() is OK no more
   std::function<void()> stop{};  ///< called when an administrator wants it to end

@@ -10,6 +10,7 @@
 #include "coordinator/grpc_peer.h"
 #include "coordinator/grpc_status.h"
 #include "core/pipeline/damaged_blob.h"
+#include "objects/s3_address.h"
 #include "proto/codec/coordinator_codec.h"
 #include "proto/codec/garbage_codec.h"
 #include "proto/codec/grants_codec.h"
@@ -206,6 +207,7 @@ grpc::Status GrpcService::StatBlobs(Context*,
 
 grpc::Status GrpcService::LinkFile(Context*, const v1::LinkFileRequest* request, v1::Empty*) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
+  if (IsS3Address(request->path())) return OnWire(api_.LinkFile(digest, request->path()));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const std::string path,
                                  ResolveBeneath(roots_, request->root(), request->path()));
   return OnWire(api_.LinkFile(digest, path));

@@ -4,11 +4,13 @@
 #include "coordinator/kept_blobs.h"
 
 #include <map>
+#include <optional>
 #include <random>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/storage/durable_file.h"
+#include "objects/s3_address.h"
 
 namespace orbweave {
 namespace {
@@ -33,13 +35,14 @@ absl::StatusOr<std::string> NameOfState(const std::string& state_dir) {
 std::string BlobFolderOf(const std::string& state_dir) { return state_dir + "/blobs"; }
 
 absl::StatusOr<KeptBlobs> KeptBlobs::Open(const std::string& state_dir,
-                                          std::shared_ptr<ObjectStore> objects) {
+                                          std::shared_ptr<ObjectStore> objects,
+                                          ObjectRoots roots) {
   ORBWEAVE_ASSIGN_OR_RETURN(BlobStore folder, BlobStore::Open(BlobFolderOf(state_dir)));
-  if (objects == nullptr) return KeptBlobs(std::move(folder), nullptr);
+  if (objects == nullptr) return KeptBlobs(std::move(folder), nullptr, std::move(roots));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string owner, NameOfState(state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<ObjectShelf> shelf,
                             ObjectShelf::Open(std::move(objects), owner));
-  return KeptBlobs(std::move(folder), std::move(shelf));
+  return KeptBlobs(std::move(folder), std::move(shelf), std::move(roots));
 }
 
 absl::StatusOr<std::string> KeptBlobs::Get(const Digest& digest) {
@@ -56,7 +59,35 @@ absl::StatusOr<Digest> KeptBlobs::Put(std::string_view bytes) { return folder_.P
 absl::Status KeptBlobs::Read(const Digest& digest, const TakePiece& take) {
   // What is not there is noticed before the first piece.
   const absl::Status read = folder_.Read(digest, take);
-  return absl::IsNotFound(read) && shelf_ ? shelf_->Read(digest, take) : read;
+  if (!absl::IsNotFound(read)) return read;
+  if (shelf_ && shelf_->Has(digest)) return shelf_->Read(digest, take);
+  const std::string linked = LinkedObject(digest);
+  if (!linked.empty()) return ReadObject(digest, linked, take);
+  return shelf_ ? shelf_->Read(digest, take) : read;
+}
+
+std::string KeptBlobs::LinkedObject(const Digest& digest) const {
+  std::string linked = folder_.LinkOf(digest);
+  return IsS3Address(linked) ? linked : std::string();
+}
+
+absl::Status KeptBlobs::ReadObject(const Digest& digest,
+                                   const std::string& path,
+                                   const TakePiece& take) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const RootedObject object, FindObject(roots_, path));
+  DigestBuilder builder;
+  const absl::Status read =
+      object.store->Get(object.key, std::nullopt, [&](std::string_view piece) {
+        builder.Add(piece);
+        return take(piece);
+      });
+  const bool is_gone = absl::IsNotFound(read);
+  if (!read.ok() && !is_gone) return read;
+  if (read.ok() && builder.Finish() == digest) return absl::OkStatus();
+  return absl::NotFoundError(absl::StrCat(
+      path,
+      is_gone ? " was removed" : " was changed",
+      " after it was submitted: put it back as it was and `orbweave retry`, or submit again"));
 }
 
 absl::Status KeptBlobs::Write(const Digest& digest, uint64_t size_bytes, const NextPiece& next) {
@@ -65,18 +96,26 @@ absl::Status KeptBlobs::Write(const Digest& digest, uint64_t size_bytes, const N
 
 absl::StatusOr<std::vector<bool>> KeptBlobs::StatBlobs(const std::vector<Digest>& digests) {
   std::vector<bool> stored;
-  for (const Digest& digest : digests) stored.push_back(Use(digest));
+  for (const Digest& digest : digests) stored.push_back(UseKept(digest));
   return stored;
 }
 
 absl::Status KeptBlobs::LinkFile(const Digest& digest, const std::string& path) {
-  return folder_.LinkFile(digest, path);
+  if (!IsS3Address(path)) return folder_.LinkFile(digest, path);
+  ORBWEAVE_ASSIGN_OR_RETURN(const RootedObject object, FindObject(roots_, path));
+  const absl::Status seen = object.store->Head(object.key).status();
+  if (absl::IsUnavailable(seen))
+    return Annotate(seen, "the coordinator is here, but not the store of its root");
+  ORBWEAVE_RETURN_IF_ERROR(seen);
+  // What is here is held against the digest, an object that a client names is not.
+  if (folder_.Has(digest)) return absl::OkStatus();
+  return folder_.NotePlace(digest, path);
 }
 
 absl::StatusOr<std::vector<BlobGrant>> KeptBlobs::Grant(const std::vector<WantedBlob>& blobs,
                                                         GrantVerb verb,
                                                         int valid_s) {
-  if (!shelf_) return std::vector<BlobGrant>();
+  if (!shelf_ && roots_.empty()) return std::vector<BlobGrant>();
   if (blobs.size() > kMostGrants)
     return absl::InvalidArgumentError(absl::StrCat("grants for more than ", kMostGrants, " blobs"));
   std::vector<BlobGrant> grants;
@@ -89,33 +128,47 @@ absl::StatusOr<std::vector<BlobGrant>> KeptBlobs::Grant(const std::vector<Wanted
 absl::StatusOr<BlobGrant> KeptBlobs::GrantOne(const WantedBlob& blob, GrantVerb verb, int valid_s) {
   using Where = BlobGrant::Where;
   if (verb == GrantVerb::kGet) {
-    if (folder_.Has(blob.digest)) return BlobGrant{};
-    const std::optional<ObjectGrant> grant = shelf_->GrantGet(blob.digest, valid_s);
+    const std::optional<ObjectGrant> grant = GrantGet(blob.digest, valid_s);
     return grant ? BlobGrant{Where::kObject, *grant} : BlobGrant{};
   }
+  if (!shelf_) return BlobGrant{};
   if (blob.size_bytes < kLeastObjectBytes || blob.size_bytes > kMostObjectBytes) return BlobGrant{};
-  if (Use(blob.digest)) return BlobGrant{.where = Where::kNowhere};
+  if (UseKept(blob.digest)) return BlobGrant{.where = Where::kNowhere};
   ORBWEAVE_ASSIGN_OR_RETURN(ObjectGrant grant,
                             shelf_->GrantPut(blob.digest, blob.size_bytes, valid_s));
   return BlobGrant{Where::kObject, std::move(grant)};
 }
 
-bool KeptBlobs::Has(const Digest& digest) {
-  return folder_.Has(digest) || (shelf_ && shelf_->Has(digest));
+std::optional<ObjectGrant> KeptBlobs::GrantGet(const Digest& digest, int valid_s) {
+  if (folder_.Has(digest)) return std::nullopt;
+  if (shelf_) {
+    if (std::optional<ObjectGrant> grant = shelf_->GrantGet(digest, valid_s)) return grant;
+  }
+  const absl::StatusOr<RootedObject> linked = FindObject(roots_, LinkedObject(digest));
+  if (!linked.ok()) return std::nullopt;
+  return linked->store->GrantGet(linked->key, valid_s);
 }
 
-bool KeptBlobs::Use(const Digest& digest) {
+bool KeptBlobs::Has(const Digest& digest) {
+  return folder_.Has(digest) || (shelf_ && shelf_->Has(digest)) || !LinkedObject(digest).empty();
+}
+
+bool KeptBlobs::UseKept(const Digest& digest) {
   return folder_.Use(digest) || (shelf_ && shelf_->Use(digest));
 }
 
+bool KeptBlobs::Use(const Digest& digest) {
+  return UseKept(digest) || !LinkedObject(digest).empty();
+}
+
 absl::StatusOr<bool> KeptBlobs::Confirm(const Digest& digest) {
-  if (folder_.Use(digest)) return true;
+  if (folder_.Use(digest) || !LinkedObject(digest).empty()) return true;
   if (!shelf_) return false;
   return shelf_->Confirm(digest);
 }
 
 bool KeptBlobs::Verify(const Digest& digest) {
-  return folder_.Verify(digest) || (shelf_ && shelf_->Use(digest));
+  return folder_.Verify(digest) || (shelf_ && shelf_->Use(digest)) || !LinkedObject(digest).empty();
 }
 
 absl::Status KeptBlobs::Refresh() {

@@ -17,6 +17,7 @@ struct ObjectInfo {
   std::string key{};
   uint64_t size_bytes = 0;
   int64_t modified_unix_s = 0;
+  std::string etag{};  ///< what changes with its bytes, as the store says it; empty: it does not
 };
 
 /// Bytes number `first` to `last` of an object.
@@ -31,7 +32,7 @@ struct ByteRange {
 class ObjectStore {
  public:
   virtual ~ObjectStore() = default;
-  /// NotFound: there is none. Its key is left empty.
+  /// NotFound: there is none. Its key and ETag are left empty.
   [[nodiscard]] virtual absl::StatusOr<ObjectInfo> Head(const std::string& key) = 0;
   /// In pieces; not verified. NotFound: there is none. OutOfRange: it is shorter.
   [[nodiscard]] virtual absl::Status Get(const std::string& key,

@@ -3,6 +3,8 @@
 
 #include "objects/s3_store.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "absl/strings/numbers.h"
@@ -122,21 +124,38 @@ absl::Status S3Store::Delete(const std::string& key) {
   return absl::IsNotFound(status) ? absl::OkStatus() : status;
 }
 
-absl::StatusOr<std::vector<ObjectInfo>> S3Store::List() {
+absl::Status S3Store::GetVersion(const std::string& key,
+                                 const std::string& etag,
+                                 const TakePiece& take) {
+  ObjectGrant grant = GrantGet(key, kOwn_s);
+  if (!etag.empty()) grant.headers.push_back(absl::StrCat("if-match: ", etag));
+  const absl::Status read = ReadGranted(*http_, grant, std::nullopt, NameOf(key), take);
+  if (!absl::IsAlreadyExists(read)) return read;  // which is what 412 means to who stores
+  return absl::AbortedError(absl::StrCat(NameOf(key), " has changed"));
+}
+
+absl::Status S3Store::ListPages(const TakeObjects& take) {
   const std::string folder = address_.prefix.empty() ? "" : address_.prefix + "/";
   S3Request request{.path = address_.PathOf(""),
                     .query = {{"encoding-type", "url"}, {"list-type", "2"}, {"prefix", folder}}};
-  std::vector<ObjectInfo> objects;
   do {
     ORBWEAVE_ASSIGN_OR_RETURN(const HttpAnswer answer, Ask(request, NameOf("")));
     ORBWEAVE_ASSIGN_OR_RETURN(ObjectPage page, ParseObjectPage(answer.body));
-    for (ObjectInfo& object : page.objects) {
-      if (!object.key.starts_with(folder)) continue;
-      object.key.erase(0, folder.size());
-      objects.push_back(std::move(object));
-    }
+    std::erase_if(page.objects,
+                  [&](const ObjectInfo& object) { return !object.key.starts_with(folder); });
+    for (ObjectInfo& object : page.objects) object.key.erase(0, folder.size());
+    ORBWEAVE_RETURN_IF_ERROR(take(std::move(page.objects)));
     request.query["continuation-token"] = page.next;
   } while (!request.query["continuation-token"].empty());
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<ObjectInfo>> S3Store::List() {
+  std::vector<ObjectInfo> objects;
+  ORBWEAVE_RETURN_IF_ERROR(ListPages([&objects](std::vector<ObjectInfo> page) {
+    std::ranges::move(page, std::back_inserter(objects));
+    return absl::OkStatus();
+  }));
   return objects;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "objects/http_client.h"
 #include "objects/object_store.h"
@@ -15,6 +17,9 @@
 #include "security/unix_time.h"
 
 namespace orbweave {
+
+/// Takes objects of a list; its error ends the listing.
+using TakeObjects = std::function<absl::Status(std::vector<ObjectInfo> objects)>;
 
 /// An S3 server's bucket. Every request is signed in its URL, those of this process as those that
 /// others are granted. What may pass is tried a few times (kMostAttempts), with waits between.
@@ -35,6 +40,13 @@ class S3Store final : public ObjectStore {
                                  std::string_view bytes) override;
   [[nodiscard]] absl::Status Delete(const std::string& key) override;
   [[nodiscard]] absl::StatusOr<std::vector<ObjectInfo>> List() override;
+  /// The same a page (of a thousand, usually) at a time. Errors of `take` too.
+  [[nodiscard]] absl::Status ListPages(const TakeObjects& take);
+  /// Get of all of an object as long as it is the one with this ETag. Aborted: it is another by
+  /// now.
+  [[nodiscard]] absl::Status GetVersion(const std::string& key,
+                                        const std::string& etag,
+                                        const TakePiece& take);
   [[nodiscard]] ObjectGrant GrantGet(const std::string& key, int valid_s) override;
   [[nodiscard]] ObjectGrant GrantPut(const std::string& key,
                                      const Digest& digest,

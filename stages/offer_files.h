@@ -3,15 +3,17 @@
 #pragma once
 
 #include "core/base/stage_context.h"
-#include "core/io/image_sources.h"
+#include "core/io/scan_image_folder.h"
 #include "core/pipeline/blob_depot.h"
 
 namespace orbweave {
 
-/// Makes every usable file and mask known that the depot does not have yet: linked where it can
-/// read them itself, uploaded where it cannot. DataLoss: a file changed since it was listed.
+/// Makes every usable file and mask, which were found at `places`, known that the depot does not
+/// have yet: linked where it can read them itself, uploaded where it cannot. DataLoss: a file
+/// changed since it was listed. Reports "files"; once one was uploaded, "files, some sent".
 [[nodiscard]] absl::Status OfferFiles(BlobDepot& depot,
                                       const ImageSources& sources,
+                                      const ImagePlaces& places,
                                       const StageContext& context);
 
 }  // namespace orbweave

@@ -22,11 +22,12 @@ absl::StatusOr<JobSpec> PrepareDenseJob(BlobDepot& depot,
                                         const ScanRequest& request,
                                         const PipelineOptions& options,
                                         const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImageFolder(request, context));
+  const ImagePlaces places = FoldersOf(request);
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImagePlaces(places, request, context));
   ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest, IngestImages(sources, options.ingest, context));
   ORBWEAVE_ASSIGN_OR_RETURN(ImportedModel imported, ModelFromColmap(model, manifest));
   std::ranges::move(imported.without_image, std::back_inserter(manifest.excluded));
-  ORBWEAVE_RETURN_IF_ERROR(OfferFiles(depot, sources, context));
+  ORBWEAVE_RETURN_IF_ERROR(OfferFiles(depot, sources, places, context));
   FinalisedModel finalised{.worlds = {std::move(imported.world)}, .subproblems = {{}}};
   for (const Subproblem& subproblem : imported.subproblems) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, PutBlob(subproblem, depot));

@@ -14,9 +14,9 @@
 #include "stages/check_options_together.h"
 #include "stages/codecs.h"
 #include "stages/ingest_images/ingest_images.h"
+#include "stages/list_pairs/plan_matching.h"
 #include "stages/offer_files.h"
 #include "stages/plans.h"
-#include "stages/select_image_pairs/plan_matching.h"
 #include "stages/stage_task.h"
 
 namespace orbweave {
@@ -89,8 +89,8 @@ JobShape ShapeOf(const ImageSources& sources, const ClusterNames& clusters, bool
 }
 
 /// The folder's name, or that of the folder above where it is just called "images".
-std::string LabelOf(const std::string& image_folder) {
-  std::filesystem::path path = std::filesystem::absolute(image_folder).lexically_normal();
+std::string LabelOf(const std::string& images) {
+  std::filesystem::path path = std::filesystem::path(images).lexically_normal();
   if (path.filename().empty()) path = path.parent_path();
   if (path.filename() == "images") path = path.parent_path();
   return Utf8Text(path.filename().string());
@@ -103,18 +103,27 @@ absl::StatusOr<JobSpec> PrepareImageJob(BlobDepot& depot,
                                         const std::string& cluster_table,
                                         const PipelineOptions& options,
                                         const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImageFolder(request, context));
+  return PrepareImageJob(depot, FoldersOf(request), request, cluster_table, options, context);
+}
+
+absl::StatusOr<JobSpec> PrepareImageJob(BlobDepot& depot,
+                                        const ImagePlaces& places,
+                                        const ScanRequest& request,
+                                        const std::string& cluster_table,
+                                        const PipelineOptions& options,
+                                        const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImagePlaces(places, request, context));
   ORBWEAVE_ASSIGN_OR_RETURN(const ClusterNames by_hand, ReadClusters(sources, cluster_table));
   ORBWEAVE_RETURN_IF_ERROR(CheckOptionsTogether(options, ShapeOf(sources, by_hand, false)));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest clusters, PutBlob(by_hand, depot));
-  ORBWEAVE_RETURN_IF_ERROR(OfferFiles(depot, sources, context));
+  ORBWEAVE_RETURN_IF_ERROR(OfferFiles(depot, sources, places, context));
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest blob, PutBlob(sources, depot));
   JobInputs<SparseJob> inputs;
   inputs.Set(&SparseJob::sources, blob).Set(&SparseJob::clusters_by_hand, clusters);
   return JobSpec{.kind = std::string(SparseJob::kKind),
                  .inputs = inputs.InOrder(),
                  .options_text = PipelineOptionsToText(options),
-                 .label = LabelOf(request.image_folder)};
+                 .label = LabelOf(places.images->Name())};
 }
 
 absl::StatusOr<JobSpec> PrepareDatabaseJob(BlobDepot& depot,

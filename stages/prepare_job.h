@@ -22,6 +22,14 @@ namespace orbweave {
                                                       const PipelineOptions& options,
                                                       const StageContext& context);
 
+/// The same for images and masks at any places, those of the request.
+[[nodiscard]] absl::StatusOr<JobSpec> PrepareImageJob(BlobDepot& depot,
+                                                      const ImagePlaces& places,
+                                                      const ScanRequest& request,
+                                                      const std::string& cluster_table,
+                                                      const PipelineOptions& options,
+                                                      const StageContext& context);
+
 /// The same for keypoints and matches from a COLMAP database, without pairs that GNSS says are far
 /// apart (SetAsideFarPairs). `gnss_table` and `cluster_table`: paths, or empty.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareDatabaseJob(BlobDepot& depot,

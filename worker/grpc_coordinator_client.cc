@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/pipeline/damaged_blob.h"
+#include "objects/s3_address.h"
 #include "proto/codec/coordinator_codec.h"
 #include "proto/codec/garbage_codec.h"
 #include "worker/grpc_blob_transfer.h"
@@ -283,6 +284,12 @@ absl::StatusOr<std::vector<bool>> GrpcCoordinatorClient::StatBlobs(
 }
 
 absl::Status GrpcCoordinatorClient::LinkFile(const Digest& digest, const std::string& path) {
+  if (IsS3Address(path)) {
+    v1::LinkFileRequest request;  // an object has one name everywhere
+    request.set_digest(ToProto(digest));
+    request.set_path(path);
+    return Call(&Stub::LinkFile, request, kFile_s).status();
+  }
   const std::string file = std::filesystem::path(path).lexically_normal().string();
   for (const auto& [name, folder] : roots_) {
     const std::string top = folder.ends_with('/') ? folder : folder + "/";

@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 9> kExtensions = {
     ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".webp", ".ppm", ".pgm"};
 
-bool IsCalledLikeAnImage(const fs::path& path) {
-  const std::string extension = LowerText(path.extension().string());
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
 /// `visited` holds the real paths of folders that were entered or must not be.
 absl::Status ListInto(const fs::path& folder,
                       const std::string& prefix,
@@ -45,7 +40,7 @@ absl::Status ListInto(const fs::path& folder,
     if (name.starts_with('.')) continue;
     if (entry.is_directory(error)) {
       ORBWEAVE_RETURN_IF_ERROR(ListInto(entry.path(), prefix + name + "/", visited, names));
-    } else if (IsCalledLikeAnImage(entry.path())) {
+    } else if (IsCalledLikeAnImage(name)) {
       names.push_back(prefix + name);
     }
   }
@@ -53,6 +48,11 @@ absl::Status ListInto(const fs::path& folder,
 }
 
 }  // namespace
+
+bool IsCalledLikeAnImage(std::string_view path) {
+  const std::string extension = LowerText(fs::path(path).extension().string());
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
 
 absl::StatusOr<std::vector<std::string>> ListImageFiles(const std::string& folder,
                                                         const std::string& except) {

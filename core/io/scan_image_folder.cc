@@ -4,16 +4,16 @@
 #include "core/io/scan_image_folder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/parallel_for.h"
-#include "core/io/file.h"
 #include "core/io/first_names.h"
-#include "core/io/list_files.h"
 #include "core/io/printable_text.h"
 #include "core/io/text_fields.h"
 #include "core/io/text_file.h"
@@ -28,14 +28,14 @@ constexpr size_t kNamesShown = 3;  ///< in a warning
 /// Paths below the mask folder by their name in lower case.
 using MaskIndex = std::map<std::string, std::string>;
 
-absl::StatusOr<MaskIndex> IndexMasks(const std::string& folder) {
+absl::StatusOr<MaskIndex> IndexMasks(FilePlace* place, const StageContext& context) {
   MaskIndex index;
-  if (folder.empty()) return index;
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names, ListImageFiles(folder, ""));
+  if (place == nullptr) return index;
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names, place->List("", context));
   if (names.empty()) {
     return absl::NotFoundError(absl::StrCat(
         "the mask folder ",
-        folder,
+        place->Name(),
         " holds no image; the mask of a/b.jpg is called a/b.png or a/b.jpg.png there"));
   }
   for (const std::string& name : names) index.emplace(LowerText(name), name);
@@ -52,50 +52,27 @@ MaskIndex::const_iterator FindMask(const MaskIndex& masks, const std::string& im
   return masks.end();
 }
 
-/// "is a text file ..." rather than "unknown kind" where the bytes look like text.
-std::string DescribeUnknown(std::string_view bytes) {
-  const std::string_view head = bytes.substr(0, 256);
-  const bool text = std::all_of(head.begin(), head.end(), [](char c) {
-    return (c >= ' ' && c <= '~') || c == '\n' || c == '\r' || c == '\t' ||
-           (static_cast<unsigned char>(c) & 0x80) != 0;
-  });
-  return text ? "it is a text file, not an image" : "it is no image of a known kind";
-}
-
-std::string DescribeProblem(const absl::Status& status, std::string_view bytes) {
-  if (status.message() == "not an image of a known kind") return DescribeUnknown(bytes);
-  return std::string(status.message());
-}
-
-void ScanImage(const std::string& folder, SourceImage& image) {
-  image.path = (fs::path(folder) / image.name).string();
-  const absl::StatusOr<std::string> bytes = ReadFile(image.path);
-  if (!bytes.ok()) {
-    image.problem = std::string(bytes.status().message());
-    return;
-  }
-  image.content = DigestOf(*bytes);
-  image.size_bytes = bytes->size();
-  const absl::StatusOr<ImageMetadata> metadata = ReadImageMetadata(*bytes);
-  if (metadata.ok()) {
-    image.metadata = *metadata;
-  } else {
-    image.problem = DescribeProblem(metadata.status(), *bytes);
-  }
+absl::Status ScanImage(FilePlace& place, const StageContext& context, SourceImage& image) {
+  image.path = place.PathOf(image.name);
+  ORBWEAVE_ASSIGN_OR_RETURN(FileFacts facts, place.Look(image.name, context));
+  image.content = facts.content;
+  image.size_bytes = facts.size_bytes;
+  image.metadata = std::move(facts.metadata);
+  image.problem = std::move(facts.problem);
+  return absl::OkStatus();
 }
 
 /// Turns the mask's name into its path and reads it. A mask that cannot be read keeps size 0 x 0,
 /// which IngestImages reports.
-void ScanMask(const std::string& folder, SourceImage& image) {
-  if (image.mask_path.empty()) return;
-  image.mask_path = (fs::path(folder) / image.mask_path).string();
-  const absl::StatusOr<std::string> bytes = ReadFile(image.mask_path);
-  if (!bytes.ok()) return;
-  image.mask = DigestOf(*bytes);
-  const absl::StatusOr<ImageMetadata> metadata = ReadImageMetadata(*bytes);
-  if (!metadata.ok()) return;
-  image.mask_width_px = metadata->width_px;
-  image.mask_height_px = metadata->height_px;
+absl::Status ScanMask(FilePlace* place, const StageContext& context, SourceImage& image) {
+  if (image.mask_path.empty()) return absl::OkStatus();
+  const std::string name = std::exchange(image.mask_path, place->PathOf(image.mask_path));
+  ORBWEAVE_ASSIGN_OR_RETURN(const FileFacts facts, place->Look(name, context));
+  image.mask = facts.content;
+  if (!facts.problem.empty()) return absl::OkStatus();
+  image.mask_width_px = facts.metadata.width_px;
+  image.mask_height_px = facts.metadata.height_px;
+  return absl::OkStatus();
 }
 
 /// Names go into messages, which take UTF-8 alone.
@@ -153,6 +130,42 @@ void AssignNamesAndMasks(const std::vector<std::string>& names,
   WarnOfUnusedMasks(masks, used, sources);
 }
 
+/// Reads all of them, several at a time; the error of the first that has one.
+absl::Status ScanAll(const ImagePlaces& places,
+                     const StageContext& context,
+                     ImageSources& sources) {
+  const size_t count = sources.images.size();
+  std::vector<absl::Status> errors(count);
+  std::mutex mutex;
+  std::atomic<bool> is_over{false};
+  uint64_t done = 0;
+  ParallelFor(count, std::max(context.num_threads, places.NumReaders()), [&](size_t i) {
+    if (context.stop.stop_requested() || is_over) return;
+    SourceImage& image = sources.images[i];
+    errors[i] = ScanImage(*places.images, context, image);
+    if (errors[i].ok()) errors[i] = ScanMask(places.masks.get(), context, image);
+    if (!errors[i].ok()) is_over = true;
+    RefuseOtherEncodings(image);
+    const std::lock_guard lock(mutex);
+    context.Report(++done, count, "images");
+  });
+  ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  for (const absl::Status& error : errors) ORBWEAVE_RETURN_IF_ERROR(error);
+  return absl::OkStatus();
+}
+
+absl::Status ReadGnss(const ImagePlaces& places,
+                      const ScanRequest& request,
+                      ImageSources& sources) {
+  const std::string& path = request.gnss_table;
+  if (path.empty()) return absl::OkStatus();
+  if (!places.gnss_bytes) return ReadGnssFile(path, sources);
+  const std::string name = path.substr(0, path.find('?'));
+  ORBWEAVE_ASSIGN_OR_RETURN(sources.gnss_text, TextOfFile(*places.gnss_bytes, name));
+  sources.gnss_name = Utf8Text(fs::path(name).filename().string());
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::Status ReadGnssFile(const std::string& path, ImageSources& sources) {
@@ -161,38 +174,35 @@ absl::Status ReadGnssFile(const std::string& path, ImageSources& sources) {
   return absl::OkStatus();
 }
 
+ImagePlaces FoldersOf(const ScanRequest& request) {
+  ImagePlaces folders{.images = FolderAt(request.image_folder)};
+  if (!request.mask_folder.empty()) folders.masks = FolderAt(request.mask_folder);
+  return folders;
+}
+
 absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
                                              const StageContext& context) {
-  std::error_code error;
-  const std::string folder = fs::absolute(request.image_folder, error).string();
-  const std::string mask_folder =
-      request.mask_folder.empty() ? "" : fs::absolute(request.mask_folder, error).string();
-  ORBWEAVE_ASSIGN_OR_RETURN(const MaskIndex masks, IndexMasks(mask_folder));
+  return ScanImagePlaces(FoldersOf(request), request, context);
+}
+
+absl::StatusOr<ImageSources> ScanImagePlaces(const ImagePlaces& places,
+                                             const ScanRequest& request,
+                                             const StageContext& context) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const MaskIndex masks, IndexMasks(places.masks.get(), context));
+  const std::string except = places.masks ? places.masks->Name() : std::string();
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names,
-                            ListImageFiles(folder, mask_folder));
+                            places.images->List(except, context));
   if (names.empty()) {
     return absl::NotFoundError(
         absl::StrCat("no images in ",
-                     folder,
+                     places.images->Name(),
                      "; expected jpg, png, tif, bmp, webp, ppm or pgm files there or below"));
   }
   ImageSources sources;
   sources.mask_ignores_white = request.mask_ignores_white;
-  if (!request.gnss_table.empty()) {
-    ORBWEAVE_RETURN_IF_ERROR(ReadGnssFile(request.gnss_table, sources));
-  }
+  ORBWEAVE_RETURN_IF_ERROR(ReadGnss(places, request, sources));
   AssignNamesAndMasks(names, masks, sources);
-  std::mutex mutex;
-  uint64_t done = 0;
-  ParallelFor(names.size(), context.num_threads, [&](size_t i) {
-    if (context.stop.stop_requested()) return;
-    ScanImage(folder, sources.images[i]);
-    ScanMask(mask_folder, sources.images[i]);
-    RefuseOtherEncodings(sources.images[i]);
-    const std::lock_guard lock(mutex);
-    context.Report(++done, names.size(), "images");
-  });
-  ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  ORBWEAVE_RETURN_IF_ERROR(ScanAll(places, context, sources));
   WarnOfPositions(sources);
   return sources;
 }

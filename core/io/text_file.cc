@@ -10,6 +10,10 @@ namespace orbweave {
 
 absl::StatusOr<std::string> ReadTextFile(const std::string& path) {
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  return TextOfFile(bytes, path);
+}
+
+absl::StatusOr<std::string> TextOfFile(const std::string& bytes, const std::string& path) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
     return absl::InvalidArgumentError(path + " is UTF-16 text; save it as UTF-8");
   }

@@ -13,4 +13,8 @@ namespace orbweave {
 /// bytes), with what to do. Codes of ReadFile.
 [[nodiscard]] absl::StatusOr<std::string> ReadTextFile(const std::string& path);
 
+/// The same of the bytes of a file that is called `path` in errors.
+[[nodiscard]] absl::StatusOr<std::string> TextOfFile(const std::string& bytes,
+                                                     const std::string& path);
+
 }  // namespace orbweave

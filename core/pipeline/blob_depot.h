@@ -16,9 +16,10 @@ class BlobDepot : public BlobAccess {
   /// Which of these blobs are stored (same order).
   [[nodiscard]] virtual absl::StatusOr<std::vector<bool>> StatBlobs(
       const std::vector<Digest>& digests) = 0;
-  /// Registers a file on the coordinator's machine as a blob without copying it; verified at every
-  /// read. NotFound / PermissionDenied: the coordinator cannot read it; DataLoss: it has another
-  /// digest.
+  /// Registers a file on the coordinator's machine, or an object beneath one of its roots
+  /// (s3://BUCKET/KEY), as a blob without copying it; verified at every read. NotFound /
+  /// PermissionDenied: the coordinator cannot read it; FailedPrecondition: what it was told of the
+  /// store is wrong; DataLoss: a file with another digest.
   [[nodiscard]] virtual absl::Status LinkFile(const Digest& digest, const std::string& path) = 0;
 };
 

@@ -68,8 +68,13 @@ std::string BlobStore::FileOf(const Digest& digest) const {
   const std::string own = BlobPath(digest);
   if (IsFile(own)) return own;
   if (!follows_links_) return {};
+  const std::string linked = LinkOf(digest);
+  return IsFile(linked) ? linked : std::string();
+}
+
+std::string BlobStore::LinkOf(const Digest& digest) const {
   const absl::StatusOr<std::string> linked = ReadWholeFile(LinkPath(digest));
-  return linked.ok() && IsFile(*linked) ? *linked : std::string();
+  return linked.ok() ? *linked : std::string();
 }
 
 void BlobStore::Forget(const Digest& digest) const {
@@ -204,7 +209,11 @@ absl::Status BlobStore::LinkFile(const Digest& digest, const std::string& path) 
     return absl::DataLossError(
         absl::StrCat(path, " is not ", DescribeBlob(digest), ": it has other bytes"));
   }
-  return WriteFileDurably(ScratchDir(), LinkPath(digest), path);
+  return NotePlace(digest, path);
+}
+
+absl::Status BlobStore::NotePlace(const Digest& digest, const std::string& place) {
+  return WriteFileDurably(ScratchDir(), LinkPath(digest), place);
 }
 
 }  // namespace orbweave

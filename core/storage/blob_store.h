@@ -24,10 +24,10 @@ struct StoredBlob {
 };
 
 /// Blobs in a folder: `<folder>/ab/<hex>` holds the bytes, `<folder>/links/<hex>` the absolute path
-/// of a file outside that holds them. A blob is written once and whole. Every read is verified; a
-/// blob that is not what its name says is removed, so that it can be made again, or replaced when
-/// it is put again. The time of its file says when it was last put or used. Thread-safe; one
-/// process has the folder, others, also on other machines, may share it.
+/// of a file outside that holds them (or another place, see NotePlace). A blob is written once and
+/// whole. Every read is verified; a blob that is not what its name says is removed, so that it can
+/// be made again, or replaced when it is put again. The time of its file says when it was last put
+/// or used. Thread-safe; one process has the folder, others, also on other machines, may share it.
 class BlobStore final : public BlobDepot {
  public:
   /// Has the folder, which is made when there is none. What others are writing there is removed;
@@ -55,6 +55,11 @@ class BlobStore final : public BlobDepot {
       const std::vector<Digest>& digests) override;
   /// InvalidArgument: the path is not absolute.
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
+  /// Notes that the blob is to be found at `place`, which is no file: it counts as none here, but
+  /// is listed, used and removed like a link.
+  [[nodiscard]] absl::Status NotePlace(const Digest& digest, const std::string& place);
+  /// Where a link leads, or the place that was noted; empty: neither.
+  [[nodiscard]] std::string LinkOf(const Digest& digest) const;
 
   /// All blobs, by digest. Unavailable, PermissionDenied: the folder cannot be read.
   [[nodiscard]] absl::StatusOr<std::vector<StoredBlob>> List() const;

@@ -5,8 +5,9 @@
 #   tests/chaos/rgw.sh [PANORAMAS [REPEATS]]
 #
 # `orbweave store check`, then the same job by a coordinator and two workers that share its folder and by ones that have
-# only the store, whose workers have no keys to it, in turns. Prints a table in Markdown; 1 if a row failed: other bytes,
-# more than 3 objects a panorama, or more than 1.15 times the time of the folder (medians). Needs Debian's radosgw,
+# only the store, whose workers have no keys to it, in turns; at last with the images in the store too (`submit s3://`).
+# Prints a table in Markdown; 1 if a row failed: other bytes, images copied, more than 3 objects a panorama, or more than
+# 1.15 times the time of the folder (medians). Needs Debian's radosgw,
 # ceph-mon, ceph-osd and curl: 77 without them. ORBWEAVE: the program (build/release/cli/orbweave). Takes two minutes.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -142,7 +143,7 @@ fleet_does_the_job() {
     fleet+=($!)
   done
   began=$(date +%s.%N)
-  "$orbweave" submit --coordinator "unix:$folder/socket" --patience 20 "$lab/street/images" --gnss "$lab/street/gnss.csv" \
+  "$orbweave" submit --coordinator "unix:$folder/socket" --patience 20 "${images[@]}" --gnss "$lab/street/gnss.csv" \
     --output "$folder/model" >"$folder/submit.log" 2>&1 || echo "$name: $(tail -n 1 "$folder/submit.log")" >&2
   seconds=$(echo "$(date +%s.%N) - $began" | bc)
   kill -INT "${fleet[0]}"
@@ -166,6 +167,26 @@ echo
 "$orbweave" store check "s3://blobs/check?endpoint=$endpoint" --store-keys "$lab/store.keys" || failures=1
 "$orbweave" synth street --panoramas "$panoramas" --size 1024x512 --output "$lab/street" >/dev/null 2>&1 || exit 1
 
+# The images of the street as objects below city/images.
+upload_images() {
+  local file
+  for file in "$lab"/street/images/*; do
+    curl -sf -m 30 -T "$file" --aws-sigv4 aws:amz:us-east-1:s3 -K - "$endpoint/blobs/city/images/$(basename "$file")" \
+      -H "x-amz-content-sha256: $(sha256sum "$file" | cut -d ' ' -f 1)" <<<"user = \"$access_key:$secret_key\"" || return 1
+  done
+}
+
+# STATE: the number of images that its folder has copies of.
+copies_of_images() {
+  local file digest copies=0
+  for file in "$lab"/street/images/*; do
+    digest=$(sha256sum "$file" | cut -d ' ' -f 1)
+    [ -e "$1/blobs/${digest:0:2}/$digest" ] && ((++copies))
+  done
+  echo "$copies"
+}
+
+images=("$lab/street/images")
 folder_s=()
 store_s=()
 for ((turn = 1; turn <= repeats; ++turn)); do
@@ -177,6 +198,13 @@ for ((turn = 1; turn <= repeats; ++turn)); do
   objects=$(($(objects_of_store) - before - 1)) # one says whose the store is
   same_model "$lab/folder1/model" "$lab/store$turn/model" || { echo "turn $turn: other bytes" >&2; failures=1; }
 done
+upload_images || { echo "the images cannot be put into the store" >&2; failures=1; }
+images=("s3://blobs/city/images?endpoint=$endpoint" --store-keys "$lab/store.keys")
+fleet_does_the_job images -- --root "city=s3://blobs/city?endpoint=$endpoint" --store-keys "$lab/store.keys"
+images_s=$seconds
+copies=$(copies_of_images "$lab/images/state")
+same_model "$lab/folder1/model" "$lab/images/model" || { echo "images of the store: other bytes" >&2; failures=1; }
+((copies == 0)) || failures=1
 ratio=$(echo "scale=3; $(median "${store_s[@]}") / $(median "${folder_s[@]}")" | bc)
 per_panorama=$(echo "scale=2; $objects / $panoramas" | bc)
 echo
@@ -185,5 +213,6 @@ echo "|---|---|---|"
 echo "| shared folder | $(median "${folder_s[@]}") (${folder_s[*]}) | |"
 echo "| object store | $(median "${store_s[@]}") (${store_s[*]}) | $per_panorama |"
 echo "| ratio | $ratio | |"
+echo "| images in the store | $images_s | $copies copied |"
 (($(echo "$ratio <= 1.15 && $per_panorama <= 3 && $objects >= $panoramas" | bc))) || failures=1
 exit $((failures > 0))

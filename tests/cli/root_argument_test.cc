@@ -32,6 +32,11 @@ TEST(RootArgument, IsRepeatableAndLeavesWhatFollows) {
   EXPECT_EQ(parsed.folder, "images");
 }
 
+TEST(RootArgument, LeavesTheAddressOfAnObjectStoreAsItIs) {
+  const std::string address = "s3://city/2026//a?endpoint=http://127.0.0.1:1&region=r";
+  EXPECT_THAT(Parse("--root city=" + address).roots, ElementsAre(Pair("city", address)));
+}
+
 TEST(RootArgument, RefusesWhatIsNoRoot) {
   for (const char* line : {"--root data", "--root =/a", "--root a/b=/c", "--root ../x=/c"})
     EXPECT_THROW(Parse(line), CLI::ValidationError) << line;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "coordinator/file_roots.h"
+#include "coordinator/object_roots.h"
 #include "tests/fuzz/temporary_folder.h"
 
 namespace {
@@ -19,6 +20,16 @@ orbweave::FileRoots MakeRoots(const orbweave::TemporaryFolder& folder) {
   return {{"r", std::filesystem::canonical(root).string()}};
 }
 
+/// A key leads nowhere else, whatever path the server makes of it.
+void TryObject(const std::string& path) {
+  static const orbweave::ObjectRoots roots = {{"s3://b/r", nullptr}};
+  const auto object = orbweave::FindObject(roots, path);
+  if (!object.ok()) return;
+  const std::filesystem::path key = object->key;
+  ORBWEAVE_CHECK(path == "s3://b/r/" + object->key && key.is_relative() && !key.empty());
+  ORBWEAVE_CHECK(key.lexically_normal() == key && *key.begin() != "..");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -27,5 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string path(orbweave::BytesOf(data, size));
   const auto file = orbweave::ResolveBeneath(roots, "r", path);
   if (file.ok()) ORBWEAVE_CHECK(*file == roots.at("r") + "/a/b");
+  TryObject(path);
+  TryObject("s3://b/r/" + path);
   return 0;
 }

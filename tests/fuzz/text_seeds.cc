@@ -25,7 +25,14 @@ void AddTextSeeds(Seeds& seeds) {
                                std::string(3000, 'x') + "=1\n",
                                "# comment\nfeatures.max_image_width_px = 1024\n"};
   seeds["option_sections"] = {"align.a=1\nmerge.b=2\nfeatures.c=3\n", "sparse"};
-  seeds["root_path"] = {"a/b", "in", "out", "a/../a/b", "../outside", "/etc/passwd"};
+  seeds["root_path"] = {"a/b",
+                        "in",
+                        "out",
+                        "a/../a/b",
+                        "../outside",
+                        "/etc/passwd",
+                        "s3://b/r/a/b.jpg",
+                        "s3://b/r/../c"};
   seeds["printable_text"] = {"Straße \x1b[2J\n<b> \xe2\x80\xae\xff \xc2\x9b\xf0\x9f\x9a\x8b"};
   seeds["listen_address"] = {"127.0.0.1:7000", "unix:/run/orbweave.sock", "[::1]:0", "0.0.0.0:1"};
   seeds["http_request"] = {

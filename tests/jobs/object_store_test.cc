@@ -50,8 +50,13 @@ std::string KeysFile(const TemporaryFolder& folder, const FaultStore& store) {
 /// A coordinator with an object store or without one, two workers, and commands.
 class Fleet {
  public:
-  explicit Fleet(const std::vector<std::string>& options) : options_(options) {
+  explicit Fleet(const std::vector<std::string>& options, bool has_workers = true)
+      : options_(options) {
     Serve();
+    if (has_workers) StartWorkers();
+  }
+
+  void StartWorkers() {
     for (const char* name : {"w1", "w2"}) {
       workers_.push_back(std::make_unique<Command>(
           std::vector<std::string>{ORBWEAVE_BINARY, "work", "--join", address_, "--name", name}));
@@ -79,6 +84,15 @@ class Fleet {
                                                               "--output",
                                                               output});
   }
+
+  /// A command of a client: `orbweave WORDS[0] --coordinator ADDRESS WORDS[1]...`.
+  CommandOutcome Ask(const std::vector<std::string>& words) {
+    std::vector<std::string> command = {ORBWEAVE_BINARY, words.front(), "--coordinator", address_};
+    command.insert(command.end(), words.begin() + 1, words.end());
+    return RunCommand(command);
+  }
+
+  std::string State() const { return folder_ / "state"; }
 
   void Kill() {
     serve_->Signal(SIGKILL);
@@ -182,8 +196,162 @@ TEST(ObjectStoreJob, ACoordinatorWithoutKeysOrStoreSaysSo) {
   const CommandOutcome nobody = serve({"--store", url, "--store-keys", keys});
   EXPECT_EQ(nobody.exit_code, 3) << nobody.err;
   EXPECT_THAT(nobody.err, HasSubstr("127.0.0.1"));
+  const CommandOutcome nothing_to_open = serve({"--store-keys", keys, "--root", "a=/tmp"});
+  EXPECT_EQ(nothing_to_open.exit_code, 2);
+  EXPECT_THAT(nothing_to_open.err, HasSubstr("--store-keys requires --store or --root"));
+  const CommandOutcome twice =
+      serve({"--store-keys", keys, "--root", "a=" + url, "--root", "b=" + url});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("is a root twice"));
   const CommandOutcome misspelt = serve({"--store", "s3:/blobs", "--store-keys", keys});
   EXPECT_EQ(misspelt.exit_code, 2);
+}
+
+/// Images of the street in a store, and who may read them.
+class ObjectImagesJob : public ::testing::Test {
+ protected:
+  explicit ObjectImagesJob(FaultStoreOptions options = {}) : store_(std::move(options)) {
+    for (const auto& file : std::filesystem::directory_iterator(StreetFolder() + "/images"))
+      store_.SetObject(KeyOf(file.path().filename()), ReadAll(file.path()));
+    store_.SetObject("city/north/gnss.csv", ReadAll(StreetFolder() + "/gnss.csv"));
+    ::unsetenv("AWS_ACCESS_KEY_ID");
+  }
+
+  static std::string KeyOf(const std::string& name) { return "city/north/images/" + name; }
+  std::vector<std::string> Root() {
+    return {"--root", "city=" + store_.Url("city"), "--store-keys", keys_};
+  }
+  std::vector<std::string> Submission() {
+    return {"submit",
+            store_.Url("city/north/images"),
+            "--gnss",
+            store_.Url("city/north/gnss.csv"),
+            "--store-keys",
+            keys_};
+  }
+  CommandOutcome Submit(Fleet& fleet, const std::string& output) {
+    std::vector<std::string> words = Submission();
+    words.insert(words.end(), {"--output", output});
+    return fleet.Ask(words);
+  }
+  /// Images among the blobs in the coordinator's folder.
+  static size_t CountCopies(const Fleet& fleet) {
+    size_t copies = 0;
+    for (const auto& image : std::filesystem::directory_iterator(StreetFolder() + "/images")) {
+      const std::string hex = DigestOf(ReadAll(image.path())).ToHex();
+      copies += std::filesystem::exists(fleet.State() + "/blobs/" + hex.substr(0, 2) + "/" + hex);
+    }
+    return copies;
+  }
+
+  const TemporaryFolder folder_;
+  FaultStore store_;
+  const std::string keys_ = KeysFile(folder_, store_);
+};
+
+TEST_F(ObjectImagesJob, LeaveTheSameBytesAsAFolderAndAreNotCopied) {
+  Fleet fleet(Root());
+  const CommandOutcome submitted = Submit(fleet, folder_ / "model");
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  ExpectSameModel(folder_ / "model", ModelOfAFolder());
+  EXPECT_EQ(CountCopies(fleet), 0U);
+  EXPECT_EQ(store_.Count("PUT") + store_.Count("DELETE"), 0U);
+  fleet.End();
+}
+
+TEST_F(ObjectImagesJob, AreSentWhereTheCoordinatorHasThemNotAsARoot) {
+  Fleet fleet({});
+  const CommandOutcome submitted = Submit(fleet, folder_ / "model");
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  ExpectSameModel(folder_ / "model", ModelOfAFolder());
+  EXPECT_EQ(CountCopies(fleet), kPanoramas);
+  fleet.End();
+}
+
+TEST_F(ObjectImagesJob, AreReadByRunToo) {
+  const CommandOutcome ran = RunCommand({ORBWEAVE_BINARY,
+                                         "run",
+                                         store_.Url("city/north/images"),
+                                         "--gnss",
+                                         store_.Url("city/north/gnss.csv"),
+                                         "--store-keys",
+                                         keys_,
+                                         "--output",
+                                         folder_ / "model"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  ExpectSameModel(folder_ / "model", ModelOfAFolder());
+}
+
+class FaultyObjectImagesJob : public ObjectImagesJob {
+ protected:
+  FaultyObjectImagesJob()
+      : ObjectImagesJob({.slow_down_share = 0.1, .cut_share = 0.1, .delay_s = 0.01}) {}
+};
+
+TEST_F(FaultyObjectImagesJob, LeaveTheSameBytesWhereTheStoreFailsNowAndThen) {
+  std::vector<std::string> options = Root();
+  options.insert(options.end(), {"--store", store_.Url("blobs")});
+  Fleet fleet(options);
+  const CommandOutcome submitted = Submit(fleet, folder_ / "model");
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  ExpectSameModel(folder_ / "model", ModelOfAFolder());
+  EXPECT_EQ(CountCopies(fleet), 0U);
+  EXPECT_GT(store_.Faults(), 3U);
+  fleet.End();
+}
+
+TEST_F(ObjectImagesJob, AnImageThatChangesAfterItWasSubmittedIsNamedAndNothingIsLost) {
+  Fleet fleet(Root(), false);
+  const CommandOutcome submitted = fleet.Ask(Submission());
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  const std::string job = submitted.out.substr(0, 12);
+  const auto [key, bytes] = *store_.Objects().lower_bound(KeyOf(""));
+  store_.SetObject(key, bytes + "changed");
+  fleet.StartWorkers();
+  const CommandOutcome failed = fleet.Ask({"status", job, "--watch"});
+  const std::string status = fleet.Ask({"status", job}).out + failed.out + failed.err;
+  EXPECT_THAT(status, HasSubstr("s3://blobs/" + key + " was changed after it was submitted"));
+  store_.SetObject(key, bytes);
+  ASSERT_EQ(fleet.Ask({"retry", job}).exit_code, 0);
+  (void)fleet.Ask({"status", job, "--watch"});
+  const CommandOutcome fetched = fleet.Ask({"fetch", job, "--output", folder_ / "model"});
+  ASSERT_EQ(fetched.exit_code, 0) << fetched.err;
+  ExpectSameModel(folder_ / "model", ModelOfAFolder());
+  fleet.End();
+}
+
+TEST_F(ObjectImagesJob, WhatIsWrongWithTheAddressIsSaidByMessageAndExitCode) {
+  Fleet fleet(Root(), false);
+  const auto submit = [&](const std::string& address, const std::string& keys) {
+    return fleet.Ask({"submit", address, "--store-keys", keys});
+  };
+  const CommandOutcome empty = submit(store_.Url("city/south"), keys_);
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(empty.err, HasSubstr("no images in s3://blobs/city/south"));
+  std::string other = store_.Url("city");
+  other.replace(other.find("blobs"), 5, "globs");
+  const CommandOutcome bucket = submit(other, keys_);
+  EXPECT_EQ(bucket.exit_code, 2);
+  EXPECT_THAT(bucket.err, HasSubstr("NoSuchBucket"));
+  WriteAll(folder_ / "other.keys", "aws_access_key_id = A\naws_secret_access_key = B\n");
+  ::chmod((folder_ / "other.keys").c_str(), 0600);
+  const CommandOutcome rights = submit(store_.Url("city"), folder_ / "other.keys");
+  EXPECT_EQ(rights.exit_code, 2);
+  EXPECT_THAT(rights.err, HasSubstr("the keys need the rights"));
+  const CommandOutcome without_keys = fleet.Ask({"submit", store_.Url("city")});
+  EXPECT_EQ(without_keys.exit_code, 2);
+  EXPECT_THAT(without_keys.err, HasSubstr("AWS_ACCESS_KEY_ID"));
+  std::string nobody;
+  {
+    FaultStore gone;
+    nobody = gone.Url("city");
+  }
+  const CommandOutcome away = submit(nobody, keys_);
+  EXPECT_EQ(away.exit_code, 3) << away.err;
+  EXPECT_THAT(away.err, HasSubstr("127.0.0.1"));
+  const CommandOutcome misspelt = submit("s3:///city", keys_);
+  EXPECT_EQ(misspelt.exit_code, 2);
+  fleet.End();
 }
 
 TEST(StoreCommand, PrintsATableAndSaysByItsExitCode) {

@@ -30,6 +30,8 @@ class GrantedBlobsTest : public ::testing::Test {
   void Start() {
     CoordinatorOptions options{.state_dir = folder_ / "state", .find_plan = testing::FindToyPlan};
     options.objects = *S3Store::Make(*ParseS3Address(store_.Url("state")), store_.keys());
+    options.object_roots["s3://blobs/street"] =
+        *S3Store::Make(*ParseS3Address(store_.Url("street")), store_.keys());
     auto opened = Coordinator::Open(options, clock_);
     ASSERT_TRUE(opened.ok()) << opened.status();
     coordinator_ = *std::move(opened);
@@ -173,6 +175,35 @@ TEST_F(GrantedBlobsTest, GarbageGoesFromTheStoreToo) {
   EXPECT_EQ(report.needed_bytes, needed_bytes.size());
   EXPECT_EQ(CountBlobs(), 1U);
   EXPECT_EQ(*client_->Get(needed), needed_bytes);
+}
+
+TEST_F(GrantedBlobsTest, ALinkedObjectIsReadWhereItLiesAndNeverCopied) {
+  store_.SetObject("street/north/a b.jpg", large_);
+  const std::string path = "s3://blobs/street/north/a b.jpg";
+  ASSERT_TRUE(client_->LinkFile(DigestOf(large_), path).ok());
+  Restart();
+  EXPECT_EQ(*client_->Get(DigestOf(large_)), large_);
+  EXPECT_EQ(coordinator_->blob_traffic().bytes_out, 0U);
+  EXPECT_EQ(*coordinator_->Get(DigestOf(large_)), large_);
+  EXPECT_EQ(CountBlobs(), 0U);
+  EXPECT_TRUE(absl::IsNotFound(client_->LinkFile(DigestOf("b"), "s3://blobs/street/b.jpg")));
+  EXPECT_TRUE(absl::IsNotFound(client_->LinkFile(DigestOf("b"), "s3://blobs/streets/b.jpg")));
+}
+
+TEST_F(GrantedBlobsTest, ALinkedObjectThatChangedIsNamed) {
+  store_.SetObject("street/a.jpg", large_);
+  ASSERT_TRUE(client_->LinkFile(DigestOf(large_), "s3://blobs/street/a.jpg").ok());
+  for (const bool is_removed : {false, true}) {
+    store_.SetObject("street/a.jpg", large_ + "other");
+    if (is_removed) store_.RemoveObject("street/a.jpg");
+    const absl::Status status = client_->Get(DigestOf(large_)).status();
+    EXPECT_TRUE(absl::IsNotFound(status)) << status;
+    EXPECT_THAT(std::string(status.message()),
+                ::testing::HasSubstr(is_removed ? "s3://blobs/street/a.jpg was removed"
+                                                : "s3://blobs/street/a.jpg was changed"));
+  }
+  store_.SetObject("street/a.jpg", large_);  // put back
+  EXPECT_EQ(*client_->Get(DigestOf(large_)), large_);
 }
 
 TEST_F(GrantedBlobsTest, IsNotReadyWhenTheStoreIsNot) {

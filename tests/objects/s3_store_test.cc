@@ -105,6 +105,48 @@ TEST(S3Store, ListsPageAfterPage) {
   EXPECT_EQ(store->List()->size(), 4U);
 }
 
+TEST(S3Store, ListsAPageAtATimeUntilItIsTaken) {
+  FaultStore server({.page_keys = 2});
+  const auto store = Open(server);
+  for (const char* key : {"a", "b", "c", "d", "e"}) ASSERT_TRUE(Put(*store, key, key).ok());
+  std::vector<size_t> pages;
+  ASSERT_TRUE(store
+                  ->ListPages([&](const std::vector<ObjectInfo>& page) {
+                    pages.push_back(page.size());
+                    return absl::OkStatus();
+                  })
+                  .ok());
+  EXPECT_THAT(pages, ::testing::ElementsAre(2, 2, 1));
+  const uint64_t before = server.Count("GET");
+  const auto refuse = [](const std::vector<ObjectInfo>&) { return absl::CancelledError("enough"); };
+  EXPECT_TRUE(absl::IsCancelled(store->ListPages(refuse)));
+  EXPECT_EQ(server.Count("GET"), before + 1);
+}
+
+TEST(S3Store, ReadsTheVersionThatWasListedOrNone) {
+  FaultStore server;
+  const auto store = Open(server);
+  const std::string bytes = Bytes(2'000'000);
+  ASSERT_TRUE(Put(*store, "key", bytes).ok());
+  const std::string etag = store->List()->front().etag;
+  const auto read = [&](const std::string& version) {
+    std::string read_bytes;
+    const absl::Status status = store->GetVersion("key", version, [&](std::string_view piece) {
+      read_bytes += piece;
+      return absl::OkStatus();
+    });
+    return status.ok() ? absl::StatusOr<std::string>(read_bytes) : status;
+  };
+  EXPECT_EQ(*read(etag), bytes);
+  EXPECT_EQ(*read(""), bytes);  // of a server that tells no versions
+  server.SetObject("a/b/key", Bytes(1'000'000) + Bytes(1'000'000));
+  const absl::Status changed = read(etag).status();
+  EXPECT_TRUE(absl::IsAborted(changed)) << changed;
+  EXPECT_THAT(std::string(changed.message()), HasSubstr("s3://blobs/a/b/key"));
+  server.RemoveObject("a/b/key");
+  EXPECT_TRUE(absl::IsNotFound(read(etag).status()));
+}
+
 TEST(S3Store, ListsAnEmptyStore) {
   FaultStore server;
   EXPECT_TRUE(Open(server)->List()->empty());

@@ -58,6 +58,10 @@ int64_t UnixOf(const std::string& time) {
   return static_cast<int64_t>(::timegm(&utc));
 }
 
+std::string EtagOf(const std::string& bytes) {
+  return absl::StrCat("\"", DigestOf(bytes).ToHex().substr(0, 32), "\"");
+}
+
 struct Question {
   std::string path{};
   std::map<std::string, std::string> query{};
@@ -250,7 +254,12 @@ class FaultStoreTalk {
     const auto object = store_.objects_.find(key);
     if (object == store_.objects_.end()) return Refuse({404, "NoSuchKey", "there is no such key"});
     const std::string& bytes = object->second.bytes;
+    const std::string etag = EtagOf(bytes);
+    const std::string wanted = Text(request[http::field::if_match]);
+    if (!wanted.empty() && wanted != etag)
+      return Refuse({412, "PreconditionFailed", "it is another"});
     Response response(http::status::ok, 11);
+    response.set(http::field::etag, etag);
     response.set(http::field::last_modified, HttpTime(object->second.modified_unix_s));
     response.set("x-length", std::to_string(bytes.size()));
     const std::string range = Text(request[http::field::range]);
@@ -294,7 +303,9 @@ class FaultStoreTalk {
                       UriEncode(it->first, true),
                       "</Key><LastModified>",
                       FormatTime(it->second.modified_unix_s, "%Y-%m-%dT%H:%M:%S.000Z"),
-                      "</LastModified><Size>",
+                      "</LastModified><ETag>&#34;",
+                      EtagOf(it->second.bytes).substr(1, 32),
+                      "&quot;</ETag><Size>",
                       it->second.bytes.size(),
                       "</Size></Contents>");
     }
@@ -393,6 +404,11 @@ std::map<std::string, std::string> FaultStore::Objects() {
 void FaultStore::SetObject(const std::string& key, const std::string& bytes) {
   const std::lock_guard lock(mutex_);
   objects_[key] = {bytes, UnixNow()};
+}
+
+void FaultStore::RemoveObject(const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  objects_.erase(key);
 }
 
 void FaultStore::Age(const std::string& key, int64_t age_s) {

@@ -55,6 +55,7 @@ class FaultStore {
   void FailNext(const std::string& method, std::vector<StoreFault> faults);
   [[nodiscard]] std::map<std::string, std::string> Objects();
   void SetObject(const std::string& key, const std::string& bytes);
+  void RemoveObject(const std::string& key);
   /// As if it had been put so long ago.
   void Age(const std::string& key, int64_t age_s);
   /// Requests with this method so far, refused ones among them.
