@@ -4,12 +4,16 @@
 #include "core/graph/build_view_graph.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "core/geometry/rotation.h"
+#include "core/geometry/sphere_cells.h"
 #include "core/graph/adjacency.h"
 
 namespace orbweave {
@@ -35,14 +39,37 @@ std::vector<ViewEdge> NormaliseEdges(std::vector<ViewEdge> edges,
   return kept;
 }
 
-struct TriangleCount {
+// In thousandths, so that sums are exact in any order; more than none.
+uint64_t WeightOf(const ViewEdge& edge) {
+  constexpr double kOneCell = 1.0 / (kSpreadCells * kSpreadCells);  // whatever is there is in one
+  return 1 + static_cast<uint64_t>(std::llround(1000.0 * std::max(edge.spread, kOneCell) *
+                                                std::sqrt(edge.num_inliers)));
+}
+
+// The triangles of an edge, and what they weigh.
+struct Triangles {
   uint32_t total = 0;
   uint32_t closing = 0;
+  uint64_t total_weight = 0;
+  uint64_t closing_weight = 0;
 
-  [[nodiscard]] double ClosingShare() const { return static_cast<double>(closing) / total; }
+  void Add(bool closes, uint64_t weight) {
+    ++total;
+    total_weight += weight;
+    if (!closes) return;
+    ++closing;
+    closing_weight += weight;
+  }
+  void Subtract(bool closes, uint64_t weight) {
+    --total;
+    total_weight -= weight;
+    if (!closes) return;
+    --closing;
+    closing_weight -= weight;
+  }
 };
 
-// The edges still there and how many of their triangles close.
+// The edges still there and which of their triangles close.
 class TriangleLedger {
  public:
   TriangleLedger(uint32_t num_images,
@@ -51,9 +78,10 @@ class TriangleLedger {
       : edges_(edges),
         options_(options),
         adjacency_(num_images, edges),
-        counts_(edges.size()),
+        triangles_(edges.size()),
         is_gone_(edges.size(), 0) {
-    for (uint32_t e = 0; e < edges.size(); ++e) CountTrianglesAbove(e);
+    std::ranges::transform(edges, std::back_inserter(weights_), WeightOf);
+    for (uint32_t e = 0; e < edges.size(); ++e) AddTrianglesAbove(e);
     for (uint32_t e = 0; e < edges.size(); ++e) EnlistIfSuspect(e);
   }
 
@@ -61,10 +89,10 @@ class TriangleLedger {
   void RemoveSuspects(std::vector<DroppedEdge>& dropped) {
     while (!suspects_.empty()) {
       const uint32_t worst = std::get<2>(*suspects_.begin());
-      const TriangleCount& count = counts_[worst];
+      const Triangles& triangles = triangles_[worst];
       dropped.push_back({edges_[worst].pair,
-                         std::to_string(count.total - count.closing) + " of " +
-                             std::to_string(count.total) + " triplets do not close",
+                         std::to_string(triangles.total - triangles.closing) + " of " +
+                             std::to_string(triangles.total) + " triplets do not close",
                          DropCause::kTriplets});
       Remove(worst);
     }
@@ -80,19 +108,19 @@ class TriangleLedger {
   }
 
  private:
-  // Worst first: closing share, inliers, edge in pair order. Of an open triangle the weakest edge
-  // is to blame: a strong one whose neighbours are poor is in as many open triangles as they
-  // together.
+  // Worst first: share, inliers, edge in pair order.
   using Suspect = std::tuple<double, uint32_t, uint32_t>;
 
+  [[nodiscard]] double ClosingShare(uint32_t e) const {
+    return static_cast<double>(weights_[e] + triangles_[e].closing_weight) /
+           static_cast<double>(weights_[e] + triangles_[e].total_weight);
+  }
   [[nodiscard]] Suspect SuspectOf(uint32_t e) const {
-    const TriangleCount& count = counts_[e];
-    const double num_inliers = edges_[e].num_inliers;
-    return {count.ClosingShare(), num_inliers / (count.total - count.closing), e};
+    return {ClosingShare(e), edges_[e].num_inliers, e};
   }
   [[nodiscard]] bool IsSuspect(uint32_t e) const {
-    return is_gone_[e] == 0 && counts_[e].total > 0 &&
-           counts_[e].ClosingShare() < options_.min_closing_share;
+    return is_gone_[e] == 0 && triangles_[e].closing < triangles_[e].total &&
+           ClosingShare(e) <= options_.min_closing_share;
   }
   void EnlistIfSuspect(uint32_t e) {
     if (IsSuspect(e)) suspects_.insert(SuspectOf(e));
@@ -120,36 +148,39 @@ class TriangleLedger {
                       });
   }
 
-  // Every triangle is counted once, at the edge opposite to its largest image.
-  void CountTrianglesAbove(uint32_t e) {
+  // Every triangle is added once, at the edge opposite to its largest image.
+  void AddTrianglesAbove(uint32_t e) {
     ForEachTriangle(e, [&](uint32_t c, uint32_t bc, uint32_t ca) {
       if (c < edges_[e].pair.b.value) return;
-      const uint32_t closes = Closes(e, bc, ca, c) ? 1 : 0;
-      for (const uint32_t side : {e, bc, ca}) {
-        ++counts_[side].total;
-        counts_[side].closing += closes;
-      }
+      const bool closes = Closes(e, bc, ca, c);
+      triangles_[e].Add(closes, Weaker(bc, ca));
+      triangles_[bc].Add(closes, Weaker(ca, e));
+      triangles_[ca].Add(closes, Weaker(e, bc));
     });
   }
 
   void Remove(uint32_t e) {
     suspects_.erase(SuspectOf(e));
     ForEachTriangle(e, [&](uint32_t c, uint32_t bc, uint32_t ca) {
-      const uint32_t closes = Closes(e, bc, ca, c) ? 1 : 0;
-      for (const uint32_t side : {bc, ca}) {
+      const bool closes = Closes(e, bc, ca, c);
+      for (const auto& [side, other] : {std::pair(bc, ca), std::pair(ca, bc)}) {
         if (IsSuspect(side)) suspects_.erase(SuspectOf(side));
-        --counts_[side].total;
-        counts_[side].closing -= closes;
+        triangles_[side].Subtract(closes, Weaker(e, other));
         EnlistIfSuspect(side);
       }
     });
     is_gone_[e] = 1;
   }
 
+  [[nodiscard]] uint64_t Weaker(uint32_t x, uint32_t y) const {
+    return std::min(weights_[x], weights_[y]);
+  }
+
   const std::vector<ViewEdge>& edges_;
   const ViewGraphOptions& options_;
   Adjacency adjacency_;
-  std::vector<TriangleCount> counts_;
+  std::vector<uint64_t> weights_{};
+  std::vector<Triangles> triangles_;
   std::vector<uint8_t> is_gone_;
   std::set<Suspect> suspects_;
 };

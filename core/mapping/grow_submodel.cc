@@ -12,6 +12,7 @@
 #include "core/mapping/adjust_new_images.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/rank_next_images.h"
+#include "core/mapping/reconsider_images.h"
 
 namespace orbweave {
 namespace {
@@ -45,6 +46,7 @@ class Growth {
       ORBWEAVE_ASSIGN_OR_RETURN(const bool goes_on, TryHarder());
       if (!goes_on) break;
     }
+    ORBWEAVE_RETURN_IF_ERROR(Reconsider());
     ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state_, options_, context_));
     ++report_.num_global_adjustments;
     DropWeakImages();
@@ -137,10 +139,16 @@ class Growth {
     ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(state_, options_, context_));
     ++report_.num_global_adjustments;
     DropWeakImages();
+    ORBWEAVE_RETURN_IF_ERROR(Reconsider());
     new_images_.clear();
     images_adjusted_ = static_cast<double>(state_.Registered().size());
     points_adjusted_ = static_cast<double>(state_.NumPoints());
     return absl::OkStatus();
+  }
+
+  absl::Status Reconsider() {
+    if (!schedule_.relaxes_registration) return absl::OkStatus();
+    return ReconsiderImages(state_, options_, Limits(), log_, context_);
   }
 
   /// Images that kept hardly a point were registered wrongly; they may be tried again.

@@ -12,6 +12,7 @@
 #include "core/estimators/estimate_absolute_pose.h"
 #include "core/mapping/pair_witness.h"
 #include "core/mapping/pose_from_pairs.h"
+#include "core/mapping/pose_of_most_places.h"
 #include "core/mapping/scene_correspondences.h"
 
 namespace orbweave {
@@ -56,12 +57,16 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     return true;
   };
 
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<AbsolutePose> pose,
+  ORBWEAVE_ASSIGN_OR_RETURN(std::optional<AbsolutePose> pose,
                             EstimateAbsolutePose(correspondences.bearings,
                                                  correspondences.positions,
                                                  max_error_rad,
                                                  {.min_inliers = 6},
                                                  ContextOf(context, problem_image.id)));
+  if (pose && limits.heeds_pairs) {
+    pose->cam_from_world =
+        PoseOfMostPlaces(pose->cam_from_world, correspondences, views, max_error_rad);
+  }
   const bool is_doubtful = pose && limits.heeds_pairs &&
                            ContradictsStrongPair(pose->cam_from_world, views, max_error_rad);
   std::optional<PoseFromPairs> proposed;

@@ -10,7 +10,8 @@ namespace orbweave {
 
 /// The images of a cluster and their pairs -> its submodels (ReconstructCluster).
 struct ReconstructClusterStage {
-  static constexpr StageFacts kFacts{.name = "reconstruct_cluster", .version = "9", .weight = 28.0};
+  static constexpr StageFacts kFacts{
+      .name = "reconstruct_cluster", .version = "10", .weight = 28.0};
   using Options = OptionSections<MappingOptions>;
 
   Parts<ClusterRecipe> cluster;

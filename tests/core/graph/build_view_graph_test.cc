@@ -110,6 +110,46 @@ TEST(BuildViewGraph, BlamesTheWeakEdgesRoundAStrongOneThatIsInAllTheirTriangles)
   EXPECT_EQ(PairsOf(BuildViewGraph(6, row.edges, {}).dropped), wrong);
 }
 
+ViewEdge EdgeOf(uint32_t a, uint32_t b, uint32_t num_inliers, double spread) {
+  ViewEdge edge = Edge(a, b, num_inliers);
+  edge.spread = spread;
+  return edge;
+}
+
+TEST(BuildViewGraph, BelievesOneStrongPairMoreThanTwoWeakOnesThatAgree) {
+  // A town: 0, 1, 2 and 3 one after the other; a taxi beside the camera in 0, 1 and 3.
+  ViewGraph row{.num_images = 4,
+                .edges = {EdgeOf(0, 1, 749, 0.77),
+                          EdgeOf(0, 2, 257, 0.5),
+                          EdgeOf(0, 3, 60, 0.38),
+                          EdgeOf(1, 2, 454, 0.67),
+                          EdgeOf(1, 3, 79, 0.31),
+                          EdgeOf(2, 3, 221, 0.53)}};
+  row = WithRotations(row, 0.002);
+  const Eigen::Quaterniond by_the_taxi = RotationFromVector({0.0, 0.28, 0.0});
+  for (ViewEdge& edge : row.edges) {
+    if (edge.pair.b == ImageId(3) && edge.pair.a != ImageId(2))
+      edge.b_from_a.rotation = by_the_taxi * edge.b_from_a.rotation;
+  }
+  const std::set<ImagePair> wrong = {MakePair(ImageId(0), ImageId(3)),
+                                     MakePair(ImageId(1), ImageId(3))};
+  EXPECT_EQ(PairsOf(BuildViewGraph(4, row.edges, {}).dropped), wrong);
+}
+
+TEST(BuildViewGraph, BelievesTwoPairsThatAgreeMoreThanOneWithAsManyInliersAsBoth) {
+  ViewGraph row{.num_images = 4,
+                .edges = {EdgeOf(0, 1, 457, 0.64),
+                          EdgeOf(0, 2, 431, 0.62),
+                          EdgeOf(0, 3, 153, 0.52),
+                          EdgeOf(1, 2, 891, 0.73),
+                          EdgeOf(1, 3, 346, 0.66),
+                          EdgeOf(2, 3, 509, 0.59)}};
+  row = WithRotations(row, 0.002);
+  Spoil(row, 2, 3);
+  EXPECT_EQ(PairsOf(BuildViewGraph(4, row.edges, {}).dropped),
+            (std::set<ImagePair>{MakePair(ImageId(2), ImageId(3))}));
+}
+
 TEST(BuildViewGraph, KeepsEdgesInNoTriangle) {
   ViewGraph chain = WithRotations(Street(5, 1), 0.0);
   Spoil(chain, 2, 3);
