@@ -9,6 +9,7 @@
 #include "proto/codec/features_codec.h"
 #include "proto/codec/inspection_codec.h"
 #include "proto/codec/manifest_codec.h"
+#include "proto/codec/pairs_codec.h"
 #include "proto/codec/recipes_codec.h"
 #include "proto/codec/reconstruction_codec.h"
 #include "proto/codec/seams_codec.h"
@@ -74,6 +75,27 @@ struct Codec<std::vector<TwoViewGeometry>> {
   static constexpr std::string_view kName = "two_view_geometries";
   static constexpr auto Encode = EncodeTwoViewGeometries;
   static constexpr auto Decode = DecodeTwoViewGeometries;
+};
+
+template <>
+struct Codec<PairCandidates> {
+  static constexpr std::string_view kName = "pair_candidates";
+  static constexpr auto Encode = EncodePairCandidates;
+  static constexpr auto Decode = DecodePairCandidates;
+};
+
+template <>
+struct Codec<std::vector<MatchedPair>> {
+  static constexpr std::string_view kName = "matched_pairs";
+  static constexpr auto Encode = EncodeMatchedPairs;
+  static constexpr auto Decode = DecodeMatchedPairs;
+};
+
+template <>
+struct Codec<WiderPairs> {
+  static constexpr std::string_view kName = "wider_pairs";
+  static constexpr auto Encode = EncodeWiderPairs;
+  static constexpr auto Decode = DecodeWiderPairs;
 };
 
 template <>

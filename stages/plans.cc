@@ -21,6 +21,7 @@
 #include "stages/join_submodels/stage.h"
 #include "stages/list_checks/stage.h"
 #include "stages/list_fusions/stage.h"
+#include "stages/list_pairs/stage.h"
 #include "stages/list_seams/stage.h"
 #include "stages/list_tiles/stage.h"
 #include "stages/list_views/stage.h"
@@ -32,6 +33,7 @@
 #include "stages/review_seams/stage.h"
 #include "stages/select_image_pairs/stage.h"
 #include "stages/select_views/stage.h"
+#include "stages/select_wider_pairs/stage.h"
 #include "stages/steer_adjustment/stage.h"
 #include "stages/verify_matches/stage.h"
 
@@ -44,6 +46,8 @@ constexpr double kUsualRounds = 26.0;
 constexpr uint32_t kMostRounds = 11 * (2 * 1000 + 1) + 1;
 /// The same of reviews, each a round, and the first.
 constexpr uint32_t kMostReviews = 11;
+/// The first pairs, those after them, the reserve.
+constexpr uint32_t kMostMatchings = 3;
 
 /// What a model is made from.
 struct VerifiedImages {
@@ -59,7 +63,16 @@ VerifiedImages AddImageStages(const SparseJob& job, PlanBuilder& plan) {
   const auto features = Interleave(extracted.features, extracted.places);
   const auto pairs =
       plan.Add(SelectImagePairsStage{.manifest = ingested.manifest, .features = features});
-  const auto matched = plan.Add(MatchImagesStage{.run = pairs.runs});
+  const auto listed =
+      plan.Add(ListPairsStage{.candidates = pairs.candidates,
+                              .features = features,
+                              .wider = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider)});
+  const auto matched = plan.Add(MatchImagesStage{.run = listed.runs});
+  plan.Add(SelectWiderPairsStage{.manifest = ingested.manifest,
+                                 .candidates = pairs.candidates,
+                                 .matched = matched.matched,
+                                 .before = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider)});
+  plan.RepeatFrom<ListPairsStage>(1.0, kMostMatchings);
   return {ingested.manifest, features, matched.verified, job.clusters_by_hand};
 }
 

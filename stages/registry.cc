@@ -22,6 +22,7 @@
 #include "stages/join_submodels/stage.h"
 #include "stages/list_checks/stage.h"
 #include "stages/list_fusions/stage.h"
+#include "stages/list_pairs/stage.h"
 #include "stages/list_seams/stage.h"
 #include "stages/list_tiles/stage.h"
 #include "stages/list_views/stage.h"
@@ -32,6 +33,7 @@
 #include "stages/review_seams/stage.h"
 #include "stages/select_image_pairs/stage.h"
 #include "stages/select_views/stage.h"
+#include "stages/select_wider_pairs/stage.h"
 #include "stages/steer_adjustment/stage.h"
 #include "stages/verify_matches/stage.h"
 
@@ -40,7 +42,8 @@ namespace orbweave {
 const std::vector<Stage>& AllStages() {
   static const auto* const kStages = new std::vector<Stage>{
       Describe<IngestImagesStage>(),       Describe<ExtractFeaturesStage>(),
-      Describe<SelectImagePairsStage>(),   Describe<MatchImagesStage>(),
+      Describe<SelectImagePairsStage>(),   Describe<ListPairsStage>(),
+      Describe<MatchImagesStage>(),        Describe<SelectWiderPairsStage>(),
       Describe<VerifyMatchesStage>(),      Describe<PartitionViewGraphStage>(),
       Describe<ReconstructClusterStage>(), Describe<ListSeamsStage>(),
       Describe<FitSeamsStage>(),           Describe<AlignSubmodelsStage>(),

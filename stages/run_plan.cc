@@ -3,6 +3,7 @@
 
 #include "stages/run_plan.h"
 
+#include <map>
 #include <string>
 #include <utility>
 
@@ -16,15 +17,20 @@
 namespace orbweave {
 namespace {
 
+/// Results by the ids of their tasks: a loop may ask for the same again.
+using KnownResults = std::map<Digest, TaskResult>;
+
 absl::StatusOr<TaskResult> RunOne(const TaskSpec& task,
                                   const StageLookup& stages,
                                   BlobAccess& blobs,
-                                  const StageContext& context) {
+                                  const StageContext& context,
+                                  KnownResults& known) {
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  if (const auto found = known.find(task.Id()); found != known.end()) return found->second;
   StageContext seeded = context;
   seeded.seed = task.Id().ToSeed();
   absl::StatusOr<TaskResult> result = CallStage(stages, task, blobs, seeded);
-  if (result.ok()) return result;
+  if (result.ok()) return known[task.Id()] = *std::move(result);
   return Annotate(result.status(), absl::StrCat("stage ", task.stage, ", part ", task.part));
 }
 
@@ -36,6 +42,7 @@ absl::StatusOr<std::vector<TaskOutcome>> RunPlan(const JobPlan& plan,
                                                  BlobAccess& blobs,
                                                  const StageContext& context) {
   LoopGuard loops;
+  KnownResults known;
   std::vector<std::vector<TaskResult>> results(plan.stages.size());
   std::vector<std::vector<TaskOutcome>> outcomes(plan.stages.size());
   for (uint32_t s = 0; s < plan.stages.size(); s = StageAfter(plan, s, results[s])) {
@@ -48,7 +55,7 @@ absl::StatusOr<std::vector<TaskOutcome>> RunPlan(const JobPlan& plan,
     results[s].clear();
     outcomes[s].clear();
     for (const TaskSpec& task : stage.tasks) {
-      ORBWEAVE_ASSIGN_OR_RETURN(TaskResult result, RunOne(task, stages, blobs, context));
+      ORBWEAVE_ASSIGN_OR_RETURN(TaskResult result, RunOne(task, stages, blobs, context, known));
       results[s].push_back(result);
       outcomes[s].push_back({task.stage, task.part, task.Id(), std::move(result)});
     }

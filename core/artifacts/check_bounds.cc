@@ -35,6 +35,14 @@ absl::Status CheckPairs(std::span<const TwoViewGeometry> pairs, const ImageManif
   return absl::OkStatus();
 }
 
+absl::Status CheckPairNumbers(std::span<const ImagePair> pairs, size_t num_images) {
+  for (const ImagePair& pair : pairs) {
+    for (const ImageId id : {pair.a, pair.b})
+      ORBWEAVE_RETURN_IF_ERROR(CheckNumber(id.value, num_images, "a pair has image"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckPartition(const Partition& partition, const ImageManifest& manifest) {
   for (size_t c = 0; c < partition.clusters.size(); ++c) {
     const std::string whose = absl::StrCat("cluster ", c);

@@ -36,6 +36,9 @@ namespace orbweave {
 [[nodiscard]] absl::Status CheckPairs(std::span<const TwoViewGeometry> pairs,
                                       const ImageManifest& manifest);
 
+/// The same of pairs alone: numbers of `num_images` images.
+[[nodiscard]] absl::Status CheckPairNumbers(std::span<const ImagePair> pairs, size_t num_images);
+
 /// Clusters have images of the manifest alone, seams two different clusters.
 [[nodiscard]] absl::Status CheckPartition(const Partition& partition,
                                           const ImageManifest& manifest);

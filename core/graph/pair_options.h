@@ -14,6 +14,8 @@ struct PairOptions {
   int exhaustive_below = 40;
   double similar_gate_m = 50.0;
   double similar_gate_sigmas = 3.0;
+  int first_neighbours = 3;
+  int thin_below = 4;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -45,6 +47,15 @@ struct PairOptions {
           self.similar_gate_sigmas,
           "the gate is at least this many times the sum of both GNSS sigmas",
           Range{0, 1000});
+    visit("first_neighbours",
+          self.first_neighbours,
+          "candidates of each kind that an image is matched with first; most others are left out "
+          "where these show a strong chain of its drive (0: all at once)",
+          Range{0, 10000});
+    visit("thin_below",
+          self.thin_below,
+          "images with fewer verified pairs get twice the candidates (0: none do)",
+          Range{0, 10000});
   }
 };
 

@@ -169,6 +169,14 @@ struct Histogram {
   std::vector<uint64_t> counts{};
 };
 
+/// What was matched beside the first pairs, decided by what these showed (ChooseWiderPairs).
+struct ReportWiderPairs {
+  uint64_t second = 0;       ///< pairs of which no strong chain told enough
+  uint64_t held_back = 0;    ///< pairs of one drive, not matched: a strong chain joins their images
+  uint64_t reserve = 0;      ///< pairs of images with few others
+  uint64_t thin_images = 0;  ///< these images
+};
+
 /// Everything report.json and report.html tell. Residuals are angles times W / 2pi: pixels at the
 /// equator.
 struct JobReport {
@@ -199,7 +207,8 @@ struct JobReport {
   std::vector<ReportWorker> workers{};
   double elapsed_s = 0.0;
   std::array<uint64_t, kNumMatchRungs>
-      pairs_of_rung{};               ///< verified pairs that stayed, by MatchRung
+      pairs_of_rung{};  ///< verified pairs that stayed, by MatchRung
+  ReportWiderPairs wider_pairs{};
   std::vector<CrossCheck> checks{};  ///< of all models, the largest model's first
   Verdict verdict{};
   std::vector<std::string> warnings{};

@@ -169,6 +169,13 @@ std::vector<ReportSeam> SeamRows(const JobResults& results) {
   return rows;
 }
 
+ReportWiderPairs WiderPairsRow(const WiderPairs& wider) {
+  return {.second = wider.second.size(),
+          .held_back = wider.num_held_back,
+          .reserve = wider.reserve.size(),
+          .thin_images = wider.num_thin_images};
+}
+
 ReportAdjustment AdjustmentRow(const GlobalAdjustReport& report) {
   ReportAdjustment row{.bytes_of_subproblem = report.bytes_of_subproblem};
   for (size_t i = 0; i < report.adjustments.size(); ++i) {
@@ -298,6 +305,7 @@ JobReport BuildJobReport(const JobResults& results) {
   report.clusters = ClusterRows(results);
   report.seams = SeamRows(results);
   for (const uint8_t rung : results.view_graph.edge_rungs) ++report.pairs_of_rung.at(rung);
+  if (results.wider_pairs) report.wider_pairs = WiderPairsRow(*results.wider_pairs);
   report.warnings = results.manifest.warnings;
   ListMissingImages(results, report);
   TellReviews(results.review, report);

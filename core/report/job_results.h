@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "core/merging/review_seams.h"
 #include "core/partitioned_ba/global_options.h"
 #include "core/scene/image_manifest.h"
+#include "core/scene/pair_candidates.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {
@@ -45,6 +47,7 @@ struct JobResults {
   ImageManifest manifest{};
   std::vector<std::string>
       image_problems{};  ///< per image: why it has no features, mostly empty; or empty list
+  std::optional<WiderPairs> wider_pairs{};  ///< absent: matches were given
   DividedViewGraph view_graph{};
   std::vector<ClusterSummary> clusters{};
   Alignment alignment{};

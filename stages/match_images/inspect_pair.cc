@@ -62,6 +62,10 @@ void MeasureInliers(const PairSide& a, const PairSide& b, PairInspection& inspec
   inspection.spread_in_b = SphereSpread(in_b);
 }
 
+uint32_t Window(const PairOptions& options) {
+  return static_cast<uint32_t>(options.sequence_window);
+}
+
 std::string Metres(double metres) {
   char text[64];
   std::snprintf(text, sizeof text, "%.1f m", metres);
@@ -117,6 +121,11 @@ std::string WhyNotSelected(const ImageManifest& manifest,
   const ImageRecord& a = manifest.At(pair.a);
   const ImageRecord& b = manifest.At(pair.b);
   std::string why = "of two drives, which no sequence joins";
+  if (options.first_neighbours > 0 && a.drive == b.drive &&
+      pair.b.value - pair.a.value <= Window(options)) {
+    return "held back, as pairs with evidence beyond doubt join its images already "
+           "(pairs.first_neighbours)";
+  }
   if (a.drive == b.drive) {
     why = std::to_string(pair.b.value - pair.a.value) +
           " apart in the sequence (pairs.sequence_window is " +

@@ -48,8 +48,8 @@ struct PairInspection {
     const TwoViewOptions& two_view_options,
     const StageContext& context);
 
-/// Why SelectImagePairs did not take the pair, in a sentence without a full stop: how far apart in
-/// the sequence, and by GNSS, against the options.
+/// Why the pair was not to be tried, in a sentence without a full stop: held back along a strong
+/// chain (ChooseWiderPairs), or how far apart in the sequence, and by GNSS, against the options.
 [[nodiscard]] std::string WhyNotSelected(const ImageManifest& manifest,
                                          ImagePair pair,
                                          const PairOptions& options);

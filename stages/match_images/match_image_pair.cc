@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/estimators/estimate_two_view.h"
+#include "core/estimators/find_rival_direction.h"
 #include "core/estimators/grow_two_view.h"
 #include "core/features/growing_nearest.h"
 #include "core/features/match_against_decoys.h"
@@ -26,8 +27,13 @@ constexpr double kDoubtOfPredictions = 2.0;
 /// evidence, one pair of 33 was more than 3 degrees off that by all features (5); from 10^-50 on 5
 /// of 83 were (12), and from 10^-12 on 12 of 100, one turned round.
 constexpr double kNoDoubt = -120.0;
+/// Of the largest features' matches that fit no geometry found: those of facades that repeat had
+/// -22 to -190, those of other pairs -10 at most.
+constexpr double kRival = -12.0;
 /// Steps of the ladder of scales: the features taken together grow by so much each time.
 constexpr double kGrowth = 2.5;
+/// Errors by which a match must have moved to show where the camera went.
+constexpr double kClearlyMoved = 2.0;
 /// Planes that move by this share of their width leave matches out: they are looked for again.
 constexpr double kMoved = 0.5;
 constexpr int kMaxRounds = 3;
@@ -36,6 +42,18 @@ constexpr int kMaxRounds = 3;
 double MaxErrorRad(const PairSide& a, const PairSide& b, double max_error_px) {
   return std::max(a.features.camera.AngleFromPixels(max_error_px),
                   b.features.camera.AngleFromPixels(max_error_px));
+}
+
+/// Inliers that have clearly moved by more than a rotation.
+uint32_t CountMoved(const TwoViewGeometry& geometry,
+                    const PairSide& a,
+                    const PairSide& b,
+                    double max_error_rad) {
+  const auto moved = std::ranges::count_if(geometry.inliers, [&](const FeatureMatch& match) {
+    const Eigen::Vector3d turned = geometry.b_from_a.rotation * a.bearings[match.a];
+    return AngleBetween(turned, b.bearings[match.b]) > kClearlyMoved * max_error_rad;
+  });
+  return static_cast<uint32_t>(moved);
 }
 
 bool HasEpipolarPlanes(const TwoViewGeometry& geometry) {
@@ -68,14 +86,30 @@ struct PairMatcher {
     for (double count = match_options.largest_first;; count *= kGrowth) {
       nearest.GrowTo(static_cast<size_t>(count));
       if (nearest.HasAll()) return nothing;
-      ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
-                                Verify(AcceptNearest(nearest.Nearest(), match_options), strict));
+      const std::vector<FeatureMatch> matches = AcceptNearest(nearest.Nearest(), match_options);
+      ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, Verify(matches, strict));
       geometry.rung = MatchRung::kLargest;
-      if (geometry.kind == TwoViewKind::kGeneral && geometry.median_angle_rad > 2.0 * MaxError())
+      if (geometry.kind == TwoViewKind::kGeneral && ShowsTranslation(geometry) &&
+          !HasRival(geometry, matches))
         return geometry;
-      // All may show what is off a plane, or that the camera only turned.
+      // All may show what is off a plane, that the camera only turned, or which direction is right.
       if (geometry.kind != TwoViewKind::kNone) return nothing;
     }
+  }
+
+  /// Whether as many inliers as a geometry needs have clearly moved by more than a rotation: where
+  /// all are far away, or the camera hardly moved, all features may show more. How far most have
+  /// moved says nothing: the largest features of a street are those of hills and clouds.
+  [[nodiscard]] bool ShowsTranslation(const TwoViewGeometry& geometry) const {
+    return CountMoved(geometry, a, b, MaxError()) >=
+           static_cast<uint32_t>(two_view_options.min_inliers);
+  }
+
+  /// Whether what does not fit speaks for another direction: windows that repeat, or a vehicle.
+  [[nodiscard]] bool HasRival(const TwoViewGeometry& geometry,
+                              const std::vector<FeatureMatch>& matches) const {
+    return FindRivalDirection(a.bearings, b.bearings, matches, geometry, MaxError(), context.seed)
+               .log10_false_alarms <= kRival;
   }
 
   /// The geometry of the matches with the most evidence, however little, of those rungs that need
@@ -164,6 +198,16 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
   ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry,
                             matcher.Climb(AcceptNearest(nearest, match_options)));
   return matcher.Confirm(geometry, &nearest);
+}
+
+MatchedPair WithoutMatches(const TwoViewGeometry& geometry,
+                           const PairSide& a,
+                           const PairSide& b,
+                           const TwoViewOptions& two_view_options) {
+  return {.pair = geometry.pair,
+          .kind = geometry.kind,
+          .num_moved = CountMoved(geometry, a, b, MaxErrorRad(a, b, two_view_options.max_error_px)),
+          .log10_false_alarms = geometry.log10_false_alarms};
 }
 
 }  // namespace orbweave

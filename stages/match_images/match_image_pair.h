@@ -9,6 +9,7 @@
 #include "core/estimators/two_view_options.h"
 #include "core/features/match_options.h"
 #include "core/features/pair_side.h"
+#include "core/scene/pair_candidates.h"
 #include "core/scene/two_view_geometry.h"
 
 namespace orbweave {
@@ -28,5 +29,11 @@ namespace orbweave {
                                                              const MatchOptions& match_options,
                                                              const TwoViewOptions& two_view_options,
                                                              const StageContext& context);
+
+/// What later decisions need of a verified pair (MatchedPair).
+[[nodiscard]] MatchedPair WithoutMatches(const TwoViewGeometry& geometry,
+                                         const PairSide& a,
+                                         const PairSide& b,
+                                         const TwoViewOptions& two_view_options);
 
 }  // namespace orbweave

@@ -68,7 +68,10 @@ absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
                                              two_view_options,
                                              PairContext(context, a, b)));
     putative += geometry.num_putative;
-    if (geometry.kind != TwoViewKind::kNone) run.verified.push_back(std::move(geometry));
+    if (geometry.kind != TwoViewKind::kNone) {
+      run.matched.push_back(WithoutMatches(geometry, a.side, b.side, two_view_options));
+      run.verified.push_back(std::move(geometry));
+    }
     context.Report(++done, recipe.pairs.size(), "pairs");
   }
   run.report_json = nlohmann::json{

@@ -14,6 +14,7 @@ namespace orbweave {
 
 struct MatchedRun {
   std::vector<TwoViewGeometry> verified{};  ///< of the pairs that have a geometry, in their order
+  std::vector<MatchedPair> matched{};       ///< the same without matches
   std::string report_json{};
 };
 

@@ -16,6 +16,7 @@ absl::Status MatchImagesStage::Run(StageTask<MatchImagesStage>& task) {
                                      task.options<TwoViewOptions>(),
                                      task.context()));
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::verified, run.verified).status());
+  ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::matched, run.matched).status());
   task.Report(run.report_json);
   return absl::OkStatus();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/artifacts/recipes.h"
+#include "core/scene/pair_candidates.h"
 #include "core/scene/two_view_geometry.h"
 #include "stages/stage.h"
 
@@ -12,7 +13,7 @@ namespace orbweave {
 
 /// A run of pairs -> those that have a geometry, with their matches (MatchImagePair).
 struct MatchImagesStage {
-  static constexpr StageFacts kFacts{.name = "match_images", .version = "7", .weight = 25.0};
+  static constexpr StageFacts kFacts{.name = "match_images", .version = "8", .weight = 25.0};
   using Options = OptionSections<MatchOptions, TwoViewOptions>;
 
   Parts<MatchRecipe> run;
@@ -25,10 +26,12 @@ struct MatchImagesStage {
   struct Outputs {
     using Stage = MatchImagesStage;
     EachPart<std::vector<TwoViewGeometry>> verified{};
+    EachPart<std::vector<MatchedPair>> matched{};  ///< what `verified` says without its matches
 
     template <typename Visitor>
     static void VisitPorts(Visitor&& visit) {
       visit("verified", &Outputs::verified);
+      visit("matched", &Outputs::matched);
     }
   };
 

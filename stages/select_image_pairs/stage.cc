@@ -5,32 +5,29 @@
 #include <nlohmann/json.hpp>
 
 #include "core/features/retrieve_images.h"
-#include "core/graph/select_image_pairs.h"
+#include "core/graph/list_pair_candidates.h"
 #include "stages/codecs.h"
-#include "stages/select_image_pairs/plan_matching.h"
 
 namespace orbweave {
 namespace {
 
-/// Few enough that a lost task costs seconds, enough that neighbours share their Features.
-constexpr size_t kPairsPerTask = 16;
-
-/// The most similar images by place samples; `manifest` says which images know where they are.
+/// The most similar images by place samples, as many as the reserve asks for.
 absl::StatusOr<std::vector<std::vector<ImageId>>> SimilarImages(
     const std::vector<PlaceSample>& places,
-    const ImageManifest& manifest,
-    const RetrievalOptions& options,
+    RetrievalOptions options,
+    const PairOptions& pairs,
     const StageContext& context) {
   std::vector<std::vector<uint8_t>> samples;
   samples.reserve(places.size());
   for (const PlaceSample& place : places) samples.push_back(place.descriptors);
-  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<std::vector<ImageId>> similar,
-                            RetrieveSimilarImages(samples, options, context));
-  for (const ImageRecord& image : manifest.images) {
-    // Where GNSS tells the neighbours, appearance has nothing to add but repeated facades.
-    if (image.prior.position_in_enu) similar[image.id.value].clear();
-  }
-  return similar;
+  if (pairs.first_neighbours > 0 && pairs.thin_below > 0) options.num_neighbours *= kReserveFactor;
+  return RetrieveSimilarImages(samples, options, context);
+}
+
+void RemoveBlindImages(const std::vector<PlaceSample>& places, std::vector<ImagePair>& pairs) {
+  std::erase_if(pairs, [&](const ImagePair& pair) {
+    return places[pair.a.value].num_features == 0 || places[pair.b.value].num_features == 0;
+  });
 }
 
 }  // namespace
@@ -47,17 +44,19 @@ absl::Status SelectImagePairsStage::Run(StageTask<SelectImagePairsStage>& task) 
   for (const Digest& digest : features.second) {
     ORBWEAVE_ASSIGN_OR_RETURN(places.emplace_back(), task.Fetch<PlaceSample>(digest));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(
-      const std::vector<std::vector<ImageId>> similar,
-      SimilarImages(places, manifest, task.options<RetrievalOptions>(), task.context()));
-  std::vector<MatchRecipe::Pair> pairs;
-  for (const ImagePair& pair : SelectImagePairs(manifest, similar, task.options<PairOptions>())) {
-    if (places[pair.a.value].num_features > 0 && places[pair.b.value].num_features > 0)
-      pairs.push_back({pair, {}});
-  }
-  ORBWEAVE_RETURN_IF_ERROR(
-      task.LeaveAll(&Outputs::runs, PlanMatching(pairs, features.first, kPairsPerTask)));
-  task.Report(nlohmann::json{{"pairs", pairs.size()}}.dump());
+  const RetrievalOptions& retrieval = task.options<RetrievalOptions>();
+  const PairOptions& options = task.options<PairOptions>();
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::vector<ImageId>> similar,
+                            SimilarImages(places, retrieval, options, task.context()));
+  PairCandidates candidates =
+      ListPairCandidates(manifest, similar, retrieval.num_neighbours, options);
+  for (std::vector<ImagePair>* pairs : {&candidates.first, &candidates.second, &candidates.reserve})
+    RemoveBlindImages(places, *pairs);
+  ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::candidates, candidates).status());
+  task.Report(nlohmann::json{{"first", candidates.first.size()},
+                             {"second", candidates.second.size()},
+                             {"reserve", candidates.reserve.size()}}
+                  .dump());
   return absl::OkStatus();
 }
 

@@ -5,14 +5,15 @@
 #include "core/artifacts/recipes.h"
 #include "core/scene/features.h"
 #include "core/scene/image_manifest.h"
+#include "core/scene/pair_candidates.h"
 #include "stages/stage.h"
 
 namespace orbweave {
 
-/// Where images are and what they look like -> the pairs to try (SelectImagePairs), in runs.
+/// Where images are and what they look like -> the pairs to try, and when (ListPairCandidates).
 /// MatchOptions are part of its task's name only.
 struct SelectImagePairsStage {
-  static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "3", .weight = 3.0};
+  static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "4", .weight = 3.0};
   using Options = OptionSections<PairOptions, RetrievalOptions, MatchOptions>;
 
   One<ImageManifest> manifest;
@@ -26,11 +27,11 @@ struct SelectImagePairsStage {
 
   struct Outputs {
     using Stage = SelectImagePairsStage;
-    Parts<MatchRecipe> runs{};
+    One<PairCandidates> candidates{};
 
     template <typename Visitor>
     static void VisitPorts(Visitor&& visit) {
-      visit("runs", &Outputs::runs);
+      visit("candidates", &Outputs::candidates);
     }
   };
 

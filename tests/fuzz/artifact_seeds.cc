@@ -4,6 +4,7 @@
 #include "core/pipeline/job_plan.h"
 #include "proto/codec/features_codec.h"
 #include "proto/codec/manifest_codec.h"
+#include "proto/codec/pairs_codec.h"
 #include "proto/codec/recipes_codec.h"
 #include "proto/codec/reconstruction_codec.h"
 #include "proto/codec/seams_codec.h"
@@ -55,6 +56,18 @@ void AddViewGraph(Seeds& seeds) {
   pair.b_from_a.translation = Eigen::Vector3d(0.6, 0.0, 0.8);
   pair.inliers = {{1, 5}, {2, 4}};
   seeds["two_view_geometries"] = {EncodeTwoViewGeometries({pair, pair}).value()};
+  const std::vector<ImagePair> pairs = {{ImageId(0), ImageId(3)}, {ImageId(1), ImageId(2)}};
+  seeds["pair_candidates"] = {
+      EncodePairCandidates({.first = pairs, .second = pairs, .reserve = pairs}).value()};
+  seeds["matched_pairs"] = {EncodeMatchedPairs({{pairs[0], TwoViewKind::kGeneral, 70, -130.5},
+                                                {pairs[1], TwoViewKind::kPureRotation, 0, -8.0}})
+                                .value()};
+  seeds["wider_pairs"] = {EncodeWiderPairs({.decisions = 2,
+                                            .second = pairs,
+                                            .reserve = pairs,
+                                            .num_held_back = 5,
+                                            .num_thin_images = 1})
+                              .value()};
   DividedViewGraph divided{.dropped = {{{ImageId(0), ImageId(7)}, "loop"}},
                            .edges = {{ImageId(0), ImageId(1)}},
                            .edge_kinds = {1},

@@ -23,6 +23,7 @@
 #include "proto/codec/features_codec.h"
 #include "proto/codec/inspection_codec.h"
 #include "proto/codec/manifest_codec.h"
+#include "proto/codec/pairs_codec.h"
 #include "proto/codec/recipes_codec.h"
 #include "proto/codec/reconstruction_codec.h"
 #include "proto/codec/seams_codec.h"
@@ -88,6 +89,10 @@ std::map<std::string, Artifact> Artifacts() {
        ArtifactOf<v1::TwoViewGeometries>(DecodeTwoViewGeometries, EncodeTwoViewGeometries)},
       {"divided_view_graph",
        ArtifactOf<v1::Partition>(DecodeDividedViewGraph, EncodeDividedViewGraph)},
+      {"pair_candidates",
+       ArtifactOf<v1::PairCandidates>(DecodePairCandidates, EncodePairCandidates)},
+      {"matched_pairs", ArtifactOf<v1::MatchedPairs>(DecodeMatchedPairs, EncodeMatchedPairs)},
+      {"wider_pairs", ArtifactOf<v1::WiderPairs>(DecodeWiderPairs, EncodeWiderPairs)},
       {"match_recipe", ArtifactOf<v1::MatchRecipe>(DecodeMatchRecipe, EncodeMatchRecipe)},
       {"cluster_recipe", ArtifactOf<v1::ClusterRecipe>(DecodeClusterRecipe, EncodeClusterRecipe)},
       {"reconstruction",

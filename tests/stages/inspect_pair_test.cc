@@ -92,6 +92,12 @@ TEST(WhyNotSelected, NamesTheDistanceInTheSequence) {
   EXPECT_THAT(why, HasSubstr("similar"));
 }
 
+TEST(WhyNotSelected, SaysOfPairsWithinTheWindowThatTheyWereHeldBack) {
+  const std::string why = WhyNotSelected(TwoImages(), {ImageId(2), ImageId(9)}, {});
+  EXPECT_THAT(why, HasSubstr("held back"));
+  EXPECT_THAT(why, HasSubstr("pairs.first_neighbours"));
+}
+
 TEST(WhyNotSelected, NamesTheDistanceByGnssWhereBothHaveOne) {
   ImageManifest manifest = TwoImages();
   manifest.images[2].prior.position_in_enu = Eigen::Vector3d(0.0, 0.0, 5.0);

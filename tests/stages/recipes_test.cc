@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "stages/list_pairs/plan_matching.h"
 #include "stages/list_seams/plan_seams.h"
 #include "stages/list_tiles/plan_tiles.h"
 #include "stages/partition_view_graph/plan_clusters.h"
-#include "stages/select_image_pairs/plan_matching.h"
 
 namespace orbweave {
 namespace {

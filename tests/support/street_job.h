@@ -11,9 +11,9 @@
 #include "core/synthetic/corridor.h"
 #include "core/synthetic/make_corridor.h"
 #include "stages/codecs.h"
+#include "stages/list_pairs/plan_matching.h"
 #include "stages/pipeline_options.h"
 #include "stages/plans.h"
-#include "stages/select_image_pairs/plan_matching.h"
 #include "stages/stage_task.h"
 
 namespace orbweave::testing {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stages/select_image_pairs/plan_matching.h"
+#include "stages/list_pairs/plan_matching.h"
 
 #include <algorithm>
 #include <iterator>

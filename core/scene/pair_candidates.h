@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/ids.h"
+#include "core/scene/two_view_geometry.h"
+
+namespace orbweave {
+
+/// Pairs that may see the same, by when they are matched. Every list is sorted, none has a pair of
+/// another.
+struct PairCandidates {
+  std::vector<ImagePair> first{};    ///< the nearest of every image
+  std::vector<ImagePair> second{};   ///< after them, but where these make it needless
+  std::vector<ImagePair> reserve{};  ///< only of images that all others leave thinly connected
+};
+
+/// What is known of a verified pair without its matches.
+struct MatchedPair {
+  ImagePair pair{};
+  TwoViewKind kind = TwoViewKind::kNone;
+  uint32_t num_moved = 0;  ///< inliers that moved by more than a rotation explains
+  double log10_false_alarms = 0.0;
+  friend bool operator==(const MatchedPair&, const MatchedPair&) = default;
+};
+
+/// Pairs to match beside the first ones, as far as that is decided. Lists are sorted.
+struct WiderPairs {
+  uint32_t decisions = 0;            ///< 1: about the second ones; 2: about the reserve too
+  std::vector<ImagePair> second{};   ///< of PairCandidates::second
+  std::vector<ImagePair> reserve{};  ///< of PairCandidates::reserve
+  uint32_t num_held_back = 0;        ///< second ones between images that a strong chain joins
+  uint32_t num_thin_images = 0;      ///< those that the reserve was opened for
+};
+
+}  // namespace orbweave

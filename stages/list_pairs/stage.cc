@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/list_pairs/stage.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/artifacts/check_bounds.h"
+#include "stages/codecs.h"
+#include "stages/list_pairs/plan_matching.h"
+
+namespace orbweave {
+namespace {
+
+/// Few enough that a lost task costs seconds, enough that neighbours share their Features.
+constexpr size_t kPairsPerTask = 16;
+
+}  // namespace
+
+absl::Status ListPairsStage::Run(StageTask<ListPairsStage>& task) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const PairCandidates candidates,
+                            task.Read(&ListPairsStage::candidates));
+  ORBWEAVE_ASSIGN_OR_RETURN(const InterleavedDigests features,
+                            task.Read(&ListPairsStage::features));
+  ORBWEAVE_ASSIGN_OR_RETURN(const WiderPairs wider, task.Read(&ListPairsStage::wider));
+  size_t count = 0;
+  for (const std::vector<ImagePair>* pairs : {&candidates.first, &wider.second, &wider.reserve}) {
+    ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, features.first.size()));
+    std::vector<MatchRecipe::Pair> listed;
+    for (const ImagePair& pair : *pairs) listed.push_back({pair, {}});
+    count += listed.size();
+    ORBWEAVE_RETURN_IF_ERROR(task.LeaveAll(
+        &Outputs::runs, PlanMatching(std::move(listed), features.first, kPairsPerTask)));
+  }
+  task.Report(nlohmann::json{{"pairs", count}}.dump());
+  return absl::OkStatus();
+}
+
+}  // namespace orbweave
