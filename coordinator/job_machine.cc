@@ -88,8 +88,9 @@ void JobMachine::StageBegins(std::vector<TaskSpec> tasks,
   StageRun& run = runs_.emplace_back(StageRun{.stage = *stage});
   for (TaskSpec& spec : tasks) {
     const Digest id = spec.Id();
+    const bool is_repeated = refs_.contains(id);
     refs_[id] = {number, static_cast<uint32_t>(run.tasks.size())};
-    run.tasks.push_back({.spec = std::move(spec), .id = id});
+    run.tasks.push_back({.spec = std::move(spec), .id = id, .is_repeated = is_repeated});
   }
   FindHomes();
   TakeFound(std::move(found));
@@ -112,6 +113,7 @@ void JobMachine::TakeFound(std::vector<std::optional<TaskResult>> found) {
   results.assign(found.size(), {});
   for (uint32_t part = 0; part < found.size(); ++part) {
     if (!found[part]) {
+      run.tasks[part].is_repeated = false;  // its result was lost
       run.SetReady(part);
       continue;
     }
@@ -120,6 +122,7 @@ void JobMachine::TakeFound(std::vector<std::optional<TaskResult>> found) {
     results[part] = *std::move(found[part]);
     ++run.done;
     ++run.reused;
+    run.repeated += run.tasks[part].is_repeated ? 1U : 0U;
   }
 }
 

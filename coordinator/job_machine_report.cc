@@ -47,7 +47,8 @@ std::vector<MeasuredTask> JobMachine::Costs() const {
   for (uint32_t number = 0; number < runs_.size(); ++number) {
     for (uint32_t part = 0; part < runs_[number].tasks.size(); ++part) {
       const TaskRecord& task = runs_[number].tasks[part];
-      if (task.done) costs.push_back({number, task.spec.stage, part, task.cost});
+      if (task.done && !task.is_repeated)
+        costs.push_back({number, task.spec.stage, part, task.cost});
     }
   }
   return costs;

@@ -98,9 +98,9 @@ std::optional<uint32_t> StageRun::FindStraggler(const std::string& worker,
 }
 
 void StageRun::AddTo(StageStatus& status) const {
-  status.tasks_total += static_cast<uint32_t>(tasks.size());
-  status.tasks_done += done;
-  status.tasks_reused += reused;
+  status.tasks_total += static_cast<uint32_t>(tasks.size()) - repeated;
+  status.tasks_done += done - repeated;
+  status.tasks_reused += reused - repeated;
   status.tasks_running += static_cast<uint32_t>(running.size());
   status.retries += retries;
   if (first_lease_s) status.wall_s += std::max(0.0, last_result_s - *first_lease_s);

@@ -28,6 +28,7 @@ struct StageRun {
   std::map<std::string, uint32_t> last_parts{};  ///< that workers were given
   uint32_t done = 0;
   uint32_t reused = 0;
+  uint32_t repeated = 0;  ///< of `reused`: what an earlier round of a loop found or computed
   uint32_t retries = 0;
   std::optional<double> first_lease_s{};
   double last_result_s = 0.0;
@@ -70,7 +71,7 @@ struct StageRun {
                                                       uint32_t slots,
                                                       const RetryPolicy& policy,
                                                       double now_s) const;
-  /// Adds this run to what is known of its stage.
+  /// Adds this run to what is known of its stage, without what it repeats of another.
   void AddTo(StageStatus& status) const;
 };
 

@@ -39,6 +39,7 @@ struct TaskRecord {
   TaskSpec spec{};
   Digest id{};
   bool done = false;
+  bool is_repeated = false;                ///< found, as an earlier round of a loop has it too
   TaskHolder done_by{};                    ///< whose result was taken; nobody when it was found
   std::vector<RunningAttempt> attempts{};  ///< that go on now: one, or two of a straggler
   double not_before_s = 0.0;

@@ -34,21 +34,33 @@ ORBWEAVE_AVX2_INLINE void Update(LaneState& state, size_t lane, __m256i distance
         _mm256_blendv_epi8(Load(&state.index[lane]), _mm256_set1_epi32(index), better));
 }
 
-/// Eight lanes of dot products of one row: 16-bit products of four descriptors at a time, whose two
-/// half sums lie side by side until the end.
-ORBWEAVE_AVX2_INLINE __m256i DotProducts(const WideRow& row, const uint8_t* block_bytes) {
-  __m256i low = _mm256_setzero_si256();
-  __m256i high = _mm256_setzero_si256();
+/// Rows that are multiplied with what is widened of a block at a time: their sums stay in
+/// registers.
+constexpr size_t kRowsTogether = 4;
+
+/// Eight lanes of dot products of each row: 16-bit products of four descriptors at a time, whose
+/// two half sums lie side by side until the end.
+template <size_t kRows>
+ORBWEAVE_AVX2_INLINE void MultiplyRows(const WideRow* rows,
+                                       const uint8_t* block_bytes,
+                                       __m256i* dots) {
+  __m256i low[kRows];
+  __m256i high[kRows];
+  for (size_t r = 0; r < kRows; ++r) low[r] = high[r] = _mm256_setzero_si256();
   for (size_t g = 0; g < kGroups; ++g) {
-    int64_t a = 0;
-    std::memcpy(&a, &row[4 * g], 8);
-    const __m256i wide_a = _mm256_set1_epi64x(a);
     const auto* const b = reinterpret_cast<const __m128i*>(block_bytes + 4 * kLanes * g);
-    low = _mm256_add_epi32(low, _mm256_madd_epi16(wide_a, _mm256_cvtepu8_epi16(_mm_load_si128(b))));
-    high = _mm256_add_epi32(high,
-                            _mm256_madd_epi16(wide_a, _mm256_cvtepu8_epi16(_mm_load_si128(b + 1))));
+    const __m256i b_low = _mm256_cvtepu8_epi16(_mm_load_si128(b));
+    const __m256i b_high = _mm256_cvtepu8_epi16(_mm_load_si128(b + 1));
+    for (size_t r = 0; r < kRows; ++r) {
+      int64_t a = 0;
+      std::memcpy(&a, &rows[r][4 * g], 8);
+      const __m256i wide_a = _mm256_set1_epi64x(a);
+      low[r] = _mm256_add_epi32(low[r], _mm256_madd_epi16(wide_a, b_low));
+      high[r] = _mm256_add_epi32(high[r], _mm256_madd_epi16(wide_a, b_high));
+    }
   }
-  return _mm256_permute4x64_epi64(_mm256_hadd_epi32(low, high), 0xD8);
+  for (size_t r = 0; r < kRows; ++r)
+    dots[r] = _mm256_permute4x64_epi64(_mm256_hadd_epi32(low[r], high[r]), 0xD8);
 }
 
 ORBWEAVE_AVX2_INLINE WideRow Widen(const uint8_t* row) {
@@ -57,22 +69,34 @@ ORBWEAVE_AVX2_INLINE WideRow Widen(const uint8_t* row) {
   return wide;
 }
 
+/// Rows first_row ... first_row + kRows - 1 of the job against eight lanes of a block.
+template <size_t kRows>
+ORBWEAVE_AVX2_INLINE void UpdateRows(
+    const DistanceJob& job, const WideRow* rows, size_t first_row, size_t c, size_t lane) {
+  const DescriptorBlock& block = job.blocks[c];
+  __m256i dots[kRows];
+  MultiplyRows<kRows>(rows + first_row, &block.bytes[4 * lane], dots);
+  const __m256i norms = Load(&block.norms[lane]);
+  for (size_t k = 0; k < kRows; ++k) {
+    const size_t r = first_row + k;
+    const __m256i sum = _mm256_add_epi32(norms, _mm256_set1_epi32(job.row_norms[r]));
+    const __m256i distance = _mm256_sub_epi32(sum, _mm256_slli_epi32(dots[k], 1));
+    Update(job.row_states[r], lane, distance, static_cast<int32_t>(c));
+    Update(job.block_states[c], lane, distance, job.first_row + static_cast<int32_t>(r));
+  }
+}
+
 }  // namespace
 
 ORBWEAVE_AVX2 void UpdateNearestAvx2(const DistanceJob& job) {
   std::array<WideRow, kRowsAtOnce> rows;
   for (size_t r = 0; r < job.num_rows; ++r) rows[r] = Widen(job.rows + r * kDescriptorSize);
   for (size_t c = 0; c < job.blocks.size(); ++c) {
-    const DescriptorBlock& block = job.blocks[c];
-    for (size_t r = 0; r < job.num_rows; ++r) {
-      for (size_t lane = 0; lane < kLanes; lane += 8) {
-        const __m256i dots = DotProducts(rows[r], &block.bytes[4 * lane]);
-        const __m256i sum =
-            _mm256_add_epi32(Load(&block.norms[lane]), _mm256_set1_epi32(job.row_norms[r]));
-        const __m256i distance = _mm256_sub_epi32(sum, _mm256_slli_epi32(dots, 1));
-        Update(job.row_states[r], lane, distance, static_cast<int32_t>(c));
-        Update(job.block_states[c], lane, distance, job.first_row + static_cast<int32_t>(r));
-      }
+    for (size_t lane = 0; lane < kLanes; lane += 8) {
+      size_t r = 0;
+      for (; r + kRowsTogether <= job.num_rows; r += kRowsTogether)
+        UpdateRows<kRowsTogether>(job, rows.data(), r, c, lane);
+      for (; r < job.num_rows; ++r) UpdateRows<1>(job, rows.data(), r, c, lane);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace {
 
 using Pairs = std::vector<ImagePair>;
 
-/// As match_images has it of a pair that needs no second look.
+/// As match_images has it of a pair that needs no second look. Predictions fit wrong planes of a
+/// facade that repeats: what they add is no evidence beyond doubt.
 constexpr double kNoDoubt = -120.0;
 /// Matches that moved, several times what a geometry needs.
 constexpr uint32_t kManyMoved = 50;
@@ -24,8 +26,8 @@ constexpr uint32_t kManyMoved = 50;
 constexpr uint32_t kSmallPart = 16;
 
 bool IsStrong(const MatchedPair& pair) {
-  return pair.kind == TwoViewKind::kGeneral && pair.log10_false_alarms <= kNoDoubt &&
-         pair.num_moved >= kManyMoved;
+  return pair.kind == TwoViewKind::kGeneral && pair.rung != MatchRung::kGuided &&
+         pair.log10_false_alarms <= kNoDoubt && pair.num_moved >= kManyMoved;
 }
 
 /// Who is joined to whom. Lists of neighbours stay sorted.
@@ -138,17 +140,25 @@ std::vector<bool> ThinImages(size_t num_images,
   return is_thin;
 }
 
+/// What was held back comes first for images that turn out thin without it: it is nearer than the
+/// reserve.
 void DecideAboutReserve(const ImageManifest& manifest,
-                        const Pairs& candidates,
+                        const PairCandidates& candidates,
                         std::span<const MatchedPair> matched,
                         const PairOptions& options,
                         WiderPairs& wider) {
-  if (options.thin_below == 0) return;
+  Pairs held_back;
+  std::ranges::set_difference(candidates.second, wider.second, std::back_inserter(held_back));
+  if (options.thin_below == 0 || held_back.size() + candidates.reserve.size() == 0) return;
   const std::vector<bool> is_thin = ThinImages(manifest.images.size(), matched, options.thin_below);
   wider.num_thin_images = static_cast<uint32_t>(std::ranges::count(is_thin, true));
-  for (const ImagePair& pair : candidates) {
-    if (is_thin[pair.a.value] || is_thin[pair.b.value]) wider.reserve.push_back(pair);
-  }
+  const auto is_wanted = [&](const ImagePair& pair) {
+    return is_thin[pair.a.value] || is_thin[pair.b.value];
+  };
+  std::ranges::copy_if(held_back, std::back_inserter(wider.reserve), is_wanted);
+  wider.num_held_back -= static_cast<uint32_t>(wider.reserve.size());
+  std::ranges::copy_if(candidates.reserve, std::back_inserter(wider.reserve), is_wanted);
+  std::ranges::sort(wider.reserve);
 }
 
 }  // namespace
@@ -166,7 +176,7 @@ WiderPairs ChooseWiderPairs(const ImageManifest& manifest,
   }
   if (wider.decisions == 1) {
     wider.decisions = 2;
-    DecideAboutReserve(manifest, candidates.reserve, matched, options, wider);
+    DecideAboutReserve(manifest, candidates, matched, options, wider);
   }
   return wider;
 }

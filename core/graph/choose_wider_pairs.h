@@ -19,11 +19,12 @@ namespace orbweave {
 /// are either strong or, shorter ones before longer ones, of the candidates that are not held back:
 /// of far pairs along a strong chain a spanner of stretch 2 stays. All others are matched.
 ///
-/// Then, with these matched, about the reserve: it is matched for images with fewer than
-/// pairs.thin_below verified pairs, and for those of small parts that verified pairs hold together.
+/// Then, with these matched, about images with fewer than pairs.thin_below verified pairs, and
+/// those of small parts that verified pairs hold together: what was held back of theirs is matched
+/// after all, and the reserve.
 ///
-/// Both look at what is found alone, so equal findings give equal decisions. Memory and time are
-/// linear in the candidates.
+/// Both look at what is found alone, so equal findings give equal decisions. Memory is
+/// linear in the candidates, time but for sorting them and the pairs of pairs of an image.
 [[nodiscard]] WiderPairs ChooseWiderPairs(const ImageManifest& manifest,
                                           const PairCandidates& candidates,
                                           std::span<const MatchedPair> matched,

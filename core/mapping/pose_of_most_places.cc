@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 #include <vector>
 
 #include "core/estimators/estimate_absolute_pose.h"
@@ -21,19 +22,24 @@ constexpr size_t kMaxViews = 5;
 constexpr size_t kMaxLengths = 100;  ///< per view that are tried
 constexpr int kMaxRounds = 3;        ///< of refinement
 
-size_t CountPlaces(const PoseSupport& support, const SceneCorrespondences& correspondences) {
-  std::bitset<static_cast<size_t>(kSpreadCells * kSpreadCells)> places;
+using Places = std::bitset<static_cast<size_t>(kSpreadCells) * kSpreadCells>;
+
+Places PlacesOf(const Rigid3& pose,
+                const SceneCorrespondences& correspondences,
+                double max_error_rad) {
+  const PoseSupport support = SupportOf(pose, correspondences, max_error_rad);
+  Places places;
   for (size_t i = 0; i < correspondences.size(); ++i) {
     if (support.is_inlier[i] != 0)
       places.set(SphereCell(correspondences.bearings[i], kSpreadCells));
   }
-  return places.count();
+  return places;
 }
 
 size_t CountPlaces(const Rigid3& pose,
                    const SceneCorrespondences& correspondences,
                    double max_error_rad) {
-  return CountPlaces(SupportOf(pose, correspondences, max_error_rad), correspondences);
+  return PlacesOf(pose, correspondences, max_error_rad).count();
 }
 
 /// Poses with the rotation of `found` on the ray from `start` through its centre.
@@ -44,7 +50,8 @@ std::vector<Rigid3> PosesAlong(const Vector3d& start,
   const Vector3d step = found.Centre() - start;
   if (step.norm() == 0.0) return poses;
   const Vector3d direction = step.normalized();
-  const size_t stride = std::max<size_t>(1, correspondences.size() / kMaxLengths);
+  const size_t stride =
+      std::max<size_t>(1, (correspondences.size() + kMaxLengths - 1) / kMaxLengths);
   for (size_t i = 0; i < correspondences.size(); i += stride) {
     const double s = BaselineLength(correspondences.positions[i] - start,
                                     direction,
@@ -91,6 +98,18 @@ Rigid3 PoseOfMostPlaces(const Rigid3& found,
                  CountPlaces(found, correspondences, max_error_rad)
              ? refined
              : found;
+}
+
+bool HasClearlyMorePlaces(const Rigid3& x,
+                          const Rigid3& y,
+                          const SceneCorrespondences& correspondences,
+                          double max_error_rad) {
+  constexpr double kDeviations = 2.0;
+  const Places of_x = PlacesOf(x, correspondences, max_error_rad);
+  const Places of_y = PlacesOf(y, correspondences, max_error_rad);
+  const auto x_alone = static_cast<double>((of_x & ~of_y).count());
+  const auto y_alone = static_cast<double>((of_y & ~of_x).count());
+  return x_alone - y_alone > kDeviations * std::sqrt(x_alone + y_alone);
 }
 
 }  // namespace orbweave

@@ -23,4 +23,11 @@ namespace orbweave {
                                       std::span<const ViewMatches> views,
                                       double max_error_rad);
 
+/// Whether more places agree with `x` alone than with `y` alone, by more than two standard
+/// deviations of a fair coin for each.
+[[nodiscard]] bool HasClearlyMorePlaces(const Rigid3& x,
+                                        const Rigid3& y,
+                                        const SceneCorrespondences& correspondences,
+                                        double max_error_rad);
+
 }  // namespace orbweave

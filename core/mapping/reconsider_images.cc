@@ -3,10 +3,13 @@
 
 #include "core/mapping/reconsider_images.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/pair_witness.h"
+#include "core/mapping/pose_of_most_places.h"
+#include "core/mapping/scene_correspondences.h"
 #include "core/mapping/triangulate_tracks.h"
 
 namespace orbweave {
@@ -15,10 +18,34 @@ namespace {
 /// Two images may have to change places; one that has no right place would go round for ever.
 constexpr int kMaxReconsidered = 2;
 
-bool IsContradicted(const MappingState& state, ImageSlot image, double max_error_px) {
-  return ContradictsStrongPair(state.CamFromWorld(image),
-                               MatchesWithRegistered(state, image),
-                               state.Problem().images[image].camera.AngleFromPixels(max_error_px));
+/// Correspondences with points that two other images hold: what they say is not the image's own
+/// opinion of where it is.
+SceneCorrespondences HeldByOthers(const MappingState& state, ImageSlot image) {
+  const SceneCorrespondences all = FindSceneCorrespondences(state, image);
+  SceneCorrespondences held;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const auto others = std::ranges::count_if(state.Point(all.points[i]).nodes, [&](Node node) {
+      return state.Graph().image_of_node[node] != image;
+    });
+    if (others < 2) continue;
+    held.nodes.push_back(all.nodes[i]);
+    held.points.push_back(all.points[i]);
+    held.bearings.push_back(all.bearings[i]);
+    held.positions.push_back(all.positions[i]);
+  }
+  return held;
+}
+
+/// Whether a strong pair speaks against where the image is, or points in clearly more places for
+/// another length of its steps.
+bool IsDoubted(const MappingState& state, ImageSlot image, double max_error_px) {
+  const double max_error_rad = state.Problem().images[image].camera.AngleFromPixels(max_error_px);
+  const Rigid3& pose = state.CamFromWorld(image);
+  const std::vector<ViewMatches> views = MatchesWithRegistered(state, image);
+  if (ContradictsStrongPair(pose, views, max_error_rad)) return true;
+  const SceneCorrespondences held = HeldByOthers(state, image);
+  const Rigid3 other = PoseOfMostPlaces(pose, held, views, max_error_rad);
+  return HasClearlyMorePlaces(other, pose, held, max_error_rad);
 }
 
 }  // namespace
@@ -32,7 +59,7 @@ absl::Status ReconsiderImages(MappingState& state,
   for (const ImageSlot image : registered) {
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     if (log[image].num_reconsidered >= kMaxReconsidered ||
-        !IsContradicted(state, image, limits.max_error_px)) {
+        !IsDoubted(state, image, limits.max_error_px)) {
       continue;
     }
     ++log[image].num_reconsidered;

@@ -24,6 +24,7 @@ struct MatchedPair {
   TwoViewKind kind = TwoViewKind::kNone;
   uint32_t num_moved = 0;  ///< inliers that moved by more than a rotation explains
   double log10_false_alarms = 0.0;
+  MatchRung rung = MatchRung::kDescriptors;
   friend bool operator==(const MatchedPair&, const MatchedPair&) = default;
 };
 
@@ -31,9 +32,9 @@ struct MatchedPair {
 struct WiderPairs {
   uint32_t decisions = 0;            ///< 1: about the second ones; 2: about the reserve too
   std::vector<ImagePair> second{};   ///< of PairCandidates::second
-  std::vector<ImagePair> reserve{};  ///< of PairCandidates::reserve
+  std::vector<ImagePair> reserve{};  ///< of PairCandidates::reserve, or held back before
   uint32_t num_held_back = 0;        ///< second ones between images that a strong chain joins
-  uint32_t num_thin_images = 0;      ///< those that the reserve was opened for
+  uint32_t num_thin_images = 0;      ///< those that `reserve` is for
 };
 
 }  // namespace orbweave

@@ -46,17 +46,20 @@ absl::StatusOr<std::string> EncodeMatchedPairs(const std::vector<MatchedPair>& p
   std::vector<uint8_t> kinds;
   std::vector<uint32_t> moved;
   std::vector<double> evidence;
+  std::vector<uint8_t> rungs;
   for (const MatchedPair& pair : pairs) {
     names.push_back(pair.pair);
     kinds.push_back(static_cast<uint8_t>(pair.kind));
     moved.push_back(pair.num_moved);
     evidence.push_back(pair.log10_false_alarms);
+    rungs.push_back(static_cast<uint8_t>(pair.rung));
   }
   v1::MatchedPairs proto;
   proto.set_pairs(codec::Pack(names));
   proto.set_kinds(codec::Pack(kinds));
   proto.set_num_moved(codec::Pack(moved));
   proto.set_log10_false_alarms(codec::Pack(evidence));
+  proto.set_rungs(codec::Pack(rungs));
   return codec::Serialize(proto, "matched pairs", codec::Empty::kIsLegal);
 }
 
@@ -72,6 +75,12 @@ absl::StatusOr<std::vector<MatchedPair>> DecodeMatchedPairs(std::string_view byt
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto evidence,
       codec::UnpackExactly<double>(proto.log10_false_alarms(), names.size(), kWhat));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto rungs,
+                            codec::UnpackExactly<uint8_t>(proto.rungs(), names.size(), kWhat));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(std::ranges::all_of(rungs, [](uint8_t rung) { return rung < kNumMatchRungs; }),
+                    kWhat,
+                    "unknown rung"));
   ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
       std::ranges::all_of(
           kinds, [](uint8_t kind) { return kind <= static_cast<uint8_t>(TwoViewKind::kPlanar); }),
@@ -81,7 +90,11 @@ absl::StatusOr<std::vector<MatchedPair>> DecodeMatchedPairs(std::string_view byt
       std::ranges::all_of(evidence, codec::IsNumber), kWhat, "evidence is no number"));
   std::vector<MatchedPair> pairs;
   for (size_t i = 0; i < names.size(); ++i)
-    pairs.push_back({names[i], static_cast<TwoViewKind>(kinds[i]), moved[i], evidence[i]});
+    pairs.push_back({names[i],
+                     static_cast<TwoViewKind>(kinds[i]),
+                     moved[i],
+                     evidence[i],
+                     static_cast<MatchRung>(rungs[i])});
   return pairs;
 }
 

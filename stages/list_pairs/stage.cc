@@ -22,9 +22,12 @@ absl::Status ListPairsStage::Run(StageTask<ListPairsStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const InterleavedDigests features,
                             task.Read(&ListPairsStage::features));
   ORBWEAVE_ASSIGN_OR_RETURN(const WiderPairs wider, task.Read(&ListPairsStage::wider));
+  const size_t num_images = features.first.size();
+  ORBWEAVE_RETURN_IF_ERROR(BlameBlob(CheckPairNumbers(candidates.first, num_images),
+                                     task.DigestOf(&ListPairsStage::candidates)));
   size_t count = 0;
   for (const std::vector<ImagePair>* pairs : {&candidates.first, &wider.second, &wider.reserve}) {
-    ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, features.first.size()));
+    ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, num_images));
     std::vector<MatchRecipe::Pair> listed;
     for (const ImagePair& pair : *pairs) listed.push_back({pair, {}});
     count += listed.size();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
+#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -62,8 +64,17 @@ void MeasureInliers(const PairSide& a, const PairSide& b, PairInspection& inspec
   inspection.spread_in_b = SphereSpread(in_b);
 }
 
-uint32_t Window(const PairOptions& options) {
-  return static_cast<uint32_t>(options.sequence_window);
+/// How far apart in the sequence of their drive.
+int64_t StepsBetween(const ImageManifest& manifest, const ImagePair& pair) {
+  const auto drives = SequenceOfDrives(manifest);
+  const std::vector<ImageId>& sequence = drives.at(manifest.At(pair.a).drive);
+  return std::abs(std::ranges::find(sequence, pair.a) - std::ranges::find(sequence, pair.b));
+}
+
+/// Whether candidates are matched in rounds, some perhaps not at all.
+bool AreHeldBack(const ImageManifest& manifest, const PairOptions& options) {
+  return options.first_neighbours > 0 &&
+         manifest.images.size() >= static_cast<size_t>(options.exhaustive_below);
 }
 
 std::string Metres(double metres) {
@@ -121,14 +132,13 @@ std::string WhyNotSelected(const ImageManifest& manifest,
   const ImageRecord& a = manifest.At(pair.a);
   const ImageRecord& b = manifest.At(pair.b);
   std::string why = "of two drives, which no sequence joins";
-  if (options.first_neighbours > 0 && a.drive == b.drive &&
-      pair.b.value - pair.a.value <= Window(options)) {
+  const int64_t steps = a.drive == b.drive ? StepsBetween(manifest, pair) : 0;
+  if (steps > 0 && steps <= options.sequence_window && AreHeldBack(manifest, options)) {
     return "held back, as pairs with evidence beyond doubt join its images already "
            "(pairs.first_neighbours)";
   }
   if (a.drive == b.drive) {
-    why = std::to_string(pair.b.value - pair.a.value) +
-          " apart in the sequence (pairs.sequence_window is " +
+    why = std::to_string(steps) + " apart in the sequence (pairs.sequence_window is " +
           std::to_string(options.sequence_window) + ")";
   }
   if (a.prior.position_in_enu && b.prior.position_in_enu) {

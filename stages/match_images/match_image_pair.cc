@@ -207,7 +207,8 @@ MatchedPair WithoutMatches(const TwoViewGeometry& geometry,
   return {.pair = geometry.pair,
           .kind = geometry.kind,
           .num_moved = CountMoved(geometry, a, b, MaxErrorRad(a, b, two_view_options.max_error_px)),
-          .log10_false_alarms = geometry.log10_false_alarms};
+          .log10_false_alarms = geometry.log10_false_alarms,
+          .rung = geometry.rung};
 }
 
 }  // namespace orbweave

@@ -19,7 +19,8 @@ namespace orbweave {
 /// clusters: in the first round by hand or by METIS (PartitionViewGraph), later those of the round
 /// before with more overlap where that was asked for (WidenOverlaps).
 struct PartitionViewGraphStage {
-  static constexpr StageFacts kFacts{.name = "partition_view_graph", .version = "9", .weight = 1.0};
+  static constexpr StageFacts kFacts{
+      .name = "partition_view_graph", .version = "10", .weight = 1.0};
   using Options = OptionSections<ViewGraphOptions, PartitionOptions>;
 
   One<ImageManifest> manifest;

@@ -11,10 +11,9 @@
 namespace orbweave {
 
 /// Where images are and what they look like -> the pairs to try, and when (ListPairCandidates).
-/// MatchOptions are part of its task's name only.
 struct SelectImagePairsStage {
   static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "4", .weight = 3.0};
-  using Options = OptionSections<PairOptions, RetrievalOptions, MatchOptions>;
+  using Options = OptionSections<PairOptions, RetrievalOptions>;
 
   One<ImageManifest> manifest;
   Interleaved<Features, PlaceSample> features;  ///< the samples alone are opened

@@ -42,7 +42,8 @@ absl::Status SelectWiderPairsStage::Run(StageTask<SelectWiderPairsStage>& task) 
   ORBWEAVE_ASSIGN_OR_RETURN(const PairCandidates candidates,
                             task.Read(&SelectWiderPairsStage::candidates));
   ORBWEAVE_ASSIGN_OR_RETURN(const WiderPairs before, task.Read(&SelectWiderPairsStage::before));
-  ORBWEAVE_RETURN_IF_ERROR(CheckCandidates(candidates, manifest.images.size()));
+  ORBWEAVE_RETURN_IF_ERROR(BlameBlob(CheckCandidates(candidates, manifest.images.size()),
+                                     task.DigestOf(&SelectWiderPairsStage::candidates)));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MatchedPair> matched,
                             CollectMatched(manifest.images.size(), task));
   const WiderPairs wider =

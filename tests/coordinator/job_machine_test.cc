@@ -144,6 +144,27 @@ TEST(JobMachine, DoesNotGiveOutWhatWasFound) {
   EXPECT_DOUBLE_EQ(machine.Costs()[1].cost.cpu_s, 7.0) << "as when it was computed";
 }
 
+TEST(JobMachine, CountsWhatALaterRoundFindsOfAnEarlierOnce) {
+  JobPlan plan = LinePlan({"decide", "work", "end"});
+  plan.stages[1].parts_from = "decide";
+  plan.stages[1].back_to = "decide";
+  JobMachine machine({.kind = "line"}, plan, {}, 100.0);
+  Begin(machine, "decide", 1, 100.0, 0);
+  machine.TaskDone(LeaseNext(machine, "w", 100.0), {}, 101.0);
+  Begin(machine, "work", 1);
+  const TaskResult result{.cost = {.cpu_s = 5.0}};
+  machine.TaskDone(LeaseNext(machine, "w", 101.0), result, 106.0);
+  Begin(machine, "decide", 1, 106.0, 1);
+  machine.TaskDone(LeaseNext(machine, "w", 106.0), {}, 107.0);
+  machine.StageBegins(Tasks("work", 2), {result, std::nullopt}, 107.0);
+  const StageStatus half = machine.Status(107.0).stages[1];
+  EXPECT_EQ(half.tasks_total, 2U);
+  EXPECT_EQ(half.tasks_done, 1U);
+  EXPECT_EQ(half.tasks_reused, 0U) << "nothing was there before the job";
+  machine.TaskDone(LeaseNext(machine, "w", 107.0), result, 112.0);
+  EXPECT_EQ(machine.Costs().size(), 4U) << "two decisions, two works";
+}
+
 TEST(JobMachine, CancellingEndsItAndLateEventsChangeNothing) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);

@@ -82,7 +82,7 @@ TEST(InspectPair, WhatTheJobVerifiedIsNotEstimatedAgain) {
 
 ImageManifest TwoImages() {
   ImageManifest manifest;
-  for (uint32_t i = 0; i < 30; ++i) manifest.images.push_back({.id = ImageId{i}});
+  for (uint32_t i = 0; i < 50; ++i) manifest.images.push_back({.id = ImageId{i}});
   return manifest;
 }
 
@@ -96,6 +96,19 @@ TEST(WhyNotSelected, SaysOfPairsWithinTheWindowThatTheyWereHeldBack) {
   const std::string why = WhyNotSelected(TwoImages(), {ImageId(2), ImageId(9)}, {});
   EXPECT_THAT(why, HasSubstr("held back"));
   EXPECT_THAT(why, HasSubstr("pairs.first_neighbours"));
+}
+
+TEST(WhyNotSelected, CountsAlongTheDriveAndHoldsNothingBackInSmallJobs) {
+  ImageManifest manifest = TwoImages();
+  for (ImageRecord& image : manifest.images)  // the other way round, but for the last
+    image.capture_time_s = image.id.value == 49 ? 1000.0 : 100.0 - image.id.value;
+  EXPECT_THAT(WhyNotSelected(manifest, {ImageId(48), ImageId(49)}, {}),
+              HasSubstr("49 apart in the sequence"));
+  EXPECT_THAT(WhyNotSelected(manifest, {ImageId(0), ImageId(49)}, {}), HasSubstr("held back"));
+  manifest = TwoImages();
+  manifest.images.resize(30);
+  EXPECT_THAT(WhyNotSelected(manifest, {ImageId(2), ImageId(9)}, {}),
+              HasSubstr("7 apart in the sequence"));
 }
 
 TEST(WhyNotSelected, NamesTheDistanceByGnssWhereBothHaveOne) {

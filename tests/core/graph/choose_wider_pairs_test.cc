@@ -183,6 +183,25 @@ WiderPairs ChooseToTheEnd(const Street& street,
   return wider;
 }
 
+TEST(ChooseWiderPairs, HoldsNothingBackForPairsThatPredictionsMadeEvident) {
+  const Street street;
+  const auto by_predictions = [](const ImagePair& pair) {
+    MatchedPair matched = Strong(pair);
+    matched.rung = MatchRung::kGuided;
+    return matched;
+  };
+  const WiderPairs wider = street.Choose(Match(street.candidates.first, by_predictions));
+  EXPECT_EQ(wider.num_held_back, 0U);
+  EXPECT_EQ(wider.second, street.candidates.second);
+}
+
+TEST(ChooseWiderPairs, SpeaksOfNoThinImagesWhereThereIsNothingElseToTry) {
+  Street street;
+  street.candidates.second.clear();
+  street.candidates.reserve.clear();
+  EXPECT_EQ(street.Choose({}).num_thin_images, 0U);
+}
+
 TEST(ChooseWiderPairs, OpensTheReserveOfThinImagesAlone) {
   const Street street;
   const auto joins_few = [](const ImagePair& pair) {
@@ -194,6 +213,9 @@ TEST(ChooseWiderPairs, OpensTheReserveOfThinImagesAlone) {
   EXPECT_EQ(wider.decisions, 2U);
   EXPECT_EQ(wider.num_thin_images, 1U);
   EXPECT_TRUE(Has(wider.reserve, 12, 12 + 15));
+  EXPECT_TRUE(Has(wider.reserve, 12, 12 + 5));  // held back at first
+  const uint32_t without_thin = ChooseToTheEnd(street, Strong).num_held_back;
+  EXPECT_LT(wider.num_held_back, without_thin);
   for (const ImagePair& pair : wider.reserve) EXPECT_TRUE(pair.a.value == 12 || pair.b.value == 12);
   EXPECT_LE(wider.reserve.size(), 100U);
   EXPECT_TRUE(ChooseToTheEnd(street, Strong).reserve.empty());

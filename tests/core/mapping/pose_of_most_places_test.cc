@@ -97,6 +97,19 @@ TEST(PoseOfMostPlaces, NeedsAViewFromElsewhere) {
   EXPECT_EQ(street.PoseFrom(off).translation, off.translation);
 }
 
+TEST(HasClearlyMorePlaces, NeedsMoreThanAFewPlaces) {
+  RepeatingStreet street(6);
+  street.AddPlaces(40);
+  street.AddFacade(200, 2.5);
+  const Rigid3 off = street.OffBy(2.5);
+  EXPECT_TRUE(HasClearlyMorePlaces(street.truth, off, street.points, kFourPxRad));
+  EXPECT_FALSE(HasClearlyMorePlaces(off, street.truth, street.points, kFourPxRad));
+  EXPECT_FALSE(HasClearlyMorePlaces(off, off, street.points, kFourPxRad));
+  RepeatingStreet few(7);
+  few.AddPlaces(3);
+  EXPECT_FALSE(HasClearlyMorePlaces(few.truth, few.OffBy(2.5), few.points, kFourPxRad));
+}
+
 TEST(PoseOfMostPlaces, KeepsWhatWasFoundWithoutPoints) {
   const RepeatingStreet street(5);
   EXPECT_EQ(street.PoseFrom(street.truth).translation, street.truth.translation);

@@ -42,6 +42,17 @@ TEST(ReconsiderImages, PutsAnImageBackThatStandsBeyondItsNeighbour) {
   EXPECT_GT(walk.state.NumObservations(kBeyondNeighbour), 50U);
 }
 
+TEST(ReconsiderImages, PutsAnImageBackThatWentTooFarAlongTheStreet) {
+  // No pair contradicts this: along the street the directions of all pairs are as before.
+  WronglyPlaced walk;
+  const Eigen::Vector3d step = walk.truth.Centre() - walk.state.Centre(2);
+  walk.state.SetPose(kBeyondNeighbour,
+                     Rigid3::FromCentre(walk.truth.rotation, walk.truth.Centre() + 0.4 * step));
+  ASSERT_TRUE(walk.Reconsider().ok());
+  EXPECT_LT(walk.Error_m(), 0.02);
+  EXPECT_EQ(walk.log[kBeyondNeighbour].num_reconsidered, 1);
+}
+
 TEST(ReconsiderImages, LeavesARightModelAsItIs) {
   const StreetFixture street({.centres = StraightWalk(kNumPlaced, 3.0), .noise_px = 0.5});
   MappingState state = street.TriangulatedStateWith(FirstImages(kNumPlaced));
