@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/estimators/estimate_absolute_pose.h"
@@ -24,41 +25,57 @@ constexpr int kMaxRounds = 3;        ///< of refinement
 
 using Places = std::bitset<static_cast<size_t>(kSpreadCells) * kSpreadCells>;
 
+/// The places of correspondences that agree with cameras of one rotation.
+class PlaceCounter {
+ public:
+  PlaceCounter(const Eigen::Quaterniond& cam_from_world,
+               const SceneCorrespondences& correspondences,
+               double max_error_rad)
+      : positions_(correspondences.positions), min_cos_(std::cos(max_error_rad)) {
+    for (const Vector3d& bearing : correspondences.bearings) {
+      rays_.push_back(cam_from_world.conjugate() * bearing);
+      cells_.push_back(SphereCell(bearing, kSpreadCells));
+    }
+  }
+
+  [[nodiscard]] Places At(const Vector3d& centre) const {
+    Places places;
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      const Vector3d seen = positions_[i] - centre;
+      if (seen.dot(rays_[i]) >= min_cos_ * seen.norm()) places.set(cells_[i]);
+    }
+    return places;
+  }
+  [[nodiscard]] size_t CountAt(const Vector3d& centre) const { return At(centre).count(); }
+  /// Of those steps from `start` in `direction` whose lengths points tell, that of most places;
+  /// `best` and `most` where none has more.
+  void FindBest(const Vector3d& start,
+                const Vector3d& direction,
+                Vector3d& best,
+                size_t& most) const {
+    const size_t stride = std::max<size_t>(1, (rays_.size() + kMaxLengths - 1) / kMaxLengths);
+    for (size_t i = 0; i < rays_.size(); i += stride) {
+      const double s = BaselineLength(positions_[i] - start, direction, rays_[i]);
+      if (s == 0.0) continue;
+      const Vector3d centre = start + s * direction;
+      const size_t places = CountAt(centre);
+      if (places <= most) continue;
+      most = places;
+      best = centre;
+    }
+  }
+
+ private:
+  std::span<const Vector3d> positions_;
+  double min_cos_ = 1.0;
+  std::vector<Vector3d> rays_{};  ///< in the world
+  std::vector<uint32_t> cells_{};
+};
+
 Places PlacesOf(const Rigid3& pose,
                 const SceneCorrespondences& correspondences,
                 double max_error_rad) {
-  const PoseSupport support = SupportOf(pose, correspondences, max_error_rad);
-  Places places;
-  for (size_t i = 0; i < correspondences.size(); ++i) {
-    if (support.is_inlier[i] != 0)
-      places.set(SphereCell(correspondences.bearings[i], kSpreadCells));
-  }
-  return places;
-}
-
-size_t CountPlaces(const Rigid3& pose,
-                   const SceneCorrespondences& correspondences,
-                   double max_error_rad) {
-  return PlacesOf(pose, correspondences, max_error_rad).count();
-}
-
-/// Poses with the rotation of `found` on the ray from `start` through its centre.
-std::vector<Rigid3> PosesAlong(const Vector3d& start,
-                               const Rigid3& found,
-                               const SceneCorrespondences& correspondences) {
-  std::vector<Rigid3> poses;
-  const Vector3d step = found.Centre() - start;
-  if (step.norm() == 0.0) return poses;
-  const Vector3d direction = step.normalized();
-  const size_t stride =
-      std::max<size_t>(1, (correspondences.size() + kMaxLengths - 1) / kMaxLengths);
-  for (size_t i = 0; i < correspondences.size(); i += stride) {
-    const double s = BaselineLength(correspondences.positions[i] - start,
-                                    direction,
-                                    found.rotation.conjugate() * correspondences.bearings[i]);
-    if (s > 0.0) poses.push_back(Rigid3::FromCentre(found.rotation, start + s * direction));
-  }
-  return poses;
+  return PlaceCounter(pose.rotation, correspondences, max_error_rad).At(pose.Centre());
 }
 
 Rigid3 Refine(Rigid3 pose, const SceneCorrespondences& correspondences, double max_error_rad) {
@@ -80,24 +97,20 @@ Rigid3 PoseOfMostPlaces(const Rigid3& found,
                         const SceneCorrespondences& correspondences,
                         std::span<const ViewMatches> views,
                         double max_error_rad) {
-  const double slack_rad = kPairSlack * max_error_rad;
-  Rigid3 best = found;
-  const size_t needed = CountPlaces(found, correspondences, slack_rad);
+  const PlaceCounter counter(found.rotation, correspondences, kPairSlack * max_error_rad);
+  Vector3d best = found.Centre();
+  const size_t needed = counter.CountAt(best);
   size_t most = needed;
   for (const ViewMatches& view : views.first(std::min(views.size(), kMaxViews))) {
-    for (const Rigid3& pose : PosesAlong(view.view_from_world.Centre(), found, correspondences)) {
-      const size_t places = CountPlaces(pose, correspondences, slack_rad);
-      if (places <= most) continue;
-      most = places;
-      best = pose;
-    }
+    const Vector3d start = view.view_from_world.Centre();
+    const Vector3d step = found.Centre() - start;
+    if (step.norm() > 0.0) counter.FindBest(start, step.normalized(), best, most);
   }
   if (most == needed) return found;
-  const Rigid3 refined = Refine(best, correspondences, max_error_rad);
-  return CountPlaces(refined, correspondences, max_error_rad) >
-                 CountPlaces(found, correspondences, max_error_rad)
-             ? refined
-             : found;
+  const Rigid3 refined =
+      Refine(Rigid3::FromCentre(found.rotation, best), correspondences, max_error_rad);
+  const size_t places = PlacesOf(refined, correspondences, max_error_rad).count();
+  return places > PlacesOf(found, correspondences, max_error_rad).count() ? refined : found;
 }
 
 bool HasClearlyMorePlaces(const Rigid3& x,
