@@ -46,8 +46,6 @@ constexpr double kAsEvident = 0.8;  // sky and scene then agree in one geometry
 // right poses a quarter and more.
 constexpr double kHardly = 0.2;
 constexpr double kClearlyMore = 10.0;  // decades: a moving bus counts as three matches, some four
-// Fifteen degrees: what is closer is one motion, measured twice.
-constexpr double kOneDirection_rad = 0.26;
 // A facade that is matched a window further on turns no camera, but by what a plane leaves open.
 constexpr double kTurned_rad = 1.0;
 

@@ -19,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kClearlyMoved = 2.0;  // errors: what is far fits every direction
-constexpr double kOneDirection_rad = 0.26;
 constexpr size_t kFewest = 8;
 /// Two of a fifth of the matches: 1 - (1 - 0.2^2)^200 = 0.9997.
 constexpr int kTrials = 200;
@@ -33,8 +31,8 @@ std::vector<FeatureMatch> MovedElsewise(std::span<const Vector3d> bearings_a,
   std::vector<FeatureMatch> moved;
   std::ranges::copy_if(matches, std::back_inserter(moved), [&](const FeatureMatch& match) {
     return !std::ranges::binary_search(geometry.inliers, match) &&
-           AngleBetween(geometry.b_from_a.rotation * bearings_a[match.a], bearings_b[match.b]) >
-               kClearlyMoved * max_error_rad;
+           HasClearlyMoved(
+               geometry.b_from_a.rotation, bearings_a[match.a], bearings_b[match.b], max_error_rad);
   });
   return moved;
 }

@@ -29,6 +29,14 @@ double MedianAngle(const SelectedBearings& inliers, const Eigen::Quaterniond& R)
 
 }  // namespace
 
+bool HasClearlyMoved(const Eigen::Quaterniond& rotation,
+                     const Eigen::Vector3d& a,
+                     const Eigen::Vector3d& b,
+                     double max_error_rad) {
+  constexpr double kErrors = 2.0;
+  return AngleBetween(rotation * a, b) > kErrors * max_error_rad;
+}
+
 BearingPairs Subset(const BearingPairs& pairs, std::span<const uint32_t> indices) {
   BearingPairs subset;
   for (const uint32_t i : indices) {

@@ -12,6 +12,17 @@
 
 namespace orbweave {
 
+/// Directions of baselines that are closer than this, fifteen degrees, are one motion, measured
+/// twice.
+inline constexpr double kOneDirection_rad = 0.26;
+
+/// Whether a match moved by more than the rotation and errors explain: what is far shows no
+/// baseline, and fits every direction of one.
+[[nodiscard]] bool HasClearlyMoved(const Eigen::Quaterniond& rotation,
+                                   const Eigen::Vector3d& a,
+                                   const Eigen::Vector3d& b,
+                                   double max_error_rad);
+
 /// Some of `pairs`, as pairs of their own.
 [[nodiscard]] BearingPairs Subset(const BearingPairs& pairs, std::span<const uint32_t> indices);
 

@@ -17,14 +17,13 @@ namespace {
 
 using Pairs = std::vector<ImagePair>;
 
-/// As match_images has it of a pair that needs no second look. Predictions fit wrong planes of a
-/// facade that repeats: what they add is no evidence beyond doubt.
-constexpr double kNoDoubt = -120.0;
 /// Matches that moved, several times what a geometry needs.
 constexpr uint32_t kManyMoved = 50;
 /// Parts with fewer images than this may be held together with others by what was not tried.
 constexpr uint32_t kSmallPart = 16;
 
+/// Predictions fit wrong planes of a facade that repeats: what they add is no evidence beyond
+/// doubt.
 bool IsStrong(const MatchedPair& pair) {
   return pair.kind == TwoViewKind::kGeneral && pair.rung != MatchRung::kGuided &&
          pair.log10_false_alarms <= kNoDoubt && pair.num_moved >= kManyMoved;

@@ -16,7 +16,7 @@ struct RegistrationRecord {
   uint32_t best_inliers = 0;        ///< most points that ever agreed
   uint32_t needed_inliers = 0;      ///< when most agreed
   uint32_t best_visible = 0;        ///< most points it ever saw
-  int num_reconsidered = 0;         ///< times that it was registered anew against a strong pair
+  int num_reconsidered = 0;         ///< times that it was registered anew (ReconsiderImages)
   bool dropped = false;             ///< was registered, then lost its points
 };
 

@@ -25,9 +25,10 @@ absl::Status ListPairsStage::Run(StageTask<ListPairsStage>& task) {
   const size_t num_images = features.first.size();
   ORBWEAVE_RETURN_IF_ERROR(BlameBlob(CheckPairNumbers(candidates.first, num_images),
                                      task.DigestOf(&ListPairsStage::candidates)));
+  for (const std::vector<ImagePair>* pairs : {&wider.second, &wider.reserve})
+    ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, num_images));
   size_t count = 0;
   for (const std::vector<ImagePair>* pairs : {&candidates.first, &wider.second, &wider.reserve}) {
-    ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, num_images));
     std::vector<MatchRecipe::Pair> listed;
     for (const ImagePair& pair : *pairs) listed.push_back({pair, {}});
     count += listed.size();

@@ -10,6 +10,7 @@
 #include "core/estimators/estimate_two_view.h"
 #include "core/estimators/find_rival_direction.h"
 #include "core/estimators/grow_two_view.h"
+#include "core/estimators/two_view_inliers.h"
 #include "core/features/growing_nearest.h"
 #include "core/features/match_against_decoys.h"
 #include "core/features/match_descriptors.h"
@@ -23,17 +24,11 @@ constexpr double kWorthALook = -1.0;
 /// Streets that look alike fill wrong planes a little better than decoys do: a pair that rests on
 /// predictions needs a hundred times the evidence.
 constexpr double kDoubtOfPredictions = 2.0;
-/// Some of the features may miss what all would show. Where the largest of a town had this much
-/// evidence, one pair of 33 was more than 3 degrees off that by all features (5); from 10^-50 on 5
-/// of 83 were (12), and from 10^-12 on 12 of 100, one turned round.
-constexpr double kNoDoubt = -120.0;
 /// Of the largest features' matches that fit no geometry found: those of facades that repeat had
 /// -22 to -190, those of other pairs -10 at most.
 constexpr double kRival = -12.0;
 /// Steps of the ladder of scales: the features taken together grow by so much each time.
 constexpr double kGrowth = 2.5;
-/// Errors by which a match must have moved to show where the camera went.
-constexpr double kClearlyMoved = 2.0;
 /// Planes that move by this share of their width leave matches out: they are looked for again.
 constexpr double kMoved = 0.5;
 constexpr int kMaxRounds = 3;
@@ -50,8 +45,8 @@ uint32_t CountMoved(const TwoViewGeometry& geometry,
                     const PairSide& b,
                     double max_error_rad) {
   const auto moved = std::ranges::count_if(geometry.inliers, [&](const FeatureMatch& match) {
-    const Eigen::Vector3d turned = geometry.b_from_a.rotation * a.bearings[match.a];
-    return AngleBetween(turned, b.bearings[match.b]) > kClearlyMoved * max_error_rad;
+    return HasClearlyMoved(
+        geometry.b_from_a.rotation, a.bearings[match.a], b.bearings[match.b], max_error_rad);
   });
   return static_cast<uint32_t>(moved);
 }
