@@ -13,8 +13,8 @@ namespace orbweave {
 namespace {
 
 constexpr double kMinSigmaPx = 0.1;
-/// So many of its stated sigmas off a position begins to lose weight.
-constexpr double kStatedSigmas = 3.0;
+/// So many sigmas off a position begins to lose weight; of those stated, where these are larger.
+constexpr double kLossSigmas = 3.0;
 constexpr uint32_t kNoPose = std::numeric_limits<uint32_t>::max();
 
 /// Poses of the bundle problem: slots in order, and the inverse.
@@ -59,10 +59,11 @@ void AddPositions(const MappingState& state,
     if (!prior.position_in_enu) continue;
     const Eigen::Vector3d sigma_m = {
         prior.horizontal_sigma_m, prior.horizontal_sigma_m, prior.vertical_sigma_m};
-    problem.position_priors.push_back({.pose = pose,
-                                       .position_in_world = *prior.position_in_enu,
-                                       .sigma_m = state.PositionFactor() * sigma_m,
-                                       .loss_sigmas = kStatedSigmas / state.PositionFactor()});
+    problem.position_priors.push_back(
+        {.pose = pose,
+         .position_in_world = state.PositionInWorld(images[pose]),
+         .sigma_m = state.PositionFactor() * sigma_m,
+         .loss_sigmas = kLossSigmas / std::min(1.0, state.PositionFactor())});
   }
 }
 

@@ -17,19 +17,22 @@ constexpr double kMedianOfNormal = 0.6745;
 
 }  // namespace
 
+GnssStep StepBetween(const ClusterProblem& problem, ImageSlot a, ImageSlot b) {
+  const PosePrior& at_a = problem.images[a].prior;
+  const PosePrior& at_b = problem.images[b].prior;
+  if (!at_a.position_in_enu || !at_b.position_in_enu) return {};
+  const double length_m = (*at_b.position_in_enu - *at_a.position_in_enu).head<2>().norm();
+  if (!(length_m > 0.0)) return {};
+  const double sigma_m = std::hypot(at_a.horizontal_sigma_m, at_b.horizontal_sigma_m);
+  return {.log_length = std::log(length_m), .sigma = sigma_m / length_m};
+}
+
 std::vector<GnssStep> GnssSteps(const ClusterProblem& problem,
                                 const CorrespondenceGraph& graph,
                                 std::span<const uint32_t> pairs) {
-  std::vector<GnssStep> steps(pairs.size());
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    const PosePrior& a = problem.images[graph.pairs[pairs[i]].a].prior;
-    const PosePrior& b = problem.images[graph.pairs[pairs[i]].b].prior;
-    if (!a.position_in_enu || !b.position_in_enu) continue;
-    const double length_m = (*b.position_in_enu - *a.position_in_enu).head<2>().norm();
-    if (!(length_m > 0.0)) continue;
-    const double sigma_m = std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
-    steps[i] = {.log_length = std::log(length_m), .sigma = sigma_m / length_m};
-  }
+  std::vector<GnssStep> steps;
+  for (const uint32_t p : pairs)
+    steps.push_back(StepBetween(problem, graph.pairs[p].a, graph.pairs[p].b));
   return steps;
 }
 

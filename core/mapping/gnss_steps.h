@@ -18,6 +18,9 @@ struct GnssStep {
   double sigma = std::numeric_limits<double>::infinity();
 };
 
+/// Between two images of the cluster.
+[[nodiscard]] GnssStep StepBetween(const ClusterProblem& problem, ImageSlot a, ImageSlot b);
+
 /// Of each of `pairs`, indices into graph.pairs.
 [[nodiscard]] std::vector<GnssStep> GnssSteps(const ClusterProblem& problem,
                                               const CorrespondenceGraph& graph,

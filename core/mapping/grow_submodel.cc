@@ -62,6 +62,7 @@ class Growth {
       limits.min_inliers =
           std::min(options_.min_inliers, std::max(kFewestInliers, options_.min_inliers / 2));
       limits.propose_from_pairs = true;
+      limits.waits_for_gnss = false;  // its position may be wrong
     }
     return limits;
   }
@@ -117,7 +118,7 @@ class Growth {
 
   void Note(ImageSlot image, const RegistrationAttempt& attempt) {
     RegistrationRecord& record = log_[image];
-    ++record.num_attempts;
+    record.num_attempts += attempt.waits ? 0 : 1;
     record.visible_at_failure = attempt.registered ? 0 : attempt.num_visible;
     record.best_visible = std::max(record.best_visible, attempt.num_visible);
     if (attempt.num_inliers < record.best_inliers) return;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/mapping/correspondence_graph.h"
@@ -39,7 +40,16 @@ class MappingState {
   [[nodiscard]] bool IsInEnu() const { return position_factor_ > 0.0; }
   /// By what the stated sigmas of positions are then multiplied.
   [[nodiscard]] double PositionFactor() const { return position_factor_; }
-  void SetInEnu(double position_factor) { position_factor_ = position_factor; }
+  /// Where the image's position is there, if it has one: without what heights of its drive are off.
+  [[nodiscard]] Eigen::Vector3d PositionInWorld(ImageSlot image) const {
+    return *problem_->images[image].prior.position_in_enu -
+           Eigen::Vector3d(0.0, 0.0, height_offset_m_[image]);
+  }
+  /// `height_offset_m`: per image of the cluster.
+  void SetInEnu(double position_factor, std::vector<double> height_offset_m) {
+    position_factor_ = position_factor;
+    height_offset_m_ = std::move(height_offset_m);
+  }
 
   /// Registered images in order of registration.
   [[nodiscard]] const std::vector<ImageSlot>& Registered() const { return registered_; }
@@ -93,6 +103,7 @@ class MappingState {
   std::vector<uint8_t> cell_of_node_{};
   std::vector<VisibilityPyramid> visible_{};
   double position_factor_ = 0.0;
+  std::vector<double> height_offset_m_{};
   uint32_t num_points_ = 0;
   uint32_t num_observations_ = 0;
 };

@@ -12,6 +12,7 @@
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/average_baselines.h"
 #include "core/mapping/place_in_enu.h"
+#include "core/mapping/position_agreement.h"
 
 namespace orbweave {
 namespace {
@@ -116,6 +117,14 @@ std::vector<ImageSlot> LargestPart(const DifferenceGraph& graph) {
   return images;
 }
 
+/// Neighbours stand as images see them: what single positions are off must not move them against
+/// each other. So positions that are no better between neighbours than they state count for a
+/// third.
+double LeastScatter(double step_factor) {
+  constexpr double kHeld = 3.0;
+  return std::clamp(kHeld * step_factor, 1.0, kMaxScatter);
+}
+
 }  // namespace
 
 absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
@@ -152,10 +161,17 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
   std::optional<EnuPlacement> placed;
   if (baselines.in_metres) {
     ORBWEAVE_ASSIGN_OR_RETURN(placed,
-                              PlaceInEnu(problem, placement.images, displacements, context));
+                              PlaceInEnu(problem,
+                                         placement.images,
+                                         rotations.cam_from_world,
+                                         displacements,
+                                         LeastScatter(baselines.step_factor),
+                                         context));
   }
   if (placed) {
-    placement.position_factor = baselines.step_factor;
+    placement.position_factor =
+        placed->scatter > 1.0 ? placed->scatter : std::min(1.0, baselines.step_factor);
+    placement.height_offset_m = placed->height_offset_m;
   } else {
     ORBWEAVE_ASSIGN_OR_RETURN(AveragedDifferences averaged,
                               AverageDifferences(displacements, context));

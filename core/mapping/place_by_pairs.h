@@ -16,9 +16,11 @@ namespace orbweave {
 struct PairPlacement {
   std::vector<ImageSlot> images{};        ///< ascending
   std::vector<Rigid3> cams_from_world{};  ///< per image
-  /// Where the frame is east, north and up in metres: by what stated sigmas of positions are off
-  /// between neighbours (FactorOfSteps).
+  /// Where the frame is east, north and up in metres: by what stated sigmas of positions are to be
+  /// multiplied, as they are off between neighbours (FactorOfSteps) or, if that is more than 1, as
+  /// they scatter (EnuPlacement::scatter).
   std::optional<double> position_factor{};
+  std::vector<double> height_offset_m{};  ///< there, as in EnuPlacement
 };
 
 /// Poses of all images at once from pairs alone: rotations by AverageRotations, lengths of

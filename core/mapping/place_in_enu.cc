@@ -3,14 +3,17 @@
 
 #include "core/mapping/place_in_enu.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/quantile.h"
 #include "core/mapping/position_agreement.h"
-#include "core/robust/loss.h"
+#include "core/mapping/turn_to_enu.h"
 
 namespace orbweave {
 namespace {
@@ -19,39 +22,7 @@ using Eigen::Vector3d;
 
 constexpr double kStepShare = 0.1;
 constexpr double kMostOfMedian = 10.0;
-constexpr int kReweightings = 10;
 constexpr double kMinAgreeing = 0.7;
-
-/// The rotation R that makes trace(R^T M) largest.
-Eigen::Quaterniond NearestRotation(const Eigen::Matrix3d& M) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vector3d signs = Vector3d::Ones();
-  signs.z() = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
-  return Eigen::Quaterniond(
-      Eigen::Matrix3d(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose()));
-}
-
-Eigen::Quaterniond EnuFromWorld(const ClusterProblem& problem,
-                                const DifferenceGraph& displacements) {
-  Eigen::Quaterniond enu_from_world = Eigen::Quaterniond::Identity();
-  const CauchyLoss loss(1.0);
-  for (int round = 0; round <= kReweightings; ++round) {
-    Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
-    for (size_t e = 0; e < displacements.edges.size(); ++e) {
-      const PosePrior& a = problem.images[displacements.edges[e].a].prior;
-      const PosePrior& b = problem.images[displacements.edges[e].b].prior;
-      if (!a.position_in_enu || !b.position_in_enu) continue;
-      const double sigma_m = std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
-      const Vector3d seen = displacements.differences.row(static_cast<Eigen::Index>(e));
-      const Vector3d step = *b.position_in_enu - *a.position_in_enu;
-      const double error = (step - enu_from_world * seen).norm() / sigma_m;
-      const double weight = round == 0 ? 1.0 : loss.Weight(error * error);
-      across += weight / (sigma_m * sigma_m) * step * seen.transpose();
-    }
-    enu_from_world = NearestRotation(across);
-  }
-  return enu_from_world;
-}
 
 /// Turned, and with weights that compare with those of positions.
 void TurnToEnu(const Eigen::Quaterniond& enu_from_world, DifferenceGraph& displacements) {
@@ -64,14 +35,17 @@ void TurnToEnu(const Eigen::Quaterniond& enu_from_world, DifferenceGraph& displa
                               .cwiseQuotient(kStepShare * kStepShare * squares);
 }
 
-/// The displacements in some columns, and the positions there as displacements from one node more.
+/// The displacements in some columns, and the positions there as displacements from nodes more: one
+/// origin, or one for each drive.
 DifferenceGraph WithPositions(const ClusterProblem& problem,
                               std::span<const ImageSlot> images,
                               const DifferenceGraph& displacements,
+                              double scatter,
                               Eigen::Index first,
-                              Eigen::Index columns) {
-  const uint32_t origin = displacements.num_nodes;
-  DifferenceGraph graph{.num_nodes = origin + 1, .edges = displacements.edges};
+                              Eigen::Index columns,
+                              std::span<const uint32_t> origins) {
+  DifferenceGraph graph{.num_nodes = *std::ranges::max_element(origins) + 1,
+                        .edges = displacements.edges};
   const auto most = displacements.differences.rows() + static_cast<Eigen::Index>(images.size());
   graph.differences.resize(most, columns);
   graph.weights.resize(most);
@@ -81,8 +55,9 @@ DifferenceGraph WithPositions(const ClusterProblem& problem,
   for (const ImageSlot image : images) {
     const PosePrior& prior = problem.images[image].prior;
     if (!prior.position_in_enu) continue;
-    const double sigma_m = first == 0 ? prior.horizontal_sigma_m : prior.vertical_sigma_m;
-    graph.edges.push_back({origin, image});
+    const double sigma_m =
+        scatter * (first == 0 ? prior.horizontal_sigma_m : prior.vertical_sigma_m);
+    graph.edges.push_back({origins[image], image});
     graph.differences.row(row) = prior.position_in_enu->segment(first, columns).transpose();
     graph.weights[row++] = 1.0 / (sigma_m * sigma_m);
   }
@@ -91,38 +66,83 @@ DifferenceGraph WithPositions(const ClusterProblem& problem,
   return graph;
 }
 
-absl::StatusOr<Eigen::MatrixXd> Centres(const ClusterProblem& problem,
-                                        std::span<const ImageSlot> images,
-                                        const DifferenceGraph& displacements,
-                                        const StageContext& context) {
-  const auto origin = static_cast<Eigen::Index>(displacements.num_nodes);
-  Eigen::MatrixXd centres(origin, 3);
-  for (const auto& [first, columns] : {std::pair(0, 2), std::pair(2, 1)}) {
-    ORBWEAVE_ASSIGN_OR_RETURN(
-        const AveragedDifferences averaged,
-        AverageDifferences(WithPositions(problem, images, displacements, first, columns), context));
-    const Eigen::RowVectorXd zero = averaged.values.row(origin);
-    centres.middleCols(first, columns) = averaged.values.topRows(origin).rowwise() - zero;
+/// Nodes beyond those of the images, by the drive of each.
+std::vector<uint32_t> OriginOfDrive(const ClusterProblem& problem) {
+  std::map<uint32_t, uint32_t> origin_of_drive;
+  const auto num_images = static_cast<uint32_t>(problem.images.size());
+  std::vector<uint32_t> origins;
+  for (const ClusterImage& image : problem.images) {
+    const auto next = num_images + static_cast<uint32_t>(origin_of_drive.size());
+    origins.push_back(origin_of_drive.try_emplace(image.drive, next).first->second);
   }
-  return centres;
+  return origins;
+}
+
+/// Sets the centres and the offsets of heights.
+absl::Status PlaceCentres(const ClusterProblem& problem,
+                          std::span<const ImageSlot> images,
+                          const DifferenceGraph& displacements,
+                          const StageContext& context,
+                          EnuPlacement& placed) {
+  const auto num_images = static_cast<Eigen::Index>(displacements.num_nodes);
+  const std::vector<uint32_t> one_origin(problem.images.size(), displacements.num_nodes);
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const AveragedDifferences plan,
+      AverageDifferences(
+          WithPositions(problem, images, displacements, placed.scatter, 0, 2, one_origin),
+          context));
+  const std::vector<uint32_t> origins = OriginOfDrive(problem);
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const AveragedDifferences heights,
+      AverageDifferences(
+          WithPositions(problem, images, displacements, placed.scatter, 2, 1, origins), context));
+  const Eigen::RowVectorXd zero = plan.values.row(num_images);
+  const double zero_height = heights.values(origins[images.front()], 0);
+  placed.centres.resize(num_images, 3);
+  placed.centres.leftCols(2) = plan.values.topRows(num_images).rowwise() - zero;
+  placed.centres.col(2) = heights.values.col(0).head(num_images).array() - zero_height;
+  placed.height_offset_m.clear();
+  for (const uint32_t origin : origins)
+    placed.height_offset_m.push_back(zero_height - heights.values(origin, 0));
+  return absl::OkStatus();
+}
+
+double ScatterAbout(const ClusterProblem& problem,
+                    std::span<const ImageSlot> images,
+                    const Eigen::MatrixXd& centres) {
+  std::vector<double> errors;
+  for (const ImageSlot image : images) {
+    const PosePrior& prior = problem.images[image].prior;
+    if (!prior.position_in_enu) continue;
+    const Vector3d error = centres.row(image).transpose() - *prior.position_in_enu;
+    errors.push_back(error.head<2>().norm() / prior.horizontal_sigma_m);
+  }
+  return ScatterOfPositions(errors);
 }
 
 }  // namespace
 
-absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(const ClusterProblem& problem,
-                                                       std::span<const ImageSlot> images,
-                                                       DifferenceGraph displacements,
-                                                       const StageContext& context) {
-  if (displacements.edges.empty() || !DoPositionsSpread(problem, images))
+absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(
+    const ClusterProblem& problem,
+    std::span<const ImageSlot> images,
+    std::span<const Eigen::Quaterniond> cams_from_world,
+    DifferenceGraph displacements,
+    double least_scatter,
+    const StageContext& context) {
+  if (displacements.edges.empty() || !DoPositionsSpread(problem, images, 1.0))
     return std::optional<EnuPlacement>();
-  const Eigen::Quaterniond enu_from_world = EnuFromWorld(problem, displacements);
-  TurnToEnu(enu_from_world, displacements);
-  ORBWEAVE_ASSIGN_OR_RETURN(Eigen::MatrixXd centres,
-                            Centres(problem, images, displacements, context));
-  const auto centre_of = [&](ImageSlot image) -> Vector3d { return centres.row(image); };
-  if (ShareOnPositions(problem, images, centre_of) < kMinAgreeing)
+  EnuPlacement placed{.enu_from_world =
+                          EnuFromDisplacements(problem, images, cams_from_world, displacements)};
+  TurnToEnu(placed.enu_from_world, displacements);
+  ORBWEAVE_RETURN_IF_ERROR(PlaceCentres(problem, images, displacements, context, placed));
+  placed.scatter = std::max(least_scatter, ScatterAbout(problem, images, placed.centres));
+  if (!DoPositionsSpread(problem, images, placed.scatter)) return std::optional<EnuPlacement>();
+  if (placed.scatter > 1.0)
+    ORBWEAVE_RETURN_IF_ERROR(PlaceCentres(problem, images, displacements, context, placed));
+  const auto centre_of = [&](ImageSlot image) -> Vector3d { return placed.centres.row(image); };
+  if (ShareOnPositions(problem, images, placed.scatter, centre_of) < kMinAgreeing)
     return std::optional<EnuPlacement>();
-  return EnuPlacement{enu_from_world, std::move(centres)};
+  return placed;
 }
 
 }  // namespace orbweave

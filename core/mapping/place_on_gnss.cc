@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/geometry/rotation.h"
+#include "core/mapping/upright.h"
 #include "core/robust/loss.h"
 
 namespace orbweave {
@@ -20,9 +20,6 @@ using Complex = std::complex<double>;
 
 constexpr size_t kMaxImages = 30;
 constexpr size_t kMinPositions = 4;
-/// Length of the mean of the unit vectors that cameras call up: cameras on a car lean the same way
-/// in its own axes and turn with it, which leaves the cosine of the lean, 0.97 for 15 degrees.
-constexpr double kMinUpright = 0.95;
 constexpr int kReweightings = 20;
 constexpr double kMinAgreeing = 0.7;
 constexpr double kMaxSigmas = 3.0;
@@ -40,14 +37,12 @@ struct Station {
   [[nodiscard]] Complex PlanPosition() const { return {position.x(), position.y()}; }
 };
 
-/// The rotation that makes the cameras' common "up" the third axis.
-std::optional<Eigen::Quaterniond> UprightFromWorld(const MappingState& state,
-                                                   std::span<const ImageSlot> images) {
-  Vector3d sum = Vector3d::Zero();
+std::optional<Eigen::Quaterniond> UprightFrom(const MappingState& state,
+                                              std::span<const ImageSlot> images) {
+  std::vector<Eigen::Quaterniond> cams_from_world;
   for (const ImageSlot image : images)
-    sum -= state.CamFromWorld(image).rotation.conjugate() * Vector3d::UnitY();
-  if (sum.norm() < kMinUpright * static_cast<double>(images.size())) return std::nullopt;
-  return RotationBetween(sum, Vector3d::UnitZ());
+    cams_from_world.push_back(state.CamFromWorld(image).rotation);
+  return UprightFromWorld(cams_from_world);
 }
 
 std::vector<Station> StationsOf(const MappingState& state,
@@ -139,7 +134,7 @@ std::vector<ImageSlot> ImagesNear(const MappingState& state, const Vector3d& pla
 }
 
 std::optional<Sim3> PlaceOnGnss(const MappingState& state, std::span<const ImageSlot> images) {
-  const std::optional<Eigen::Quaterniond> upright = UprightFromWorld(state, images);
+  const std::optional<Eigen::Quaterniond> upright = UprightFrom(state, images);
   if (!upright) return std::nullopt;
   std::vector<Station> stations = StationsOf(state, images, *upright);
   if (stations.size() < kMinPositions) return std::nullopt;

@@ -83,6 +83,15 @@ void AddPoseOfCrossing(const PairHypothesis& first,
       Rigid3::FromCentre(first.cam_from_world, first.neighbour_centre + s * first.direction));
 }
 
+std::vector<PairHypothesis> HypothesesOf(const MappingState& state, ImageSlot image) {
+  std::vector<PairHypothesis> hypotheses;
+  for (const uint32_t p : PairsWithRegistered(state, image)) {
+    if (hypotheses.size() == kMaxPairs) break;
+    hypotheses.push_back(HypothesisOf(state, image, state.Graph().pairs[p]));
+  }
+  return hypotheses;
+}
+
 std::vector<Rigid3> CandidatesOf(const std::vector<PairHypothesis>& hypotheses,
                                  const SceneCorrespondences& correspondences) {
   std::vector<Rigid3> poses;
@@ -164,16 +173,18 @@ double CrossingAngle(const Rigid3& cam_from_world,
 
 }  // namespace
 
+std::vector<Rigid3> PosesOfPairs(const MappingState& state,
+                                 ImageSlot image,
+                                 const SceneCorrespondences& correspondences) {
+  return CandidatesOf(HypothesesOf(state, image), correspondences);
+}
+
 std::optional<PoseFromPairs> EstimatePoseFromPairs(const MappingState& state,
                                                    ImageSlot image,
                                                    std::span<const ViewMatches> views,
                                                    const SceneCorrespondences& correspondences,
                                                    double max_error_rad) {
-  std::vector<PairHypothesis> hypotheses;
-  for (const uint32_t p : PairsWithRegistered(state, image)) {
-    if (hypotheses.size() == kMaxPairs) break;
-    hypotheses.push_back(HypothesisOf(state, image, state.Graph().pairs[p]));
-  }
+  const std::vector<PairHypothesis> hypotheses = HypothesesOf(state, image);
   const std::optional<Rigid3> best = BestCandidate(CandidatesOf(hypotheses, correspondences),
                                                    correspondences,
                                                    views,

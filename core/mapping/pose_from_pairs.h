@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/mapping/mapping_state.h"
 #include "core/mapping/pair_witness.h"
@@ -27,12 +28,19 @@ struct PoseFromPairs {
   double crossing_angle_rad = 0.0;
 };
 
+/// The poses that the five strongest verified pairs with registered images propose: the rotation of
+/// each, and the centre on its ray, at the length that one scene point tells or where the ray of
+/// another pair crosses.
+[[nodiscard]] std::vector<Rigid3> PosesOfPairs(const MappingState& state,
+                                               ImageSlot image,
+                                               const SceneCorrespondences& correspondences);
+
 /// A pose where few scene points are seen, from 2D-2D and 2D-3D matches together. A verified pair
 /// with a registered image gives the rotation and the direction d of the baseline; its length s
 /// comes from one scene point P seen along v, (C_n + s d - P) x v = 0, or from a second pair, whose
-/// ray crosses. All such poses of the strongest five pairs are tried; that with which most rays
-/// agree, to points and to images, is refined on all of them (MinimiseBetweenViews). `views` are
-/// those of MatchesWithRegistered. nullopt: no pair with a registered image, or no agreement.
+/// ray crosses. All such poses (PosesOfPairs) are tried; that with which most rays agree, to points
+/// and to images, is refined on all of them (MinimiseBetweenViews). `views` are those of
+/// MatchesWithRegistered. nullopt: no pair with a registered image, or no agreement.
 [[nodiscard]] std::optional<PoseFromPairs> EstimatePoseFromPairs(
     const MappingState& state,
     ImageSlot image,

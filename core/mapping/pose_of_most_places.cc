@@ -113,6 +113,30 @@ Rigid3 PoseOfMostPlaces(const Rigid3& found,
   return places > PlacesOf(found, correspondences, max_error_rad).count() ? refined : found;
 }
 
+PlaceCount CountPlaces(const Rigid3& pose,
+                       const SceneCorrespondences& correspondences,
+                       double max_error_rad) {
+  Places seen;
+  for (const Vector3d& bearing : correspondences.bearings)
+    seen.set(SphereCell(bearing, kSpreadCells));
+  return {seen.count(), PlacesOf(pose, correspondences, max_error_rad).count()};
+}
+
+std::optional<Rigid3> CandidateOfMostPlaces(std::span<const Rigid3> candidates,
+                                            const SceneCorrespondences& correspondences,
+                                            double max_error_rad) {
+  const Rigid3* best = nullptr;
+  size_t most = 0;
+  for (const Rigid3& candidate : candidates) {
+    const size_t places = PlacesOf(candidate, correspondences, kPairSlack * max_error_rad).count();
+    if (best != nullptr && places <= most) continue;
+    most = places;
+    best = &candidate;
+  }
+  if (best == nullptr) return std::nullopt;
+  return Refine(*best, correspondences, max_error_rad);
+}
+
 bool HasClearlyMorePlaces(const Rigid3& x,
                           const Rigid3& y,
                           const SceneCorrespondences& correspondences,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/estimators/refine_between_views.h"
@@ -22,6 +23,23 @@ namespace orbweave {
                                       const SceneCorrespondences& correspondences,
                                       std::span<const ViewMatches> views,
                                       double max_error_rad);
+
+/// Places that hold a point, and those of them where one agrees with the pose.
+struct PlaceCount {
+  size_t seen = 0;
+  size_t agreeing = 0;
+};
+
+[[nodiscard]] PlaceCount CountPlaces(const Rigid3& pose,
+                                     const SceneCorrespondences& correspondences,
+                                     double max_error_rad);
+
+/// Of `candidates` the one with which points in most places agree, refined with these; nullopt
+/// without candidates.
+[[nodiscard]] std::optional<Rigid3> CandidateOfMostPlaces(
+    std::span<const Rigid3> candidates,
+    const SceneCorrespondences& correspondences,
+    double max_error_rad);
 
 /// Whether more places agree with `x` alone than with `y` alone, by more than two standard
 /// deviations of a fair coin for each.

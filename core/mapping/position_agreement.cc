@@ -3,9 +3,11 @@
 
 #include "core/mapping/position_agreement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/estimators/estimate_similarity.h"
 #include "core/robust/loss.h"
 
@@ -43,7 +45,9 @@ double ErrorSigmas(const Positions& all, size_t i, const Sim3& enu_from_world) {
 
 }  // namespace
 
-bool DoPositionsSpread(const ClusterProblem& problem, std::span<const ImageSlot> images) {
+bool DoPositionsSpread(const ClusterProblem& problem,
+                       std::span<const ImageSlot> images,
+                       double scatter) {
   Vector3d mean = Vector3d::Zero();
   double count = 0.0;
   const auto for_each = [&](const auto& visit) {
@@ -62,11 +66,12 @@ bool DoPositionsSpread(const ClusterProblem& problem, std::span<const ImageSlot>
   for_each([&](const Vector3d& position, double sigma_m) {
     sum += (position - mean).head<2>().squaredNorm() / (sigma_m * sigma_m);
   });
-  return std::sqrt(sum / count) >= kMinExtentSigmas;
+  return std::sqrt(sum / count) >= kMinExtentSigmas * scatter;
 }
 
 double ShareOnPositions(const ClusterProblem& problem,
                         std::span<const ImageSlot> images,
+                        double scatter,
                         const std::function<Vector3d(ImageSlot)>& centre_of) {
   double all = 0.0;
   double agreeing = 0.0;
@@ -74,7 +79,7 @@ double ShareOnPositions(const ClusterProblem& problem,
     const PosePrior& prior = problem.images[image].prior;
     if (!prior.position_in_enu) continue;
     const double error_m = (centre_of(image) - *prior.position_in_enu).head<2>().norm();
-    agreeing += error_m <= kMaxSigmas * prior.horizontal_sigma_m ? 1.0 : 0.0;
+    agreeing += error_m <= kMaxSigmas * scatter * prior.horizontal_sigma_m ? 1.0 : 0.0;
     all += 1.0;
   }
   return agreeing / all;
@@ -82,22 +87,30 @@ double ShareOnPositions(const ClusterProblem& problem,
 
 std::optional<double> AgreementWithPositions(const MappingState& state) {
   const Positions all = PositionsOf(state);
-  const size_t count = all.positions.size();
-  if (!DoPositionsSpread(state.Problem(), state.Registered())) return std::nullopt;
+  if (!DoPositionsSpread(state.Problem(), state.Registered(), 1.0)) return std::nullopt;
   const CauchyLoss loss(1.0);
-  std::vector<double> weights(count, 1.0);
+  std::vector<double> weights(all.positions.size(), 1.0);
+  std::vector<double> errors(all.positions.size(), 0.0);
   std::optional<Sim3> enu_from_world;
   for (int round = 0; round <= kReweightings; ++round) {
     enu_from_world = FitSimilarity(all.centres, all.positions, weights);
     if (!enu_from_world) return std::nullopt;
-    for (size_t i = 0; i < count; ++i) {
-      const double error = ErrorSigmas(all, i, *enu_from_world);
-      weights[i] = loss.Weight(error * error) / (all.sigma_m[i] * all.sigma_m[i]);
+    for (size_t i = 0; i < errors.size(); ++i) {
+      errors[i] = ErrorSigmas(all, i, *enu_from_world);
+      weights[i] = loss.Weight(errors[i] * errors[i]) / (all.sigma_m[i] * all.sigma_m[i]);
     }
   }
-  return ShareOnPositions(state.Problem(), state.Registered(), [&](ImageSlot image) -> Vector3d {
+  const auto centre_of = [&](ImageSlot image) -> Vector3d {
     return *enu_from_world * state.Centre(image);
-  });
+  };
+  return ShareOnPositions(
+      state.Problem(), state.Registered(), ScatterOfPositions(errors), centre_of);
+}
+
+double ScatterOfPositions(const std::vector<double>& errors) {
+  constexpr double kShare = 0.25;
+  constexpr double kQuantileOfRayleigh = 0.7585;  // of the length of two normal components
+  return std::max(1.0, std::min(kMaxScatter, Quantile(errors, kShare) / kQuantileOfRayleigh));
 }
 
 }  // namespace orbweave

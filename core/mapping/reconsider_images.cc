@@ -9,6 +9,7 @@
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/pair_witness.h"
 #include "core/mapping/pose_of_most_places.h"
+#include "core/mapping/pose_on_gnss_steps.h"
 #include "core/mapping/scene_correspondences.h"
 #include "core/mapping/triangulate_tracks.h"
 
@@ -37,7 +38,7 @@ SceneCorrespondences HeldByOthers(const MappingState& state, ImageSlot image) {
 }
 
 /// Whether a strong pair speaks against where the image is, or points in clearly more places for
-/// another length of its steps.
+/// another length of its steps, or GNSS with some of them.
 bool IsDoubted(const MappingState& state, ImageSlot image, double max_error_px) {
   const double max_error_rad = state.Problem().images[image].camera.AngleFromPixels(max_error_px);
   const Rigid3& pose = state.CamFromWorld(image);
@@ -45,7 +46,17 @@ bool IsDoubted(const MappingState& state, ImageSlot image, double max_error_px) 
   if (ContradictsStrongPair(pose, views, max_error_rad)) return true;
   const SceneCorrespondences held = HeldByOthers(state, image);
   const Rigid3 other = PoseOfMostPlaces(pose, held, views, max_error_rad);
-  return HasClearlyMorePlaces(other, pose, held, max_error_rad);
+  if (HasClearlyMorePlaces(other, pose, held, max_error_rad)) return true;
+  return PoseOnGnssSteps(state, image, StepWitness(state, image), pose, held, max_error_rad)
+      .has_value();
+}
+
+/// Whether GNSS speaks for the centre before, clearly.
+bool IsFurtherOff(const StepWitness& gnss,
+                  const Eigen::Vector3d& now,
+                  const Eigen::Vector3d& before) {
+  const std::optional<double> misfit = gnss.Misfit(now);
+  return misfit && !gnss.Supports(now) && *misfit > *gnss.Misfit(before) + 1.0;
 }
 
 }  // namespace
@@ -67,7 +78,11 @@ absl::Status ReconsiderImages(MappingState& state,
     state.Deregister(image);
     ORBWEAVE_ASSIGN_OR_RETURN(const RegistrationAttempt attempt,
                               RegisterImage(state, image, limits, context));
-    if (!attempt.registered) state.Register(image, before);
+    if (!attempt.registered) {
+      state.Register(image, before);
+    } else if (IsFurtherOff(StepWitness(state, image), state.Centre(image), before.Centre())) {
+      state.SetPose(image, before);
+    }
     TriangulateImage(state, image, LimitsOf(options));
   }
   return absl::OkStatus();

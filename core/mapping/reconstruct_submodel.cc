@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/mapping/borne_out_images.h"
 #include "core/mapping/find_seed_pairs.h"
 #include "core/mapping/initialise_from_pair.h"
 #include "core/mapping/mapping_schedule.h"
@@ -22,6 +23,8 @@ constexpr double kNearlyAll = 0.9;
 /// A model from seeds that leaves out a larger share of what its matches reach has a competitor
 /// that begins with all images at once.
 constexpr double kLeftOut = 0.02;
+/// By so much more that one must hold, as it may be less right in detail.
+constexpr double kClearlyMore = 0.05;
 
 /// Number of available images that matches connect with `start`.
 uint32_t CountReachable(const CorrespondenceGraph& graph,
@@ -96,12 +99,12 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
     result.growth.num_global_adjustments += growth.num_global_adjustments;
     spent.NoteFailure(pair);
     spent.NoteModel(state);
-    const auto size = state.Registered().size();
-    if (!result.state || size > result.state->Registered().size()) {
+    const double worth = BorneOutImages(state);
+    if (!result.state || worth > BorneOutImages(*result.state)) {
       result.state.emplace(std::move(state));
       result.started_globally = false;
     }
-    if (static_cast<double>(size) >= kGoodShare * CountReachable(graph, available, pair.a)) break;
+    if (worth >= kGoodShare * CountReachable(graph, available, pair.a)) break;
   }
   return absl::OkStatus();
 }
@@ -157,8 +160,9 @@ absl::Status CompeteGlobally(const ClusterProblem& problem,
       GlobalModel model, ReconstructGlobally(problem, graph, available, options, own_log, context));
   result.growth.num_local_adjustments += model.growth.num_local_adjustments;
   result.growth.num_global_adjustments += model.growth.num_global_adjustments;
-  const size_t size = result.state ? result.state->Registered().size() : 0;
-  if (!model.state || !model.fault.empty() || model.state->Registered().size() <= size) {
+  const double worth = result.state ? BorneOutImages(*result.state) : 0.0;
+  if (!model.state || !model.fault.empty() ||
+      BorneOutImages(*model.state) <= (1.0 + kClearlyMore) * worth) {
     return absl::OkStatus();
   }
   result.state.emplace(std::move(*model.state));

@@ -10,6 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/estimators/estimate_absolute_pose.h"
+#include "core/mapping/judge_by_gnss.h"
 #include "core/mapping/pair_witness.h"
 #include "core/mapping/pose_from_pairs.h"
 #include "core/mapping/pose_of_most_places.h"
@@ -45,10 +46,10 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
   RegistrationAttempt attempt{.num_visible = state.Visible(image).Count()};
   const uint32_t needed = NeededInliers(limits, attempt.num_visible);
 
-  const auto accept = [&](const Rigid3& cam_from_world) {
+  const auto accept = [&](const Rigid3& cam_from_world, uint32_t fewest) {
     const PoseSupport support = SupportOf(cam_from_world, correspondences, max_error_rad);
     attempt.num_inliers = std::max(attempt.num_inliers, support.count);
-    if (support.count < needed) return false;
+    if (support.count < fewest) return false;
     if (limits.propose_from_pairs &&
         !IsLengthTold(cam_from_world, correspondences, views, max_error_rad)) {
       return false;  // so few points may all be far
@@ -67,6 +68,17 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     pose->cam_from_world =
         PoseOfMostPlaces(pose->cam_from_world, correspondences, views, max_error_rad);
   }
+  if (pose && limits.heeds_pairs) {
+    const GnssVerdict gnss =
+        JudgeByGnss(state, image, pose->cam_from_world, correspondences, max_error_rad);
+    attempt.waits =
+        !gnss.better && (gnss.opinion == GnssOpinion::kRefused ||
+                         (gnss.opinion == GnssOpinion::kContradicted && limits.waits_for_gnss));
+    // What most points say is then known to be wrong: it is not asked how many these are.
+    if (gnss.better)
+      attempt.registered = accept(*gnss.better, static_cast<uint32_t>(limits.min_inliers));
+    if (gnss.better || attempt.waits) return attempt;
+  }
   const bool is_doubtful = pose && limits.heeds_pairs &&
                            ContradictsStrongPair(pose->cam_from_world, views, max_error_rad);
   std::optional<PoseFromPairs> proposed;
@@ -79,11 +91,12 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
   const bool pairs_know_better =
       is_doubtful && proposed &&
       agreeing(proposed->cam_from_world) > agreeing(pose->cam_from_world);
-  if (pose && !pairs_know_better) attempt.registered = accept(pose->cam_from_world);
+  if (pose && !pairs_know_better) attempt.registered = accept(pose->cam_from_world, needed);
   if (!attempt.registered && proposed) {
     const bool is_held = IsHeldByPairs(*proposed, static_cast<uint32_t>(limits.min_inliers));
     // What contradicts the points must itself know how long the step is: far points never do.
-    attempt.registered = (is_held || !pairs_know_better) && accept(proposed->cam_from_world);
+    attempt.registered =
+        (is_held || !pairs_know_better) && accept(proposed->cam_from_world, needed);
     if (!attempt.registered && limits.propose_from_pairs && is_held) {
       state.Register(image, proposed->cam_from_world);
       attempt.registered = true;

@@ -12,6 +12,7 @@ struct RegistrationLimits {
   int min_inliers = 20;
   double min_inlier_share = 0.25;   ///< of the features that correspond to a point
   bool heeds_pairs = true;          ///< where strong pairs contradict what P3P finds
+  bool waits_for_gnss = true;       ///< leaves out, for now, what GNSS steps contradict
   bool propose_from_pairs = false;  ///< try EstimatePoseFromPairs where P3P finds nothing
 };
 
@@ -20,6 +21,7 @@ struct RegistrationLimits {
 
 struct RegistrationAttempt {
   bool registered = false;
+  bool waits = false;  ///< GNSS contradicts what was found: to be tried once more is known
   uint32_t num_visible = 0;
   uint32_t num_inliers = 0;
 };
@@ -29,7 +31,9 @@ struct RegistrationAttempt {
 /// only where they tell how long the step is (IsLengthTold), but also when pairs with registered
 /// images hold it (IsHeldByPairs). With limits.heeds_pairs a pose that a strong pair contradicts
 /// gives way to what pairs and points together propose where more of them agree with that; if too
-/// few do, the image waits. Cancelled when asked to stop.
+/// few do, the image waits. A pose that GNSS contradicts (JudgeByGnss) gives way to one that it and
+/// some places of the image support; without such a one the image waits, unless its own position
+/// alone may be wrong and limits.waits_for_gnss is false. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                                 ImageSlot image,
                                                                 const RegistrationLimits& limits,

@@ -47,7 +47,7 @@ absl::StatusOr<bool> StartGlobally(MappingState& state,
       const PairPlacement placement,
       PlaceByPairs(state.Problem(), state.Graph(), available, options, context));
   if (placement.position_factor)
-    state.SetInEnu(std::clamp(*placement.position_factor, kLeastFactor, 1.0));
+    state.SetInEnu(std::max(*placement.position_factor, kLeastFactor), placement.height_offset_m);
   for (size_t i = 0; i < placement.images.size(); ++i) {
     state.Register(placement.images[i], placement.cams_from_world[i]);
   }

@@ -33,13 +33,28 @@ TEST(AdjustPart, HoldsImagesToTheirPositionsInEnu) {
   }
   for (const bool in_enu : {false, true}) {
     MappingState state = street.TriangulatedStateWith(FirstImages(6));
-    if (in_enu) state.SetInEnu(1.0);
+    if (in_enu) state.SetInEnu(1.0, std::vector<double>(6, 0.0));
     ASSERT_TRUE(AdjustPart(state, FirstImages(6), AllPoints(state), {}, {}).ok());
     const double step = (state.Centre(5) - state.Centre(0)).norm() / 5.0;
     EXPECT_NEAR(step, in_enu ? 3.6 : 3.0, 0.01);
     const double off = (state.Centre(3) - Eigen::Vector3d(11.8, 1.0, 0.5)).norm();
     EXPECT_EQ(off < 0.05, in_enu);
   }
+}
+
+TEST(AdjustPart, KnowsWhatTheHeightsOfADriveAreOff) {
+  StreetFixture street({.centres = StraightWalk(6, 3.0), .random_rotations = true});
+  std::vector<double> offsets_m;
+  for (ImageSlot image = 0; image < 6; ++image) {
+    offsets_m.push_back(image < 3 ? 0.0 : 40.0);
+    PosePrior& prior = street.world.problem.images[image].prior;
+    prior.position_in_enu = Eigen::Vector3d(3.0 * image, 1.0, 0.5 + offsets_m.back());
+    prior.horizontal_sigma_m = prior.vertical_sigma_m = 1.0;
+  }
+  MappingState state = street.TriangulatedStateWith(FirstImages(6));
+  state.SetInEnu(1.0, offsets_m);
+  ASSERT_TRUE(AdjustPart(state, FirstImages(6), AllPoints(state), {}, {}).ok());
+  EXPECT_LT((state.Centre(5) - Eigen::Vector3d(15.0, 1.0, 0.5)).norm(), 0.05);
 }
 
 TEST(AdjustPart, LeavesTheStateAloneWhenCancelled) {

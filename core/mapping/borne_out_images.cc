@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/borne_out_images.h"
+
+#include <algorithm>
+
+#include "core/mapping/position_agreement.h"
+#include "core/mapping/step_witness.h"
+
+namespace orbweave {
+
+double BorneOutImages(const MappingState& state) {
+  const auto count = std::ranges::count_if(state.Registered(), [&](ImageSlot image) {
+    return !StepWitness(state, image).Contradicts(state.Centre(image));
+  });
+  return AgreementWithPositions(state).value_or(1.0) * static_cast<double>(count);
+}
+
+}  // namespace orbweave
