@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/graph/drop_edges_against_chain.h"
+#include "core/graph/drop_edges_against_compass.h"
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/drop_edges_against_headings.h"
 
@@ -16,14 +17,15 @@ ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
                         const ImageManifest& manifest,
                         const ViewGraphOptions& options) {
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(edges, manifest);
-  EdgesByChain by_chain = DropEdgesAgainstChain(by_gnss.kept, manifest);
+  EdgesByGnss by_compass = DropEdgesAgainstCompass(by_gnss.kept, manifest);
+  EdgesByChain by_chain = DropEdgesAgainstChain(by_compass.kept, manifest);
   FilteredViewGraph filtered = BuildViewGraph(
       static_cast<uint32_t>(manifest.images.size()), std::move(by_chain.kept), options);
   EdgesByGnss by_heading = DropEdgesAgainstHeadings(filtered.graph.edges, manifest);
   ChosenEdges chosen{.graph = std::move(filtered.graph), .dropped = std::move(by_gnss.dropped)};
   chosen.graph.edges = std::move(by_heading.kept);
   for (std::vector<DroppedEdge>* dropped :
-       {&by_chain.dropped, &by_heading.dropped, &filtered.dropped}) {
+       {&by_compass.dropped, &by_chain.dropped, &by_heading.dropped, &filtered.dropped}) {
     std::ranges::move(*dropped, std::back_inserter(chosen.dropped));
   }
   return chosen;

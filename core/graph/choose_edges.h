@@ -16,8 +16,9 @@ struct ChosenEdges {
 };
 
 /// The view graph of all verified pairs: without those that contradict GNSS (DropEdgesAgainstGnss),
-/// the sequence of their drive (DropEdgesAgainstChain), their triangles (BuildViewGraph), or the
-/// headings that all others agree on (DropEdgesAgainstHeadings), one filter after the other.
+/// stated headings (DropEdgesAgainstCompass), the sequence of their drive (DropEdgesAgainstChain),
+/// their triangles (BuildViewGraph), or the headings that all others agree on
+/// (DropEdgesAgainstHeadings), one filter after the other.
 [[nodiscard]] ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
                                       const ImageManifest& manifest,
                                       const ViewGraphOptions& options);

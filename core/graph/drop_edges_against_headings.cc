@@ -10,6 +10,8 @@
 #include <string>
 #include <tuple>
 
+#include "core/graph/azimuth.h"
+
 namespace orbweave {
 namespace {
 
@@ -26,15 +28,6 @@ constexpr double kTrusted = 0.75;
 // Of a position that lies between its neighbours' as a street goes; two wrong pairs of four.
 constexpr double kTrustedIfSmooth = 0.5;
 constexpr double kSmoothSigmas = 3.0;
-
-/// Clockwise from the axis that looks forward, seen from above; y points down.
-double AzimuthInCamera(const Vector3d& direction) {
-  return std::atan2(direction.x(), direction.z());
-}
-
-double AngleBetween(double azimuth_a, double azimuth_b) {
-  return std::abs(std::remainder(azimuth_a - azimuth_b, 2.0 * std::numbers::pi));
-}
 
 /// What an edge tells of one of its images.
 struct Link {
@@ -64,7 +57,7 @@ Links LinksOf(const std::vector<ViewEdge>& edges, const ImageManifest& manifest)
   for (uint32_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
     const Rigid3& b_from_a = edges[e].b_from_a;
-    const double turn_rad = AzimuthInCamera(b_from_a.rotation * Vector3d::UnitZ());
+    const double turn_rad = TurnOf(b_from_a.rotation);
     Link at_a{.edge = e, .other = b.value, .turn_rad = turn_rad};
     Link at_b{.edge = e, .other = a.value, .turn_rad = -turn_rad};
     if (const std::optional<double> step = StepByGnss(edges[e], manifest)) {
@@ -96,7 +89,7 @@ std::optional<double> HeadingOf(uint32_t image, const Links& links) {
   size_t most = std::max(kFewest - 1, told.size() / 2);
   for (const double heading : told) {
     const auto agreeing = static_cast<size_t>(std::ranges::count_if(
-        told, [&](double each) { return AngleBetween(each, heading) < kAgree_rad; }));
+        told, [&](double each) { return AngleBetweenAzimuths(each, heading) < kAgree_rad; }));
     if (agreeing <= most) continue;
     most = agreeing;
     best = heading;
@@ -131,7 +124,7 @@ bool IsTrusted(uint32_t image,
     if (!link.heading || !headings[link.other]) continue;
     ++all;
     const double there = *link.heading - link.turn_rad;
-    agreeing += AngleBetween(there, *headings[link.other]) < kAgree_rad ? 1U : 0U;
+    agreeing += AngleBetweenAzimuths(there, *headings[link.other]) < kAgree_rad ? 1U : 0U;
   }
   const double share = IsSmooth(image, manifest) ? kTrustedIfSmooth : kTrusted;
   return all > 0 && static_cast<double>(agreeing) >= share * static_cast<double>(all);
@@ -149,7 +142,7 @@ EdgesByGnss DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
   for (uint32_t image = 0; image < links.size(); ++image) {
     if (!headings[image] || !IsTrusted(image, links, headings, manifest)) continue;
     for (const Link& link : links[image]) {
-      if (link.heading && AngleBetween(*link.heading, *headings[image]) > kAgainst_rad)
+      if (link.heading && AngleBetweenAzimuths(*link.heading, *headings[image]) > kAgainst_rad)
         ++against[link.edge];
     }
   }

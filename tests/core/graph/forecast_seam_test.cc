@@ -12,7 +12,7 @@
 namespace orbweave {
 namespace {
 
-std::vector<ImageId> Range(uint32_t first, uint32_t end) {
+std::vector<ImageId> ImagesFrom(uint32_t first, uint32_t end) {
   std::vector<ImageId> images;
   for (uint32_t i = first; i < end; ++i) images.emplace_back(i);
   return images;
@@ -20,12 +20,12 @@ std::vector<ImageId> Range(uint32_t first, uint32_t end) {
 
 /// Images 0 ... 19 and 20 ... 39 of a street, which lend each other six.
 SeamForecast ForecastOf(const ViewGraph& graph) {
-  const Seam seam{.cluster_a = 0, .cluster_b = 1, .shared = Range(14, 26)};
+  const Seam seam{.cluster_a = 0, .cluster_b = 1, .shared = ImagesFrom(14, 26)};
   return ForecastSeam(graph,
                       Adjacency(graph.num_images, graph.edges),
                       seam,
-                      {.images = Range(0, 26), .interior = Range(0, 20)},
-                      {.images = Range(14, 40), .interior = Range(20, 40)});
+                      {.images = ImagesFrom(0, 26), .interior = ImagesFrom(0, 20)},
+                      {.images = ImagesFrom(14, 40), .interior = ImagesFrom(20, 40)});
 }
 
 TEST(ForecastSeam, TrustsAStreet) {

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/graph/drop_edges_against_gnss.h"
+#include "core/scene/image_manifest.h"
+#include "core/scene/view_graph.h"
+
+namespace orbweave {
+
+/// Edges without those that turn otherwise than the headings that are stated of their images: a
+/// house that repeats round a corner has a geometry of its own, a quarter turn off, and many
+/// matches. Cameras are upright to some degrees.
+///
+/// An edge disagrees when the turn between its cameras differs from that of their headings by more
+/// than four standard deviations, 20 degrees at least and 90 at most. Headings may be wrong, or
+/// those of the way and not of the camera: between two drives, or within one, they are believed
+/// when there are ten edges with headings or more, of which three quarters agree. Edges without
+/// headings stay.
+[[nodiscard]] EdgesByGnss DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
+                                                  const ImageManifest& manifest);
+
+}  // namespace orbweave

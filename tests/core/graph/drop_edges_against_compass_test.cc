@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/graph/drop_edges_against_compass.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "tests/core/graph/bending_drive.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr uint32_t kCount = 30;
+
+/// States the headings of the cameras, 5 degrees off.
+void StateHeadings(BendingDrive& drive, uint64_t seed) {
+  Random random(seed);
+  for (ImageRecord& image : drive.manifest.images) {
+    const Rigid3& cam = drive.cams_from_world[image.id.value];
+    const Vector3d forward = cam.rotation.conjugate() * Vector3d::UnitZ();
+    image.prior.heading_deg =
+        std::atan2(forward.x(), forward.y()) * 180.0 / std::numbers::pi + 5.0 * random.Normal();
+  }
+}
+
+/// A house that repeats round the corner: a quarter turn too many.
+std::set<ImagePair> TurnSome(std::vector<ViewEdge>& edges) {
+  std::set<ImagePair> turned;
+  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitY()));
+  for (size_t e = 2; e < edges.size(); e += 9) {
+    edges[e].b_from_a.rotation = quarter * edges[e].b_from_a.rotation;
+    turned.insert(edges[e].pair);
+  }
+  return turned;
+}
+
+std::set<ImagePair> DroppedOf(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
+  const EdgesByGnss result = DropEdgesAgainstCompass(edges, manifest);
+  EXPECT_EQ(result.kept.size() + result.dropped.size(), edges.size());
+  std::set<ImagePair> pairs;
+  for (const DroppedEdge& edge : result.dropped) pairs.insert(edge.pair);
+  return pairs;
+}
+
+TEST(DropEdgesAgainstCompass, DropsExactlyThoseThatTurnOtherwise) {
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    BendingDrive drive(kCount, seed);
+    StateHeadings(drive, seed);
+    std::vector<ViewEdge> edges = drive.Edges(3, {});
+    const std::set<ImagePair> turned = TurnSome(edges);
+    EXPECT_EQ(DroppedOf(edges, drive.manifest), turned) << "seed " << seed;
+  }
+}
+
+TEST(DropEdgesAgainstCompass, DoesNotCareWhereNorthIs) {
+  BendingDrive drive(kCount);
+  StateHeadings(drive, 1);
+  std::vector<ViewEdge> edges = drive.Edges(3, {});
+  const std::set<ImagePair> turned = TurnSome(edges);
+  for (ImageRecord& image : drive.manifest.images) *image.prior.heading_deg += 170.0;
+  EXPECT_EQ(DroppedOf(edges, drive.manifest), turned);
+}
+
+TEST(DropEdgesAgainstCompass, DoesNotBelieveHeadingsOfTheWay) {
+  BendingDrive drive(kCount);  // whose cameras look anywhere
+  for (ImageRecord& image : drive.manifest.images)
+    image.prior.heading_deg = 90.0 + 3.0 * image.id.value;
+  EXPECT_TRUE(DroppedOf(drive.Edges(3, {}), drive.manifest).empty());
+}
+
+TEST(DropEdgesAgainstCompass, KeepsWhatJoinsDrivesWhoseCamerasAreMountedOtherwise) {
+  BendingDrive drive(kCount);
+  StateHeadings(drive, 4);
+  for (ImageRecord& image : drive.manifest.images) {
+    image.drive = image.id.value % 2;
+    if (image.drive == 1) *image.prior.heading_deg += 180.0;
+  }
+  EXPECT_TRUE(DroppedOf(drive.Edges(4, {}), drive.manifest).empty());
+}
+
+TEST(DropEdgesAgainstCompass, NeedsHeadings) {
+  const BendingDrive drive(kCount);
+  std::vector<ViewEdge> edges = drive.Edges(3, {});
+  TurnSome(edges);
+  EXPECT_TRUE(DroppedOf(edges, drive.manifest).empty());
+  BendingDrive few(4);
+  StateHeadings(few, 2);
+  std::vector<ViewEdge> few_edges = few.Edges(3, {});
+  TurnSome(few_edges);
+  EXPECT_TRUE(DroppedOf(few_edges, few.manifest).empty());
+}
+
+}  // namespace
+}  // namespace orbweave
