@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 #include "core/base/status.h"
 #include "core/geometry/rotation.h"
@@ -17,6 +19,39 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kRankTolerance = 1e-10;  // of squared singular values where these are at hand
+
+/// Four unit rays: X holds three of them, and the fourth is X w.
+struct ProjectiveFrame {
+  Matrix3d X = Matrix3d::Zero();
+  Vector3d w = Vector3d::Zero();
+};
+
+/// nullopt: three of the rays lie in a plane.
+std::optional<ProjectiveFrame> FrameOf(std::span<const Vector3d> rays) {
+  constexpr double kFlat = 1e-7;  // volume of a parallelepiped of unit rays
+  ProjectiveFrame frame;
+  frame.X << rays[0], rays[1], rays[2];
+  const double volume = frame.X.determinant();
+  const Vector3d volumes(rays[3].dot(rays[1].cross(rays[2])),
+                         rays[3].dot(rays[2].cross(rays[0])),
+                         rays[3].dot(rays[0].cross(rays[1])));
+  if (!(std::min(std::abs(volume), volumes.cwiseAbs().minCoeff()) > kFlat)) return std::nullopt;
+  frame.w = volumes / volume;
+  return frame;
+}
+
+/// The map of four rays, H = Y diag(w_b / w_a) X^-1 (Hartley, Zisserman: Multiple View Geometry, on
+/// projective frames). What sees one side of a plane maps each ray to its counterpart and none to
+/// the opposite one: all of the quotients are positive, or the four are not of one plane.
+std::optional<Matrix3d> HomographyOfFour(std::span<const Vector3d> bearings_a,
+                                         std::span<const Vector3d> bearings_b) {
+  const std::optional<ProjectiveFrame> a = FrameOf(bearings_a);
+  const std::optional<ProjectiveFrame> b = FrameOf(bearings_b);
+  if (!a || !b) return std::nullopt;
+  const Vector3d scales = b->w.cwiseQuotient(a->w);
+  if (!(scales.minCoeff() > 0.0)) return std::nullopt;
+  return Matrix3d(b->X * scales.asDiagonal() * a->X.inverse()).normalized();
+}
 
 }  // namespace
 
@@ -35,6 +70,7 @@ std::optional<Matrix3d> FitRayHomography(std::span<const Vector3d> bearings_a,
                                          std::span<const Vector3d> bearings_b) {
   ORBWEAVE_CHECK(bearings_a.size() == bearings_b.size());
   if (bearings_a.size() < 4) return std::nullopt;
+  if (bearings_a.size() == 4) return HomographyOfFour(bearings_a, bearings_b);
   Eigen::Matrix<double, 9, 9> AtA = Eigen::Matrix<double, 9, 9>::Zero();
   for (size_t i = 0; i < bearings_a.size(); ++i) {
     const Eigen::Matrix<double, 3, 2> B = TangentBasis(bearings_b[i]);

@@ -16,7 +16,9 @@ namespace orbweave {
 
 /// The ray homography H, |H| = 1, with p_b parallel to H p_a and most of them on the same side,
 /// p_b . H p_a > 0: bearings of points on one plane. Least singular vector of B_b^T H p_a = 0, B_b
-/// the tangent plane of p_b. nullopt for fewer than four pairs or when these do not determine H.
+/// the tangent plane of p_b; of four pairs in closed form. nullopt for fewer than four pairs, when
+/// these do not determine H, and for four of which it takes some to the same and some to the
+/// opposite side.
 [[nodiscard]] std::optional<Eigen::Matrix3d> FitRayHomography(
     std::span<const Eigen::Vector3d> bearings_a, std::span<const Eigen::Vector3d> bearings_b);
 

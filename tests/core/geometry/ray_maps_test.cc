@@ -58,6 +58,35 @@ TEST(FitRayHomography, MapsBearingsOfOnePlane) {
   }
 }
 
+TEST(FitRayHomography, OfFourIsThatOfMoreOnTheSamePlane) {
+  Random random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    Matrix3d H = RandomRotation(random).toRotationMatrix();
+    H += 0.3 * RandomDirection(random) * RandomDirection(random).transpose();
+    std::vector<Vector3d> a(12);
+    std::vector<Vector3d> b(12);
+    for (size_t i = 0; i < a.size(); ++i) {
+      a[i] = RandomDirection(random);
+      b[i] = (H * a[i]).normalized();
+    }
+    const auto of_all = FitRayHomography(a, b);
+    const auto of_four = FitRayHomography(std::span(a).first(4), std::span(b).first(4));
+    ASSERT_TRUE(of_all.has_value() && of_four.has_value());
+    for (size_t i = 0; i < a.size(); ++i)
+      EXPECT_LT(AngleBetween(*of_all * a[i], *of_four * a[i]), 1e-6);
+  }
+}
+
+TEST(FitRayHomography, RefusesFourOfWhichOneIsSeenFromBehind) {
+  Random random(8);
+  std::vector<Vector3d> a(4);
+  for (Vector3d& bearing : a) bearing = RandomDirection(random);
+  std::vector<Vector3d> b = a;
+  ASSERT_TRUE(FitRayHomography(a, b).has_value());
+  b[2] = -b[2];
+  EXPECT_FALSE(FitRayHomography(a, b).has_value());
+}
+
 TEST(FitRayHomography, RefusesFewAndCollinearBearings) {
   const auto world = testing::MakeTwoViewWorld(1, 3);
   EXPECT_FALSE(FitRayHomography(world.bearings_a, world.bearings_b).has_value());
@@ -65,6 +94,8 @@ TEST(FitRayHomography, RefusesFewAndCollinearBearings) {
   for (const double angle : {0.1, 0.7, 1.5, 2.0, 4.0})
     on_a_circle.push_back({std::cos(angle), std::sin(angle), 0.0});
   EXPECT_FALSE(FitRayHomography(on_a_circle, on_a_circle).has_value());
+  const auto four = std::span(on_a_circle).first(4);
+  EXPECT_FALSE(FitRayHomography(four, four).has_value());
 }
 
 }  // namespace
