@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/mapping/borne_out_images.h"
+#include "core/mapping/compare_models.h"
 #include "core/mapping/find_seed_pairs.h"
 #include "core/mapping/initialise_from_pair.h"
 #include "core/mapping/mapping_schedule.h"
@@ -45,7 +46,8 @@ uint32_t CountReachable(const CorrespondenceGraph& graph,
   return static_cast<uint32_t>(images.size());
 }
 
-/// Which images seeds failed in, or small models cover already.
+/// Which images seeds failed in, or small models cover already; or in which one began that grew,
+/// when another is wanted.
 class SpentSeeds {
  public:
   explicit SpentSeeds(uint32_t num_images) : failures_(num_images, 0), covered_(num_images, 0) {}
@@ -61,13 +63,19 @@ class SpentSeeds {
   void NoteModel(const MappingState& state) {
     for (const ImageSlot image : state.Registered()) covered_[image] = 1;
   }
+  /// From now on only where no seed was tried.
+  void WantOthers() {
+    std::ranges::fill(covered_, 0);
+    for (int& failures : failures_) failures = failures > 0 ? kMaxFailuresPerImage : 0;
+  }
 
  private:
   std::vector<int> failures_;
   std::vector<uint8_t> covered_;
 };
 
-/// Grows models from seed pairs and keeps the largest, or the one that `result` holds already.
+/// Grows models from seed pairs and keeps the best, or the one that `result` holds already. Where
+/// pairs contest a large one, other seeds may come to a better one.
 absl::Status GrowFromSeeds(const ClusterProblem& problem,
                            const CorrespondenceGraph& graph,
                            std::span<const uint8_t> available,
@@ -92,19 +100,24 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
       continue;
     }
     ++grown;
-    ResetAttempts(log);
+    RegistrationLog own_log = log;
+    ResetAttempts(own_log);
     ORBWEAVE_ASSIGN_OR_RETURN(const GrowthReport growth,
-                              GrowSubmodel(state, available, options, log, context));
+                              GrowSubmodel(state, available, options, own_log, context));
     result.growth.num_local_adjustments += growth.num_local_adjustments;
     result.growth.num_global_adjustments += growth.num_global_adjustments;
     spent.NoteFailure(pair);
     spent.NoteModel(state);
-    const double worth = BorneOutImages(state);
-    if (!result.state || worth > BorneOutImages(*result.state)) {
+    const bool is_large =
+        BorneOutImages(state) >= kGoodShare * CountReachable(graph, available, pair.a);
+    const bool is_contested = is_large && IsContested(state, options);
+    if (!result.state || IsBetterModel(state, *result.state)) {
       result.state.emplace(std::move(state));
       result.started_globally = false;
+      log = own_log;
     }
-    if (worth >= kGoodShare * CountReachable(graph, available, pair.a)) break;
+    if (is_large && !is_contested) break;
+    if (is_contested) spent.WantOthers();
   }
   return absl::OkStatus();
 }

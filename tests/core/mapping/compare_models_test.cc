@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/compare_models.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/mapping/gnss_walk.h"
+
+namespace orbweave {
+namespace {
+
+/// With the images from `first` on so many metres further along the street, and the points that
+/// remain there.
+MappingState TornAt(const GnssWalk& walk, ImageSlot first, double metres) {
+  const StreetFixture& street = walk.Fixture();
+  MappingState state(street.world.problem, street.graph);
+  for (ImageSlot image = 0; image < GnssWalk::kImages; ++image)
+    state.Register(image, walk.Further(image, image < first ? 0.0 : metres));
+  for (const ImageSlot image : state.Registered()) TriangulateImage(state, image, TrackLimits{});
+  return state;
+}
+
+TEST(IsBetterModel, PrefersTheOneThatHoldsMorePlaces) {
+  const GnssWalk walk;
+  const MappingState right = TornAt(walk, GnssWalk::kImages, 0.0);
+  const MappingState torn = TornAt(walk, 7, 5.0);
+  EXPECT_GT(CountHeldPlaces(right), CountHeldPlaces(torn));
+  EXPECT_TRUE(IsBetterModel(right, torn));
+  EXPECT_FALSE(IsBetterModel(torn, right));
+  EXPECT_FALSE(IsBetterModel(right, right));
+}
+
+TEST(IsBetterModel, PrefersALargerOneOfWhichGnssBearsOutMuchMore) {
+  const GnssWalk walk;
+  const MappingState all = walk.StateWithout(GnssWalk::kImages);
+  MappingState few(walk.Fixture().world.problem, walk.Fixture().graph);
+  for (ImageSlot image = 0; image < 6; ++image) few.Register(image, walk.InModel(image));
+  EXPECT_TRUE(IsBetterModel(all, few));
+  EXPECT_FALSE(IsBetterModel(few, all));
+}
+
+TEST(CountHeldPlaces, CountsWhereFourSee) {
+  const GnssWalk walk;
+  EXPECT_GT(CountHeldPlaces(walk.StateWithout(GnssWalk::kImages)), 14U * 10U);
+  const MappingState without_points(walk.Fixture().world.problem, walk.Fixture().graph);
+  EXPECT_EQ(CountHeldPlaces(without_points), 0U);
+}
+
+TEST(IsContested, OnlyWherePairsDisagree) {
+  const GnssWalk walk;
+  EXPECT_FALSE(IsContested(walk.StateWithout(GnssWalk::kImages), {}));
+  MappingState moved = walk.StateWithout(GnssWalk::kImages);
+  const Rigid3 pose = moved.CamFromWorld(5);
+  const Eigen::Vector3d aside = pose.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, 0.8);
+  moved.SetPose(5, Rigid3::FromCentre(pose.rotation, pose.Centre() + aside));
+  EXPECT_TRUE(IsContested(moved, {}));
+}
+
+}  // namespace
+}  // namespace orbweave
