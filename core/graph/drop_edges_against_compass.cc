@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/graph/azimuth.h"
 
@@ -63,22 +64,23 @@ struct Count {
 
 EdgesByGnss DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
                                     const ImageManifest& manifest) {
+  std::vector<std::optional<Error>> errors;
   std::map<Drives, Count> counts;
   for (const ViewEdge& edge : edges) {
-    const std::optional<Error> error = ErrorOf(edge, manifest);
-    if (!error) continue;
+    errors.push_back(ErrorOf(edge, manifest));
+    if (!errors.back()) continue;
     Count& count = counts[DrivesOf(edge, manifest)];
     ++count.edges;
-    count.agreeing += error->is_too_large ? 0U : 1U;
+    count.agreeing += errors.back()->is_too_large ? 0U : 1U;
   }
   EdgesByGnss result;
-  for (const ViewEdge& edge : edges) {
-    const std::optional<Error> error = ErrorOf(edge, manifest);
-    if (!error || !error->is_too_large || !counts[DrivesOf(edge, manifest)].IsBelieved()) {
-      result.kept.push_back(edge);
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const std::optional<Error>& error = errors[e];
+    if (!error || !error->is_too_large || !counts[DrivesOf(edges[e], manifest)].IsBelieved()) {
+      result.kept.push_back(edges[e]);
       continue;
     }
-    result.dropped.push_back({edge.pair,
+    result.dropped.push_back({edges[e].pair,
                               "it turns by " + std::to_string(std::lround(error->error_deg)) +
                                   " degrees otherwise than the headings of its images",
                               DropCause::kGnss});

@@ -35,8 +35,8 @@ struct EnuPlacement {
 /// `images`: those that displacements join, ascending; nodes of `displacements` are the images of
 /// the cluster, and so are `cams_from_world`, in the frame of the displacements. `least_scatter`:
 /// by how much positions are known to scatter over what they state, 1 at least. nullopt: fewer than
-/// 10 of them have a position, these scatter by more than five times what they state or spread by
-/// less than three sigmas of that scatter, or less than 70 % come to lie within three.
+/// 10 of them have a position, these spread by less than three sigmas of that scatter
+/// (ScatterOfPositions), or less than 70 % come to lie within three.
 [[nodiscard]] absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(
     const ClusterProblem& problem,
     std::span<const ImageSlot> images,

@@ -110,7 +110,8 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
     spent.NoteModel(state);
     const bool is_large =
         BorneOutImages(state) >= kGoodShare * CountReachable(graph, available, pair.a);
-    const bool is_contested = is_large && IsContested(state, options);
+    const bool is_contested =
+        is_large && ScheduleOf(options).relaxes_registration && IsContested(state, options);
     if (!result.state || IsBetterModel(state, *result.state)) {
       result.state.emplace(std::move(state));
       result.started_globally = false;

@@ -12,7 +12,7 @@ struct RegistrationLimits {
   int min_inliers = 20;
   double min_inlier_share = 0.25;   ///< of the features that correspond to a point
   bool heeds_pairs = true;          ///< where strong pairs contradict what P3P finds
-  bool waits_for_gnss = true;       ///< leaves out, for now, what GNSS steps contradict
+  bool waits_for_gnss = true;       ///< what GNSS steps contradict is not registered
   bool propose_from_pairs = false;  ///< try EstimatePoseFromPairs where P3P finds nothing
 };
 
