@@ -44,18 +44,20 @@ struct MatchRecipe {
   std::vector<Pair> pairs{};          ///< sorted
 };
 
-/// Where GNSS has an image, in the job's local frame.
+/// Where GNSS and its drive have an image (PositionsByMotion), in the job's local frame.
 struct PositionFix {
   ImageId image{};
   Eigen::Vector3d position_in_enu = Eigen::Vector3d::Zero();
   double horizontal_sigma_m = 1.0;
   double vertical_sigma_m = 1.0;
+  bool is_of_drive = false;  ///< not of one measurement alone
   friend bool operator==(const PositionFix&, const PositionFix&) = default;
 };
 
 struct ClusterRecipe {
   uint32_t cluster = 0;
   std::vector<FeatureFile> images{};  ///< sorted
+  std::vector<uint32_t> drives{};     ///< of each of the images
   std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
   std::vector<ImageId> shared{};      ///< images that other clusters have too, sorted
   std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others

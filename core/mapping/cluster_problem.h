@@ -22,6 +22,7 @@ struct ClusterImage {
   std::vector<float> sigma_rad{};           ///< per feature
   std::vector<Rgb> colors{};                ///< per feature
   PosePrior prior{};
+  bool is_position_of_drive = false;  ///< PositionFix::is_of_drive
   uint32_t drive = 0;
 };
 

@@ -22,14 +22,24 @@ struct GnssVerdict {
 };
 
 /// GNSS is asked where points are not at one: where fewer than three quarters of the image's
-/// visible points agree with the pose, and these in fewer than 20 places of it (cells of
-/// SphereSpread) or in fewer than half of those that hold points. One position alone proves little,
-/// as some are always wrong by tens of metres. But where less than a third of the points agree, or
-/// GNSS contradicts an image around as well, a whole piece of the street would go wrong.
+/// visible points agree with the pose, or those that do in fewer than 4 places of it (cells of
+/// SphereSpread); unless these are 20 places, and half of those that hold points. One position
+/// alone proves little, as some are always wrong by tens of metres. But where less than a third of
+/// the points agree, or GNSS contradicts an image around as well, a whole piece of the street would
+/// go wrong; and a position that others of its drive bear out is not wrong by six sigmas.
 [[nodiscard]] GnssVerdict JudgeByGnss(const MappingState& state,
                                       ImageSlot image,
                                       const Rigid3& found,
                                       const SceneCorrespondences& correspondences,
                                       double max_error_rad);
+
+/// Whether the image stands where points are not at one (as above) and its position, which others
+/// of its drive bear out, is six sigmas away. However it came to stand there: pairs tell
+/// directions, and far points anything.
+[[nodiscard]] bool IsGrosslyContradicted(const MappingState& state,
+                                         ImageSlot image,
+                                         const Rigid3& found,
+                                         const SceneCorrespondences& correspondences,
+                                         double max_error_rad);
 
 }  // namespace orbweave

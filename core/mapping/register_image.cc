@@ -46,6 +46,15 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
   RegistrationAttempt attempt{.num_visible = state.Visible(image).Count()};
   const uint32_t needed = NeededInliers(limits, attempt.num_visible);
 
+  const auto place = [&](const Rigid3& cam_from_world) {
+    if (limits.heeds_pairs &&
+        IsGrosslyContradicted(state, image, cam_from_world, correspondences, max_error_rad)) {
+      attempt.waits = true;
+      return false;
+    }
+    state.Register(image, cam_from_world);
+    return true;
+  };
   const auto accept = [&](const Rigid3& cam_from_world, uint32_t fewest) {
     const PoseSupport support = SupportOf(cam_from_world, correspondences, max_error_rad);
     attempt.num_inliers = std::max(attempt.num_inliers, support.count);
@@ -54,8 +63,7 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
         !IsLengthTold(cam_from_world, correspondences, views, max_error_rad)) {
       return false;  // so few points may all be far
     }
-    state.Register(image, cam_from_world);
-    return true;
+    return place(cam_from_world);
   };
 
   ORBWEAVE_ASSIGN_OR_RETURN(std::optional<AbsolutePose> pose,
@@ -97,10 +105,8 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     // What contradicts the points must itself know how long the step is: far points never do.
     attempt.registered =
         (is_held || !pairs_know_better) && accept(proposed->cam_from_world, needed);
-    if (!attempt.registered && limits.propose_from_pairs && is_held) {
-      state.Register(image, proposed->cam_from_world);
-      attempt.registered = true;
-    }
+    if (!attempt.registered && limits.propose_from_pairs && is_held)
+      attempt.registered = place(proposed->cam_from_world);
   }
   return attempt;
 }

@@ -43,14 +43,20 @@ struct StepSample {
   double length = 0.0;  ///< in the model
   double length_m = 0.0;
   double sigma_m = 0.0;
+  bool is_within_drive = false;
 };
+
+bool AreOfOneDrive(const MappingState& state, ImageSlot a, ImageSlot b) {
+  return state.Problem().images[a].drive == state.Problem().images[b].drive;
+}
 
 StepSample SampleOf(const MappingState& state, ImageSlot a, ImageSlot b) {
   const GnssStep step = StepBetween(state.Problem(), a, b);
   const double length_m = std::exp(step.log_length);
   return {.length = (state.Centre(b) - state.Centre(a)).norm(),
           .length_m = length_m,
-          .sigma_m = step.sigma * length_m};
+          .sigma_m = step.sigma * length_m,
+          .is_within_drive = AreOfOneDrive(state, a, b)};
 }
 
 std::vector<StepSample> StepsAmong(const MappingState& state,
@@ -77,14 +83,21 @@ double MetresPerUnit(const std::vector<StepSample>& samples) {
   return std::exp(0.5 * (half.low + half.high));
 }
 
-/// How many times their stated sigmas steps are off, by the best of them.
-double FactorOf(const std::vector<StepSample>& samples, double metres_per_unit) {
+/// How many times their stated sigmas steps within drives are off, or those between two of them, by
+/// the best of them.
+double FactorOf(const std::vector<StepSample>& samples,
+                bool is_within_drive,
+                double metres_per_unit) {
   constexpr double kShare = 0.25;
   constexpr double kQuantileOfNormal = 0.3186;  // a quarter of normal errors are smaller
   std::vector<double> errors;
-  for (const StepSample& sample : samples)
+  for (const StepSample& sample : samples) {
+    if (sample.is_within_drive != is_within_drive) continue;
     errors.push_back(std::abs(metres_per_unit * sample.length - sample.length_m) / sample.sigma_m);
-  return Quantile(std::move(errors), kShare) / kQuantileOfNormal;
+  }
+  const bool are_few = errors.size() < kFewPairs;
+  const double measured = Quantile(std::move(errors), kShare) / kQuantileOfNormal;
+  return are_few ? std::max(measured, kFactorOfFew) : measured;
 }
 
 }  // namespace
@@ -95,12 +108,13 @@ StepWitness::StepWitness(const MappingState& state, ImageSlot image) {
   const std::vector<StepSample> samples = StepsAmong(state, around);
   if (samples.empty()) return;
   metres_per_unit_ = MetresPerUnit(samples);
-  const double measured = FactorOf(samples, metres_per_unit_);
-  const double factor = samples.size() < kFewPairs ? std::max(measured, kFactorOfFew) : measured;
+  const double factor_within = FactorOf(samples, true, metres_per_unit_);
+  const double factor_between = FactorOf(samples, false, metres_per_unit_);
   for (const ImageSlot other : around) {
     const GnssStep step = StepBetween(state.Problem(), image, other);
     if (!std::isfinite(step.sigma)) continue;
     const double length_m = std::exp(step.log_length);
+    const double factor = AreOfOneDrive(state, image, other) ? factor_within : factor_between;
     steps_.push_back({.image = other,
                       .from = state.Centre(other),
                       .length_m = length_m,

@@ -14,8 +14,9 @@ namespace orbweave {
 /// images that pairs lead to first, the median of |G_b - G_a| / |C_b - C_a|, with positions G and
 /// centres C; and how much these distances differ otherwise tells how far the stated sigmas of
 /// steps are to be believed (FactorOfSteps has the same idea: errors that neighbours share cancel
-/// in steps). So neither which way the model is turned matters, nor that it drifts elsewhere, nor
-/// that some of its steps are wrong.
+/// in steps), those within a drive and those from one to another each for themselves, as drives
+/// share nothing. So neither which way the model is turned matters, nor that it drifts elsewhere,
+/// nor that some of its steps are wrong.
 class StepWitness {
  public:
   /// Of `image`, registered or not.

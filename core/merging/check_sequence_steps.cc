@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -40,18 +41,6 @@ struct Triple {
   Eigen::Vector3d bend = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> gnss_bend{};
 };
-
-std::map<uint32_t, std::vector<ImageId>> OrderedDrives(const ImageManifest& manifest) {
-  std::map<uint32_t, std::vector<ImageId>> drives;
-  for (const ImageRecord& image : manifest.images) drives[image.drive].push_back(image.id);
-  for (auto& [drive, ids] : drives) {
-    const bool has_times = std::ranges::all_of(
-        ids, [&](ImageId id) { return manifest.At(id).capture_time_s.has_value(); });
-    if (!has_times) continue;
-    std::ranges::stable_sort(ids, {}, [&](ImageId id) { return *manifest.At(id).capture_time_s; });
-  }
-  return drives;
-}
 
 std::vector<Stop> StopsOf(const std::vector<ImageId>& drive,
                           const std::map<ImageId, RegisteredImage>& images,
@@ -141,7 +130,7 @@ CrossCheck CheckSequenceSteps(const std::map<ImageId, RegisteredImage>& images,
   const char* unit = georeferenced ? "m" : "step";
   CrossCheck check{.name = "sequence_steps", .unit = unit};
   std::vector<Triple> triples;
-  for (const auto& [drive, ids] : OrderedDrives(manifest))
+  for (const auto& [drive, ids] : SequenceOfDrives(manifest))
     AddTriples(StopsOf(ids, images, manifest, georeferenced), triples);
   if (triples.empty()) {
     check.sentence = "no three panoramas of a drive follow one another";

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/merging/assess_world.h"
+#include "core/merging/check_drive_motion.h"
 #include "core/merging/check_gnss.h"
 #include "core/merging/check_sequence_steps.h"
 #include "core/merging/choose_local_frame.h"
@@ -169,8 +170,10 @@ FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
     seam.position_noise_m *= world.model_from_world.scale;
   }
   world.images = std::move(poses.images);
-  world.report.checks.push_back(
-      CheckSequenceSteps(ModelImages(world), manifest, georeference.enu_from_world.has_value()));
+  const bool is_in_metres = georeference.enu_from_world.has_value();
+  const std::map<ImageId, RegisteredImage> images = ModelImages(world);
+  world.report.checks.push_back(CheckSequenceSteps(images, manifest, is_in_metres));
+  if (is_in_metres) world.report.checks.push_back(CheckDriveMotion(images, manifest));
   return world;
 }
 

@@ -45,13 +45,16 @@ using FixValues = Eigen::Matrix<double, 5, 1>;
 void FixesToProto(const std::vector<PositionFix>& fixes, v1::ClusterRecipe& proto) {
   std::vector<ImageId> images;
   std::vector<FixValues> values;
+  std::vector<uint8_t> of_drive;
   for (const PositionFix& fix : fixes) {
     images.push_back(fix.image);
+    of_drive.push_back(fix.is_of_drive ? 1 : 0);
     values.emplace_back();
     values.back() << fix.position_in_enu, fix.horizontal_sigma_m, fix.vertical_sigma_m;
   }
   proto.set_fix_images(codec::Pack(images));
   proto.set_fixes(codec::PackMatrices(values));
+  proto.set_fixes_of_drive(codec::Pack(of_drive));
 }
 
 absl::StatusOr<std::vector<PositionFix>> FixesFromProto(const v1::ClusterRecipe& proto,
@@ -61,13 +64,18 @@ absl::StatusOr<std::vector<PositionFix>> FixesFromProto(const v1::ClusterRecipe&
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto values,
       codec::UnpackMatrices<FixValues>(proto.fixes(), images.size(), "positions"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto of_drive,
+      codec::Unpack<uint8_t>(proto.fixes_of_drive(), "positions borne out by their drive"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      of_drive.size() == images.size(), "cluster recipe", "not a word on each position"));
   std::vector<PositionFix> fixes;
   for (size_t i = 0; i < images.size(); ++i) {
     const FixValues& value = values[i];
     if (!codec::IsPlace(value.head<3>()) || !codec::IsSigma(value[3]) ||
         !codec::IsSigma(value[4]) || !Lists(files, images[i]))
       return absl::DataLossError("cluster recipe: a position that is none, or of no image");
-    fixes.push_back({images[i], value.head<3>(), value[3], value[4]});
+    fixes.push_back({images[i], value.head<3>(), value[3], value[4], of_drive[i] != 0});
   }
   ORBWEAVE_RETURN_IF_ERROR(
       codec::Expect(codec::Ascends(images), "cluster recipe", "positions are not in order"));
@@ -125,6 +133,7 @@ absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
 absl::StatusOr<std::string> EncodeClusterRecipe(const ClusterRecipe& recipe) {
   v1::ClusterRecipe proto;
   FilesToProto(recipe.images, proto.mutable_images());
+  proto.set_drives(codec::Pack(recipe.drives));
   proto.set_pairs(codec::Pack(recipe.pairs));
   for (const Digest& blob : recipe.matches) proto.add_matches(codec::PackDigest(blob));
   proto.set_cluster(recipe.cluster);
@@ -138,6 +147,10 @@ absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
                             codec::Parse<v1::ClusterRecipe>(bytes, "cluster recipe"));
   ClusterRecipe recipe{.cluster = proto.cluster()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.drives, codec::Unpack<uint32_t>(proto.drives(), "drives"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(recipe.drives.size() == recipe.images.size(),
+                                         "cluster recipe",
+                                         "not one drive for each image"));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.pairs, codec::Unpack<ImagePair>(proto.pairs(), "pairs"));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.shared, codec::Unpack<ImageId>(proto.shared(), "shared images"));
   const auto lists_pair = [&](const ImagePair& pair) { return ListsPair(recipe.images, pair); };

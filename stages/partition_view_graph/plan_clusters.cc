@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/graph/positions_by_motion.h"
 #include "core/graph/shared_images.h"
 
 namespace orbweave {
@@ -16,14 +17,19 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
                                         const std::map<ImagePair, Digest>& blob_of_pair) {
   std::vector<std::vector<uint32_t>> clusters_of_image(graph.num_images);
   std::vector<ClusterRecipe> recipes(partition.clusters.size());
+  const std::vector<PositionByMotion> positions = PositionsByMotion(manifest);
   for (uint32_t c = 0; c < recipes.size(); ++c) {
     recipes[c].cluster = c;
     for (const ImageId id : partition.clusters[c].images) {
       recipes[c].images.push_back({id, features[id.value]});
-      const PosePrior& prior = manifest.At(id).prior;
+      recipes[c].drives.push_back(manifest.At(id).drive);
+      const PosePrior& prior = positions[id.value].prior;
       if (prior.position_in_enu) {
-        recipes[c].fixes.push_back(
-            {id, *prior.position_in_enu, prior.horizontal_sigma_m, prior.vertical_sigma_m});
+        recipes[c].fixes.push_back({.image = id,
+                                    .position_in_enu = *prior.position_in_enu,
+                                    .horizontal_sigma_m = prior.horizontal_sigma_m,
+                                    .vertical_sigma_m = prior.vertical_sigma_m,
+                                    .is_of_drive = positions[id.value].is_of_drive});
       }
       clusters_of_image[id.value].push_back(c);
     }

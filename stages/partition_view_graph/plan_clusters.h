@@ -11,8 +11,8 @@
 
 namespace orbweave {
 
-/// One recipe per cluster: its images with their GNSS positions, the edges of `graph` among them,
-/// and the blobs these are in.
+/// One recipe per cluster: its images with their drives and where these had them
+/// (PositionsByMotion), the edges of `graph` among them, and the blobs these are in.
 [[nodiscard]] std::vector<ClusterRecipe> PlanClusters(
     const Partition& partition,
     const ViewGraph& graph,

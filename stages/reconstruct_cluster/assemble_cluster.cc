@@ -36,6 +36,7 @@ void TakeFixes(const ClusterRecipe& recipe, ClusterProblem& problem) {
     image->prior.position_in_enu = fix.position_in_enu;
     image->prior.horizontal_sigma_m = fix.horizontal_sigma_m;
     image->prior.vertical_sigma_m = fix.vertical_sigma_m;
+    image->is_position_of_drive = fix.is_of_drive;
   }
 }
 

@@ -16,9 +16,11 @@ namespace {
 absl::StatusOr<ClusterProblem> FetchProblem(const ClusterRecipe& recipe,
                                             StageTask<ReconstructClusterStage>& task) {
   ClusterProblem problem;
-  for (const FeatureFile& file : recipe.images) {
+  for (size_t i = 0; i < recipe.images.size(); ++i) {
+    const FeatureFile& file = recipe.images[i];
     ORBWEAVE_ASSIGN_OR_RETURN(const Features features, task.Fetch<Features>(file.features));
     problem.images.push_back(ToClusterImage(file.image, features));
+    problem.images.back().drive = recipe.drives[i];
   }
   for (const Digest& digest : recipe.matches) {
     ORBWEAVE_ASSIGN_OR_RETURN(auto geometries, task.Fetch<std::vector<TwoViewGeometry>>(digest));

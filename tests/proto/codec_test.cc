@@ -184,15 +184,17 @@ TEST(RecipesCodec, RoundTrip) {
 
   const ClusterRecipe cluster{.cluster = 3,
                               .images = match.images,
+                              .drives = {0, 7},
                               .pairs = {{ImageId(1), ImageId(4)}},
                               .matches = {digest},
-                              .fixes = {{ImageId(4), {1.5, -2.0, 0.25}, 3.0, 6.0}}};
+                              .fixes = {{ImageId(4), {1.5, -2.0, 0.25}, 3.0, 6.0, true}}};
   const auto cluster_out = DecodeClusterRecipe(EncodeClusterRecipe(cluster).value());
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 3U);
   EXPECT_EQ(cluster_out->pairs, cluster.pairs);
   EXPECT_EQ(cluster_out->matches, cluster.matches);
   EXPECT_EQ(cluster_out->fixes, cluster.fixes);
+  EXPECT_EQ(cluster_out->drives, cluster.drives);
 
   const ExtractRecipe extract{.image = digest, .mask = {}, .mask_ignores_white = false};
   const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract).value());
@@ -204,11 +206,19 @@ TEST(RecipesCodec, RoundTrip) {
 
 TEST(RecipesCodec, RefusesAPositionThatIsNoneOrOfNoImage) {
   ClusterRecipe cluster{.images = {{ImageId(1), DigestOf("a")}},
+                        .drives = {0},
                         .fixes = {{ImageId(1), {1.0, 2.0, 3.0}, 3.0, 6.0}}};
   ASSERT_TRUE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
   cluster.fixes[0].horizontal_sigma_m = 0.0;
   EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
   cluster.fixes[0] = {ImageId(2), {1.0, 2.0, 3.0}, 3.0, 6.0};
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
+}
+
+TEST(RecipesCodec, RefusesOtherThanOneDriveForEachImage) {
+  ClusterRecipe cluster{.images = {{ImageId(1), DigestOf("a")}}};
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
+  cluster.drives = {2, 2};
   EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
 }
 

@@ -42,7 +42,7 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
       .clusters = {{.images = {ImageId(0), ImageId(1), ImageId(2)}, .interior = {}},
                    {.images = {ImageId(2), ImageId(3), ImageId(4)}, .interior = {}}}};
   ImageManifest manifest;
-  for (uint32_t i = 0; i < 5; ++i) manifest.images.push_back({.id = ImageId(i)});
+  for (uint32_t i = 0; i < 5; ++i) manifest.images.push_back({.id = ImageId(i), .drive = i / 3});
   manifest.images[2].prior.position_in_enu = Eigen::Vector3d(1.0, 2.0, 3.0);
   const auto recipes = PlanClusters(partition, graph, manifest, SomeDigests(5), blob_of_pair);
   ASSERT_EQ(recipes.size(), 2U);
@@ -52,6 +52,7 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
   EXPECT_EQ(recipes[1].matches, std::vector<Digest>{DigestOf("second")});
   ASSERT_EQ(recipes[1].fixes.size(), 1U);
   EXPECT_EQ(recipes[1].fixes[0].image, ImageId(2));
+  EXPECT_EQ(recipes[1].drives, (std::vector<uint32_t>{0, 1, 1}));
 }
 
 TileRuns PointsIn(const std::string& panorama, std::vector<std::pair<TileCell, uint64_t>> counts) {
