@@ -87,6 +87,7 @@ void AddRecipes(Seeds& seeds) {
           .value()};
   seeds["cluster_recipe"] = {EncodeClusterRecipe({.cluster = 3,
                                                   .images = images,
+                                                  .drives = {0, 7},
                                                   .pairs = {{ImageId(1), ImageId(4)}},
                                                   .shared = {ImageId(4)},
                                                   .matches = {digest}})

@@ -439,6 +439,7 @@ TEST(PartitionCodec, RefusesWhatIsNotBetweenItsClusters) {
 TEST(RecipesCodec, RefuseImagesOutOfOrderAndPairsOfOthers) {
   const Digest digest = DigestOf("features");
   const ClusterRecipe recipe{.images = {{ImageId(1), digest}, {ImageId(4), digest}},
+                             .drives = {0, 0},
                              .pairs = {{ImageId(1), ImageId(4)}},
                              .shared = {ImageId(4)}};
   const auto is_taken = [](const ClusterRecipe& in) {
