@@ -90,6 +90,11 @@ class TrackSmoother {
     const double apart_m = weights_[i] > kRejected ? apart_m_[i] : 0.0;
     return std::hypot(std::max(smoothed_m, apart_m), SigmaByTime(i));
   }
+  /// Whether the others alone tell the place about as well as a measurement is said to.
+  [[nodiscard]] bool IsToldByOthers(Eigen::Index i) const {
+    const double measured_m = std::max(scale_, 1.0) * typical_sigma_m_;
+    return std::sqrt(variance_by_others_[i]) <= kAboutAsWell * measured_m;
+  }
 
  private:
   [[nodiscard]] double SigmaByTime(Eigen::Index i) const {
@@ -109,14 +114,15 @@ class TrackSmoother {
   /// R' / (R' - P) times as far from the measurement.
   void Reweight() {
     const Eigen::VectorXd variances = Variances();
+    variance_by_others_ = smoothed_.variances;
     errors_.clear();
     for (Eigen::Index i = 0; i < variances.size(); ++i) {
       if (!std::isfinite(variances[i])) continue;
       const double given = variances[i] / weights_[i];
       const double ratio = given / std::max(given - smoothed_.variances[i], 1e-6 * given);
       apart_m_[i] = (track_.values.row(i) - smoothed_.positions.row(i)).norm();
-      const double error =
-          ratio * apart_m_[i] / std::sqrt(variances[i] + ratio * smoothed_.variances[i]);
+      variance_by_others_[i] *= ratio;
+      const double error = ratio * apart_m_[i] / std::sqrt(variances[i] + variance_by_others_[i]);
       const double square = error * error / (kRejecting * kRejecting);
       weights_[i] = 1.0 / ((1.0 + square) * (1.0 + square));
       errors_.push_back(error);
@@ -129,6 +135,7 @@ class TrackSmoother {
   /// must not pull that along.
   static constexpr double kRejecting = 3.0;
   static constexpr double kRejected = 0.05;
+  static constexpr double kAboutAsWell = 3.0;
   const Track& track_;
   double density_;
   double typical_sigma_m_;
@@ -137,6 +144,7 @@ class TrackSmoother {
   Eigen::VectorXd weights_;
   Eigen::VectorXd speed_m_s_;
   Eigen::VectorXd apart_m_;
+  Eigen::VectorXd variance_by_others_{};
   std::vector<double> errors_{};
 };
 
@@ -188,7 +196,7 @@ void SmoothDrive(const ImageManifest& manifest,
   for (size_t k = 0; k < sequence.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     if (in_plan.Sigma_m(i) > kMaxSigma_m) continue;
-    positions[sequence[k].value].is_of_drive = true;
+    positions[sequence[k].value].is_of_drive = in_plan.IsToldByOthers(i);
     PosePrior& prior = positions[sequence[k].value].prior;
     prior.position_in_enu.emplace();
     *prior.position_in_enu << in_plan.Position(i), in_height.Position(i);

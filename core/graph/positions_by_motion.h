@@ -10,7 +10,7 @@ namespace orbweave {
 
 struct PositionByMotion {
   PosePrior prior{};
-  bool is_of_drive = false;  ///< not of one measurement alone: the drive's others bear it out
+  bool is_of_drive = false;  ///< not of one measurement alone: the drive's others tell it too
 };
 
 /// What is known of every image's position when one remembers that a carrier cannot jump: per

@@ -59,6 +59,7 @@ TEST(PositionsByMotion, APositionThatJumpsIsTakenForWhereTheDriveWas) {
   for (const uint32_t image : {7U, 8U, 22U}) {
     EXPECT_LT(street.Error(positions, image), 4.0) << image;
     EXPECT_LT(positions[image].prior.horizontal_sigma_m, 5.0) << image;
+    EXPECT_TRUE(positions[image].is_of_drive) << image;
   }
   EXPECT_LT(street.Error(positions, 10), 1.5);
 }
@@ -91,6 +92,19 @@ TEST(PositionsByMotion, LeavesWhatItCannotJudge) {
     image.capture_time_s = random.Uniform(0.0, 60.0);
   EXPECT_TRUE(out_of_order.IsUnchangedBy(PositionsByMotion(out_of_order.manifest)));
   EXPECT_TRUE(PositionsByMotion({}).empty());
+}
+
+TEST(PositionsByMotion, LongPausesTellNothingOfTheOthers) {
+  Street street(0.5);
+  for (ImageRecord& image : street.manifest.images) image.capture_time_s = 60.0 * image.id.value;
+  const std::vector<PositionByMotion> positions = PositionsByMotion(street.manifest);
+  for (uint32_t i = 0; i < 30; ++i) {
+    EXPECT_FALSE(positions[i].is_of_drive) << i;
+    EXPECT_LT(
+        (*positions[i].prior.position_in_enu - *street.manifest.images[i].prior.position_in_enu)
+            .norm(),
+        0.1);
+  }
 }
 
 /// Law: drives do not know of each other.
