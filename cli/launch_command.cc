@@ -16,6 +16,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "cli/exit_code.h"
 #include "cli/run_command.h"
 #include "cli/slurm_scripts.h"
@@ -32,6 +33,7 @@ namespace fs = std::filesystem;
 
 struct LaunchArguments {
   SlurmLaunch launch{};
+  std::string nodes = "1";
   bool print = false;
   bool wait = false;
 };
@@ -67,6 +69,20 @@ absl::Status CheckRunArguments(const SlurmLaunch& launch) {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
     return absl::InvalidArgumentError(error.what());
+  }
+  return absl::OkStatus();
+}
+
+/// "N" or "MIN:MAX".
+absl::Status ReadNodes(const std::string& nodes, SlurmLaunch& launch) {
+  constexpr uint32_t kMost = 10'000;
+  const std::vector<std::string> bounds = absl::StrSplit(nodes, ':');
+  const bool are_numbers = absl::SimpleAtoi(bounds.front(), &launch.min_nodes) &&
+                           absl::SimpleAtoi(bounds.back(), &launch.max_nodes);
+  if (!are_numbers || bounds.size() > 2 || launch.min_nodes < 1 ||
+      launch.max_nodes < launch.min_nodes || launch.max_nodes > kMost) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "--nodes ", nodes, ": give a number from 1 to ", kMost, ", or two as in 2:16"));
   }
   return absl::OkStatus();
 }
@@ -117,7 +133,8 @@ absl::Status MakeAbsolute(SlurmLaunch& launch) {
 
 int Launch(LaunchArguments arguments) {
   SlurmLaunch& launch = arguments.launch;
-  absl::Status status = MakeAbsolute(launch);
+  absl::Status status = ReadNodes(arguments.nodes, launch);
+  if (status.ok()) status = MakeAbsolute(launch);
   if (status.ok()) status = CheckRunArguments(launch);
   if (status.ok() && arguments.print) {
     std::printf("# %s/coordinator.sbatch\n%s\n# %s/workers.sbatch\n%s",
@@ -142,9 +159,10 @@ CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arg
                    arguments->launch.output,
                    "Folder of the results, on storage that all nodes see")
       ->required();
-  slurm->add_option("--nodes", arguments->launch.nodes, "Workers, one allocation each")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
+  slurm->add_option(
+      "--nodes",
+      arguments->nodes,
+      "Workers, one allocation each; or MIN:MAX: as many as there is work for (default: 1)");
   slurm->add_option("--cpus", arguments->launch.cpus, "CPUs of a worker: its tasks at a time")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -178,6 +196,7 @@ void AddLaunchCommand(CLI::App& app, SelectedCommand& selected) {
       "  orbweave launch slurm street/images --gnss street/gnss.csv --dense --output model --nodes "
       "4 "
       "--sbatch=--account=city --wait\n"
+      "  orbweave launch slurm street/images --output model --nodes 2:16 --cpus 8\n"
       "  orbweave launch slurm street/images --output model --print\n"
       "All other options are those of orbweave run. The same command goes on where a job was.");
   slurm->callback([arguments, slurm, &selected] {

@@ -87,28 +87,56 @@ std::string CoordinatorScript(const SlurmLaunch& launch) {
       ShellWord(launch.Folder()),
       "\nname=",
       ShellWord(launch.WorkersName()),
-      "\nworkers=",
-      launch.nodes,
+      "\nfewest=",
+      launch.min_nodes,
+      "\nmost=",
+      launch.max_nodes,
+      "\ncpus=",
+      launch.cpus,
+      "\nprogram=",
+      ShellWord(launch.program),
       R"sh(
 
 rm -f "$launch/refused"
 
+# How many workers there should be: as there is work for, within bounds.
+target() {
+  local slots nodes=$fewest
+  if [ $most -gt $fewest ] && slots=$("$program" status --coordinator "@$launch/coordinator.json" \
+    --tls "$launch/keys/client" --wanted 2>/dev/null); then
+    nodes=$(((slots + cpus - 1) / cpus))
+  fi
+  [ $nodes -ge $fewest ] || nodes=$fewest
+  [ $nodes -le $most ] || nodes=$most
+  echo $nodes
+}
+
+# submit COUNT [OPTION...]
+submit() {
+  local count=$1
+  shift
+  [ $count -le 0 ] || sbatch --parsable "$@" --array=1-$count "$launch/workers.sbatch"
+}
+
 # Workers that are missing in the queue: all at first, later those whose node was lost or who gave up.
+# submit_missing COUNT: so many there should be.
 submit_missing() {
   local known
   known=$(squeue --noheader --array --me --name="$name") || return 0
-  if [ "$(cat "$launch/refused" 2>/dev/null | wc -l)" -ge $((3 * workers)) ]; then
+  if [ "$(cat "$launch/refused" 2>/dev/null | wc -l)" -ge $((3 * most)) ]; then
     echo "workers end as soon as they are started: see $launch/worker-*.log" >&2
     kill -INT $child
     return 1
   fi
-  local missing=$((workers - $(grep -c . <<<"$known")))
-  [ $missing -le 0 ] || sbatch --parsable --array=1-$missing "$launch/workers.sbatch"
+  known=$(grep -c . <<<"$known")
+  local stay=$((fewest - known))
+  [ $stay -gt 0 ] || stay=0
+  submit $stay
+  submit $(($1 - known - stay)) --export=ALL,ORBWEAVE_IDLE_EXIT=120
 }
 
-submit_missing
-)sh",
-      ShellWord(launch.program),
+submit_missing $fewest
+"$program")sh",
       " run",
       arguments,
       " --output ",
@@ -119,7 +147,7 @@ submit_missing
       launch.journal_folder.empty() ? "\"${TMPDIR:-/tmp}\"" : ShellWord(launch.journal_folder),
       R"sh( &
 child=$!
-while sleep 60; do submit_missing || break; done &
+while sleep 60; do submit_missing "$(target)" || break; done &
 keeper=$!
 )sh",
       WaitOrRequeue(),
@@ -152,6 +180,7 @@ memory=${SLURM_MEM_PER_NODE:-$((${SLURM_MEM_PER_CPU:-0} * ${SLURM_CPUS_PER_TASK:
       ShellWord(launch.output + "/.orbweave/blobs"),
       R"sh( \
   --slots "${SLURM_CPUS_PER_TASK:-1}" ${until:+--until "$until"} \
+  ${ORBWEAVE_IDLE_EXIT:+--idle-exit "$ORBWEAVE_IDLE_EXIT"} \
   ${memory:+--memory "${memory}MiB"} &
 child=$!
 )sh",

@@ -15,7 +15,8 @@ struct SlurmLaunch {
   std::string work_folder{};                 ///< what relative paths in run_arguments begin in
   std::string output{};                      ///< of `orbweave run`
   std::vector<std::string> run_arguments{};  ///< of `orbweave run`, but for those of its fleet
-  uint32_t nodes = 1;                        ///< workers
+  uint32_t min_nodes = 1;                    ///< workers there are always
+  uint32_t max_nodes = 1;                    ///< workers there are while there is work for so many
   uint32_t cpus = 1;                         ///< of a worker, and so its tasks at a time
   std::string time{};                 ///< of an allocation, as sbatch takes it; empty: the site's
   std::vector<std::string> sbatch{};  ///< further options of sbatch
@@ -29,7 +30,10 @@ struct SlurmLaunch {
 };
 
 /// The batch script of the coordinator: it submits the workers, runs the job, and requeues itself
-/// when its time is up before the job is done. Its exit code is that of `orbweave run`.
+/// when its time is up before the job is done. Its exit code is that of `orbweave run`. Once a
+/// minute it submits workers that are missing: of `min_nodes`, or of as many as there is work for
+/// (`orbweave status --wanted`), `max_nodes` at most. It takes none away: those beyond `min_nodes`
+/// leave when they have had nothing to do for two minutes.
 [[nodiscard]] std::string CoordinatorScript(const SlurmLaunch& launch);
 
 /// That of the workers, an array of jobs that begin whenever there is room for one, are requeued

@@ -25,6 +25,7 @@ struct StatusOptions {
   std::string job{};
   bool json = false;
   bool watch = false;
+  bool wanted = false;
 };
 
 absl::StatusOr<std::vector<JobStatus>> WantedJobs(JobApi& coordinator, const std::string& prefix) {
@@ -77,6 +78,10 @@ absl::Status ShowStatus(const StatusOptions& options) {
       Connect(options.coordinator, {.patience_s = patience_s, .stop = signals.token()}));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs,
                             WantedJobs(*coordinator, options.job));
+  if (options.wanted) {
+    std::printf("%llu\n", static_cast<unsigned long long>(CountOpenTasks(jobs)));
+    return absl::OkStatus();
+  }
   if (options.watch && !jobs.empty()) return Watch(*coordinator, jobs.back(), signals.token());
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerStatus> workers, coordinator->ListWorkers());
   Print(jobs, workers, options.json);
@@ -92,13 +97,21 @@ void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
   command->add_option("job", options->job, "First digits of a job's id (default: all jobs)");
   CLI::Option* json = command->add_flag(
       "--json", options->json, "One JSON object per job and line, then one with the workers");
-  command->add_flag("--watch", options->watch, "Follow the job, or the last one, to its end")
-      ->excludes(json);
+  CLI::Option* watch =
+      command->add_flag("--watch", options->watch, "Follow the job, or the last one, to its end")
+          ->excludes(json);
+  command
+      ->add_flag("--wanted",
+                 options->wanted,
+                 "Only a number: the slots there is work for now, for who starts workers")
+      ->excludes(json)
+      ->excludes(watch);
   command->footer(
       "Examples:\n"
       "  orbweave status --coordinator 127.0.0.1:7000\n"
       "  orbweave status --coordinator 127.0.0.1:7000 --watch\n"
-      "  orbweave status --coordinator 127.0.0.1:7000 3f2a --json");
+      "  orbweave status --coordinator 127.0.0.1:7000 3f2a --json\n"
+      "  orbweave status --coordinator @model/coordinator.json --wanted");
   command->callback([options, &selected] {
     selected.run = [options] { return ReportStatus(ShowStatus(*options)); };
   });

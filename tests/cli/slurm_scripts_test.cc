@@ -74,7 +74,8 @@ class SlurmScripts : public ::testing::Test {
                       .work_folder = folder_.Path(),
                       .output = folder_ / "it's a model",
                       .run_arguments = {"my images", "--set", "a=$b"},
-                      .nodes = 3,
+                      .min_nodes = 3,
+                      .max_nodes = 3,
                       .cpus = 2,
                       .time = "0:10:00",
                       .sbatch = {"--account=city"}};
@@ -98,6 +99,43 @@ TEST_F(SlurmScripts, TheCoordinatorSubmitsOnlyWorkersThatAreMissing) {
   Write("queue", "12_1\n12_3\n");
   EXPECT_EQ(testing::RunCommand(Batch(CoordinatorScript(launch_))).exit_code, kExitOk);
   EXPECT_THAT(Calls(), HasSubstr("sbatch --parsable --array=1-1 "));
+}
+
+TEST_F(SlurmScripts, AsManyWorkersAsThereIsWorkForWithinBounds) {
+  launch_.max_nodes = 8;
+  Write("queue", "12_1\n12_2\n12_3\n");
+  for (const auto& [slots, more] : {std::pair("9", 2), {"100", 5}, {"6", 0}, {"0", 0}}) {
+    Write("calls", "");
+    Program("orbweave",
+            std::string("case $1 in status) echo ") + slots + " ;; *) /bin/sleep 0.7 ;; esac");
+    EXPECT_EQ(testing::RunCommand(Batch(CoordinatorScript(launch_))).exit_code, kExitOk);
+    EXPECT_THAT(Calls(), HasSubstr("orbweave status --coordinator @" + launch_.Folder()));
+    if (more == 0) {
+      EXPECT_THAT(Calls(), Not(HasSubstr("sbatch"))) << slots;
+    } else {
+      EXPECT_THAT(Calls(),
+                  HasSubstr("sbatch --parsable --export=ALL,ORBWEAVE_IDLE_EXIT=120 --array=1-" +
+                            std::to_string(more) + " "));
+    }
+  }
+}
+
+TEST_F(SlurmScripts, WithoutAnAnswerThereAreTheFewestWorkers) {
+  launch_.max_nodes = 8;
+  Program("orbweave", "case $1 in status) exit 3 ;; *) /bin/sleep 0.7 ;; esac");
+  EXPECT_EQ(testing::RunCommand(Batch(CoordinatorScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), HasSubstr("sbatch --parsable --array=1-3 "));
+  EXPECT_THAT(Calls(), Not(HasSubstr("IDLE_EXIT")));
+}
+
+TEST_F(SlurmScripts, AWorkerBeyondTheFewestLeavesWhenItIsIdle) {
+  Program("orbweave", "exit 0");
+  std::vector<std::string> batch = Batch(WorkersScript(launch_));
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), Not(HasSubstr("--idle-exit")));
+  batch.insert(batch.begin() + 1, "ORBWEAVE_IDLE_EXIT=120");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), HasSubstr("--idle-exit 120"));
 }
 
 TEST_F(SlurmScripts, TheCoordinatorSubmitsNoneWhileSlurmDoesNotAnswer) {
