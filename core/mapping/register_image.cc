@@ -85,6 +85,9 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     // What most points say is then known to be wrong: it is not asked how many these are.
     if (gnss.better)
       attempt.registered = accept(*gnss.better, static_cast<uint32_t>(limits.min_inliers));
+    if (attempt.waits) {
+      attempt.num_inliers = SupportOf(pose->cam_from_world, correspondences, max_error_rad).count;
+    }
     if (gnss.better || attempt.waits) return attempt;
   }
   const bool is_doubtful = pose && limits.heeds_pairs &&

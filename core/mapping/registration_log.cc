@@ -9,11 +9,17 @@ void ResetAttempts(RegistrationLog& log) {
   for (RegistrationRecord& record : log) {
     record.num_attempts = 0;
     record.visible_at_failure = 0;
+    record.contradicted = false;
   }
 }
 
 std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) {
   if (record.dropped) return "lost its points again in the adjustment";
+  if (record.contradicted) {
+    return std::to_string(record.best_inliers) +
+           " points put it where its GNSS position and those around it say that it is not: a "
+           "place that looks alike, or wrong positions";
+  }
   if (record.best_inliers < record.needed_inliers) {
     return std::to_string(record.best_inliers) + " of " + std::to_string(record.needed_inliers) +
            " needed points agree";

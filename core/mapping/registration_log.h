@@ -18,6 +18,7 @@ struct RegistrationRecord {
   uint32_t best_visible = 0;        ///< most points it ever saw
   int num_reconsidered = 0;         ///< times that it was registered anew (ReconsiderImages)
   bool dropped = false;             ///< was registered, then lost its points
+  bool contradicted = false;        ///< GNSS had the last word (RegistrationAttempt::waits)
 };
 
 /// One record per image of the cluster.

@@ -4,7 +4,8 @@
 #   tests/chaos/slurm.sh [REQUEUES [PREEMPTIONS [PANORAMAS]]]
 #
 # One job is run undisturbed on this machine, then by Slurm while its coordinator is requeued (5 times) and its workers
-# are preempted by jobs of another partition (20 times), then in allocations of 3 minutes. Prints a table in Markdown;
+# are preempted by jobs of another partition (20 times), then in allocations of 3 minutes, then by one to three workers
+# as there is work for. Prints a table in Markdown;
 # 1 if a row failed. Needs root and Debian's slurmctld, slurmd, slurm-client, munge and iproute2: 77 without them.
 # ORBWEAVE: the program (build/release/cli/orbweave). Takes half an hour.
 # shellcheck disable=SC2016,SC2317 # words for another shell; functions that a trap calls
@@ -116,11 +117,11 @@ clean_up() {
   if ((failures == 0)); then rm -rf "$lab"; else echo "what is left: $lab" >&2; fi
 }
 
-# NAME TIME: launches the job, whose number goes to $job.
+# NAME TIME [NODES]: launches the job, whose number goes to $job.
 launch() {
   model=$lab/$1
   on hub "$orbweave" launch slurm "$lab/street/images" --gnss "$lab/street/gnss.csv" --output "$model" \
-    --nodes 2 --cpus 1 --time "$2" >"$lab/$1.log" || return 1
+    --nodes "${3:-2}" --cpus 1 --time "$2" >"$lab/$1.log" || return 1
   job=$(grep -o '[0-9]*$' "$lab/$1.log" | tail -n 1)
   began=$SECONDS
 }
@@ -164,6 +165,20 @@ short_allocations() {
   end_launch "allocations of 3 minutes"
 }
 
+count_workers() { on hub squeue --noheader --array --states=RUNNING --format=%j | grep -c -- -worker-; }
+
+elastic() {
+  launch elastic 60 1:3 || return 1
+  local most=0 now
+  while [ -n "$(state_of_job)" ] && ((SECONDS - began < 3600)); do
+    now=$(count_workers)
+    ((now <= most)) || most=$now
+    sleep 1
+  done
+  ((most > 1)) || ((++failures))
+  end_launch "one to three workers" "$most at a time at most"
+}
+
 trap clean_up EXIT
 if ! network_up || ! slurm_up; then
   failures=1
@@ -178,4 +193,5 @@ echo "|---|---|---|---|"
 printf '| this machine, undisturbed | %d | | |\n' $((SECONDS - began))
 disturbed || failures=1
 short_allocations || failures=1
+elastic || failures=1
 exit $((failures > 0))

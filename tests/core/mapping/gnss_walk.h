@@ -37,8 +37,11 @@ class GnssWalk {
     const Eigen::Vector3d C = fixture_.world.cams_from_world[image].Centre();
     return {C.x() + 500.0, C.z() - 80.0, -C.y()};
   }
-  [[nodiscard]] PosePrior& Prior(uint32_t image) {
-    return fixture_.world.problem.images[image].prior;
+  [[nodiscard]] ClusterImage& Image(uint32_t image) { return fixture_.world.problem.images[image]; }
+  [[nodiscard]] PosePrior& Prior(uint32_t image) { return Image(image).prior; }
+  /// As if GNSS were exact, whatever it states.
+  void SetExactPositions() {
+    for (uint32_t i = 0; i < kImages; ++i) Prior(i).position_in_enu = TrueInEnu(i);
   }
   [[nodiscard]] Rigid3 InModel(uint32_t image) const {
     return TransformCamera(model_from_world, fixture_.world.cams_from_world[image]);

@@ -134,5 +134,49 @@ TEST(JudgeByGnss, RefusesWhatHardlyAPointAgreesWith) {
             GnssOpinion::kRefused);
 }
 
+TEST(JudgeByGnss, RefusesWhatIsFarFromWhereItsDriveWas) {
+  RepeatedHouse house(6);
+  house.walk.SetExactPositions();
+  {
+    const MappingState state = house.State();
+    EXPECT_EQ(VerdictOnFacade(house, state).opinion, GnssOpinion::kContradicted);
+  }
+  house.walk.Image(kImage).is_position_of_drive = true;
+  const MappingState state = house.State();
+  EXPECT_EQ(VerdictOnFacade(house, state).opinion, GnssOpinion::kRefused);
+}
+
+TEST(IsGrosslyContradicted, OnlyWherePointsAreNotAtOneAndTheDriveTells) {
+  RepeatedHouse house(6);
+  house.walk.SetExactPositions();
+  const auto is_contradicted = [&](const Rigid3& pose, size_t true_points, int facade) {
+    const MappingState state = house.State();
+    return IsGrosslyContradicted(
+        state, kImage, pose, house.Seen(state, true_points, facade), kFourPxRad);
+  };
+  EXPECT_FALSE(is_contradicted(house.Wrong(), 0, 30));
+  house.walk.Image(kImage).is_position_of_drive = true;
+  EXPECT_TRUE(is_contradicted(house.Wrong(), 0, 30));
+  EXPECT_FALSE(is_contradicted(house.walk.InModel(kImage), 10, 0)) << "it is where its drive was";
+  *house.walk.Prior(kImage).position_in_enu += Vector3d(30.0, 40.0, 0.0);
+  EXPECT_FALSE(is_contradicted(house.walk.InModel(kImage), 1000, 0)) << "all points say so";
+}
+
+TEST(JudgeByGnss, OnePlaceIsNotAtOne) {
+  RepeatedHouse house(6);
+  house.walk.SetExactPositions();
+  const MappingState state = house.State();
+  const int all = static_cast<int>(state.Visible(kImage).Count());
+  SceneCorrespondences seen = house.Seen(state, 0, all);
+  EXPECT_EQ(JudgeByGnss(state, kImage, house.Wrong(), seen, kFourPxRad).opinion, GnssOpinion::kNone)
+      << "in several places";
+  const Rigid3 from = house.Wrong();
+  for (size_t i = 0; i < seen.size(); ++i) {
+    seen.bearings[i] = Vector3d(0.01 + 1e-4 * static_cast<double>(i % 9), 0.02, 1.0).normalized();
+    seen.positions[i] = from.Inverse() * Vector3d(2.0 * seen.bearings[i]);
+  }
+  EXPECT_NE(JudgeByGnss(state, kImage, from, seen, kFourPxRad).opinion, GnssOpinion::kNone);
+}
+
 }  // namespace
 }  // namespace orbweave

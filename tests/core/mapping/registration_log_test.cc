@@ -24,6 +24,14 @@ TEST(ReasonOf, NeverSaysThatMoreThanEnoughIsTooLittle) {
   EXPECT_TRUE(reason.starts_with("sees 545 reconstructed points")) << reason;
 }
 
+TEST(ReasonOf, SaysThatPositionsSpokeAgainstIt) {
+  const std::string reason = ReasonOf({.best_inliers = 17, .contradicted = true}, 20);
+  EXPECT_NE(reason.find("17 points put it where its GNSS position"), std::string::npos) << reason;
+  RegistrationLog log = {{.contradicted = true}};
+  ResetAttempts(log);
+  EXPECT_FALSE(log[0].contradicted) << "it is to be tried anew";
+}
+
 TEST(ReasonOf, SaysThatNothingStarted) {
   EXPECT_EQ(ReasonOf({}, 20), "no pair of its images could start a reconstruction");
 }

@@ -60,6 +60,17 @@ TEST(StepWitness, IsNotMisledByStepsThatAreWrongInOneWay) {
   EXPECT_GT(StepWitness(state, 11).Misfit(state.Centre(11)).value(), 2.0);
 }
 
+/// Steps within a drive are exact, and its own bias is in every step from one to the other.
+TEST(StepWitness, DrivesShareNothing) {
+  GnssWalk walk;
+  walk.SetExactPositions();
+  *walk.Prior(kImage).position_in_enu += Eigen::Vector3d(2.0, 0.0, 0.0);
+  EXPECT_GT(MisfitFurther(walk, 0.0), 2.0);
+  walk.Image(kImage).drive = 1;
+  EXPECT_LT(MisfitFurther(walk, 0.0), 2.0);
+  EXPECT_GT(MisfitFurther(walk, -7.0), 2.0);
+}
+
 TEST(StepWitness, SaysNothingWithoutPositions) {
   GnssWalk walk;
   walk.Prior(kImage).position_in_enu.reset();
