@@ -251,9 +251,11 @@ double StatedDistance(const std::vector<const PosePrior*>& priors) {
 void DoubtGnssInUse(const ReportGnss& gnss, double stated_m, CrossCheck& check) {
   // The median distance is nine tenths of the root mean square one where sigmas are right.
   constexpr double kTooFar = 2.0;
-  if (2 * gnss.num_inliers < gnss.num_priors) {
+  if (check.value < check.limit) {
     check.level = CheckLevel::kDoubtful;
-    check.sentence += ": where it stands on earth follows the fewer of them";
+    check.sentence += 2 * gnss.num_inliers < gnss.num_priors
+                          ? ": where it stands on earth follows the fewer of them"
+                          : ": the others are wrong, or the model is where they are";
   } else if (gnss.residual_median_m > kTooFar * stated_m) {
     check.level = CheckLevel::kDoubtful;
     check.sentence += absl::StrFormat(

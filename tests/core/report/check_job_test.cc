@@ -127,8 +127,14 @@ TEST(JudgeModel, GnssThatMostlyDisagreesIsDoubted) {
   GnssReport& gnss = results.models.front().report.gnss;
   gnss = {.used = true, .num_priors = 40, .num_inliers = 30};
   EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  gnss.num_inliers = 26;
+  JobReport report = BuildJobReport(results);
+  EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
+  EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("or the model is where"));
   gnss.num_inliers = 15;
-  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kDoubtful);
+  report = BuildJobReport(results);
+  EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
+  EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("follows the fewer"));
 }
 
 TEST(JudgeModel, GnssThatAgreesAtTenTimesItsSigmaIsDoubted) {
