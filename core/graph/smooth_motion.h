@@ -15,8 +15,7 @@ struct SmoothedMotion {
 };
 
 /// The best estimate of a motion whose speed wanders: white noise of acceleration with spectral
-/// density q, so that the speed of an axis changes by sqrt(q dt) within dt (Rauch, Tung and
-/// Striebel, Maximum Likelihood Estimates of Linear Dynamic Systems, 1965).
+/// density q, so that the speed of an axis changes by sqrt(q dt) within dt (Rauch 1965).
 ///
 /// `times_s` ascend, and may be equal; gaps count as 100 s at most. `measured` has a row per time;
 /// `variances` of each of its axes, infinite where nothing is measured; one at least is finite.
