@@ -148,12 +148,6 @@ class TrackSmoother {
   std::vector<double> errors_{};
 };
 
-bool HasTimes(const ImageManifest& manifest, std::span<const ImageId> sequence) {
-  return std::ranges::all_of(sequence, [&](ImageId id) {
-    return std::isfinite(manifest.At(id).capture_time_s.value_or(NAN));
-  });
-}
-
 size_t CountPositions(const ImageManifest& manifest, std::span<const ImageId> sequence) {
   return static_cast<size_t>(std::ranges::count_if(
       sequence, [&](ImageId id) { return manifest.At(id).prior.position_in_enu.has_value(); }));
@@ -183,7 +177,7 @@ Track TrackOf(const ImageManifest& manifest,
 void SmoothDrive(const ImageManifest& manifest,
                  std::span<const ImageId> sequence,
                  std::vector<PositionByMotion>& positions) {
-  if (!HasTimes(manifest, sequence) || CountPositions(manifest, sequence) < kFewestPositions)
+  if (!HaveTimes(manifest, sequence) || CountPositions(manifest, sequence) < kFewestPositions)
     return;
   const Track plan = TrackOf(manifest, sequence, 0, 2);
   const Track heights = TrackOf(manifest, sequence, 2, 1);

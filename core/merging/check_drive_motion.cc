@@ -5,7 +5,6 @@
 
 #include <absl/strings/str_format.h>
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,13 +42,12 @@ std::vector<Passage> PassagesOf(std::span<const ImageId> sequence,
                                 const std::map<ImageId, RegisteredImage>& images,
                                 const ImageManifest& manifest) {
   std::vector<Passage> passages;
+  if (!HaveTimes(manifest, sequence)) return passages;
   for (const ImageId id : sequence) {
-    const std::optional<double>& time_s = manifest.At(id).capture_time_s;
-    if (!time_s || !std::isfinite(*time_s)) return {};
     const auto image = images.find(id);
     if (image == images.end() || image->second.loose) continue;
     passages.push_back({.id = id,
-                        .time_s = *time_s,
+                        .time_s = *manifest.At(id).capture_time_s,
                         .centre = image->second.cam_from_world.Centre(),
                         .position = manifest.At(id).prior.position_in_enu});
   }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "core/scene/image_manifest.h"
@@ -15,5 +16,8 @@ namespace orbweave {
 /// Every image of the manifest is in exactly one sequence.
 [[nodiscard]] std::map<uint32_t, std::vector<ImageId>> SequenceOfDrives(
     const ImageManifest& manifest);
+
+/// Whether all of these images have a finite capture time: then they are in its order.
+[[nodiscard]] bool HaveTimes(const ImageManifest& manifest, std::span<const ImageId> sequence);
 
 }  // namespace orbweave
