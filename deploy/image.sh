@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the image of orbweave: Debian 12, the libraries of deploy/packages_image.txt, the program; user 10001.
+# Builds the image of orbweave: Debian 12, libraries of deploy/packages_image.txt, the program; user 10001.
 #   deploy/image.sh [--base IMAGE@sha256:DIGEST] [--program FILE] [--name NAME]
 #
 # --base     an image of Debian 12 by its digest; without it mmdebstrap makes one from the machine's Debian mirror
@@ -42,8 +42,8 @@ context=$scratch/context
 mkdir "$context"
 if [ -n "$program" ]; then
   mkdir -p "$context/program" "$context/deploy"
-  cp "$program" "$context/program/orbweave"
-  cp "$root/deploy/packages_image.txt" "$context/deploy/"
+  strip --strip-unneeded -o "$context/program/orbweave" "$program"
+  cp "$root/deploy/packages_image.txt" "$root/deploy/image_libraries.sh" "$context/deploy/"
 else
   git -C "$root" ls-files -z --cached --others --exclude-standard |
     tar -C "$root" --null --ignore-failed-read -cf - --files-from=- | tar -C "$context" -xf -

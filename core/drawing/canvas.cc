@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "core/drawing/encode_picture.h"
+#include "core/pictures/encode_picture.h"
 
 namespace orbweave {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "core/drawing/encode_picture.h"
+#include "core/pictures/encode_picture.h"
 
 namespace orbweave {
 

@@ -4,44 +4,18 @@
 #include "core/features/decode_panorama.h"
 
 #include <cstdlib>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <utility>
 
 #include "core/base/status.h"
-#include "core/features/check_jpeg_data.h"
-#include "core/scene/image_header.h"
+#include "core/pictures/decode_picture.h"
+#include "core/pictures/image_header.h"
 
 namespace orbweave {
 namespace {
 
 std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
-}
-
-/// The one call into the decoders. OpenCV reports failure as an empty image or an exception.
-absl::StatusOr<cv::Mat> Decode(std::string_view encoded, int flags) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const ImageHeader header, ReadImageHeader(encoded));
-  if (!header.complete) return absl::InvalidArgumentError("the file is truncated");
-  if (!std::in_range<int>(encoded.size()))
-    return absl::InvalidArgumentError("the file is larger than 2 GiB");
-  if (IdentifyImage(encoded) == ImageKind::kJpeg) ORBWEAVE_RETURN_IF_ERROR(CheckJpegData(encoded));
-  cv::Mat image;
-  try {
-    const cv::Mat bytes(1,
-                        static_cast<int>(encoded.size()),
-                        CV_8UC1,
-                        const_cast<char*>(encoded.data()));  // read only: cv::Mat knows no const
-    image = cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    return absl::InvalidArgumentError(error.err);
-  }
-  if (image.empty()) return absl::InvalidArgumentError("the data are corrupt");
-  if (image.cols != header.width_px || image.rows != header.height_px) {
-    return absl::InvalidArgumentError("the data contradict the header");
-  }
-  return image;
 }
 
 absl::Status CheckWidth(const ImageHeader& header, int max_width_px) {
@@ -69,7 +43,7 @@ absl::StatusOr<cv::Mat> DecodePanorama(std::string_view encoded, int max_width_p
   const absl::StatusOr<ImageHeader> header = ReadImageHeader(encoded);
   if (!header.ok()) return Annotate(header.status(), "cannot decode");
   ORBWEAVE_RETURN_IF_ERROR(CheckPanoramaSize(*header, max_width_px));
-  absl::StatusOr<cv::Mat> image = Decode(encoded, cv::IMREAD_COLOR);
+  absl::StatusOr<cv::Mat> image = DecodePicture(encoded);
   if (!image.ok()) return Annotate(image.status(), "cannot decode");
   return image;
 }
@@ -87,7 +61,7 @@ absl::StatusOr<cv::Mat> DecodeMask(std::string_view encoded,
   }
   if (const absl::Status size_status = CheckWidth(*header, max_width_px); !size_status.ok())
     return Annotate(size_status, "the mask is");
-  absl::StatusOr<cv::Mat> mask = Decode(encoded, cv::IMREAD_GRAYSCALE);
+  absl::StatusOr<cv::Mat> mask = DecodeGreyPicture(encoded);
   if (!mask.ok()) return Annotate(mask.status(), "cannot decode the mask");
   if (mask->size() != size) cv::resize(*mask, *mask, size, 0, 0, cv::INTER_NEAREST);
   return ignores_white ? cv::Mat(*mask > 127) : cv::Mat(*mask <= 127);

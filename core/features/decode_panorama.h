@@ -9,11 +9,10 @@
 
 namespace orbweave {
 
-/// Pixels of an encoded 2:1 panorama (H x W x 3, 8-bit BGR), as they lie in the file: EXIF
-/// orientation is not applied, greyscale is tripled, 16 bits become 8, alpha is dropped.
-/// InvalidArgument with a sentence for people when it cannot be used: wider than
-/// `max_width_px` (refused before decoding), not 2:1 within one pixel, truncated, damaged within
-/// (CheckJpegData), not decodable.
+/// Pixels of an encoded 2:1 panorama (H x W x 3, 8-bit BGR), as they lie in the file: see
+/// DecodePicture. InvalidArgument with a sentence for people when it cannot be used: wider than
+/// `max_width_px` (refused before decoding), not 2:1 within one pixel, truncated, damaged within,
+/// not decodable.
 [[nodiscard]] absl::StatusOr<cv::Mat> DecodePanorama(std::string_view encoded, int max_width_px);
 
 /// The mask of a panorama of `size`: H x W, 255 where pixels are to be ignored, else 0. A pixel of

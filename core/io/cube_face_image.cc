@@ -4,14 +4,15 @@
 #include "core/io/cube_face_image.h"
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
-#include "core/scene/image_header.h"
+#include "core/pictures/decode_picture.h"
+#include "core/pictures/encode_picture.h"
+#include "core/pictures/image_header.h"
 
 namespace orbweave {
 namespace {
@@ -52,35 +53,14 @@ void AddSample(const PanoramaPixels& panorama,
   }
 }
 
-absl::Status CannotDecode(std::string_view what) {
-  return absl::InvalidArgumentError(absl::StrCat("the ", std::string(what), " cannot be decoded"));
-}
-
-/// Without pixels when the bytes are none that OpenCV decodes.
-cv::Mat Decoded(std::string_view encoded, int flags) {
-  if (encoded.empty() || encoded.size() > static_cast<size_t>(INT_MAX)) return {};
-  const std::vector<uint8_t> bytes(encoded.begin(), encoded.end());
-  try {
-    return cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
-
 PanoramaPixels PixelsOf(const cv::Mat& image) {
   return {
       {image.cols, image.rows}, image.channels(), {image.data, image.total() * image.elemSize()}};
 }
 
-std::string Encoded(const std::vector<uint8_t>& pixels,
-                    PinholeFace pinhole,
-                    int type,
-                    const std::string& extension) {
-  cv::Mat image(pinhole.size_px, pinhole.size_px, type);
-  std::ranges::copy(pixels, image.data);
-  std::vector<uint8_t> bytes;
-  cv::imencode(extension, image, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return {bytes.begin(), bytes.end()};
+/// A face as a matrix that lies in the bytes of `pixels`.
+cv::Mat FaceOf(std::vector<uint8_t>& pixels, PinholeFace pinhole, int type) {
+  return {pinhole.size_px, pinhole.size_px, type, pixels.data()};
 }
 
 }  // namespace
@@ -124,15 +104,13 @@ absl::StatusOr<Faces> EncodeCubeFaces(std::string_view encoded,
                                                    camera.height_px,
                                                    " it was reconstructed with"));
   }
-  if (!header.complete) return absl::InvalidArgumentError("the panorama's file ends early");
-  const cv::Mat image = Decoded(encoded, cv::IMREAD_COLOR);
-  if (image.cols != camera.width_px || image.rows != camera.height_px) {
-    return CannotDecode("panorama");
-  }
+  const absl::StatusOr<cv::Mat> image = DecodePicture(encoded);
+  if (!image.ok()) return Annotate(image.status(), "the panorama cannot be decoded");
   Faces faces;
   for (int face = 0; face < kCubeFaces; ++face) {
-    faces[static_cast<size_t>(face)] =
-        Encoded(ResampleFace(PixelsOf(image), face, pinhole), pinhole, CV_8UC3, ".jpg");
+    std::vector<uint8_t> pixels = ResampleFace(PixelsOf(*image), face, pinhole);
+    ORBWEAVE_ASSIGN_OR_RETURN(faces[static_cast<size_t>(face)],
+                              EncodeJpeg(FaceOf(pixels, pinhole, CV_8UC3), kJpegQuality));
   }
   return faces;
 }
@@ -140,13 +118,14 @@ absl::StatusOr<Faces> EncodeCubeFaces(std::string_view encoded,
 absl::StatusOr<Faces> EncodeCubeMasks(std::string_view encoded,
                                       bool ignores_white,
                                       PinholeFace pinhole) {
-  const cv::Mat mask = Decoded(encoded, cv::IMREAD_GRAYSCALE);
-  if (mask.empty()) return CannotDecode("mask");
+  const absl::StatusOr<cv::Mat> mask = DecodeGreyPicture(encoded);
+  if (!mask.ok()) return Annotate(mask.status(), "the mask cannot be decoded");
   Faces faces;
   for (int face = 0; face < kCubeFaces; ++face) {
-    std::vector<uint8_t> pixels = ResampleFace(PixelsOf(mask), face, pinhole);
+    std::vector<uint8_t> pixels = ResampleFace(PixelsOf(*mask), face, pinhole);
     for (uint8_t& pixel : pixels) pixel = (pixel > 127) == ignores_white ? 0 : 255;
-    faces[static_cast<size_t>(face)] = Encoded(pixels, pinhole, CV_8UC1, ".png");
+    ORBWEAVE_ASSIGN_OR_RETURN(faces[static_cast<size_t>(face)],
+                              EncodePng(FaceOf(pixels, pinhole, CV_8UC1)));
   }
   return faces;
 }

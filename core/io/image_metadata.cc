@@ -15,7 +15,7 @@
 #include "core/io/plausible.h"
 #include "core/io/printable_text.h"
 #include "core/io/text_fields.h"
-#include "core/scene/image_header.h"
+#include "core/pictures/image_header.h"
 
 namespace orbweave {
 namespace {

@@ -10,12 +10,13 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/base/parallel_for.h"
 #include "core/base/random.h"
+#include "core/base/status.h"
+#include "core/pictures/encode_picture.h"
 #include "core/scene/local_frame.h"
 #include "core/synthetic/make_street.h"
 #include "core/synthetic/render_street_panorama.h"
@@ -38,12 +39,9 @@ absl::Status WriteText(const fs::path& path, const std::string& text) {
   return WriteBytes(path, text.data(), text.size());
 }
 
-absl::Status WriteImage(const fs::path& path, const cv::Mat& image, const std::vector<int>& flags) {
-  std::vector<uint8_t> bytes;
-  if (!cv::imencode(path.extension().string(), image, bytes, flags)) {
-    return absl::InternalError("cannot encode " + path.string());
-  }
-  return WriteBytes(path, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+absl::Status WriteImage(const fs::path& path, const absl::StatusOr<std::string>& encoded) {
+  if (!encoded.ok()) return Annotate(encoded.status(), path.string());
+  return WriteText(path, *encoded);
 }
 
 absl::Status WritePanorama(RenderedPanorama panorama,
@@ -56,9 +54,8 @@ absl::Status WritePanorama(RenderedPanorama panorama,
   const cv::Mat mask(height, width, CV_8UC1, panorama.ignored.data());
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  ORBWEAVE_RETURN_IF_ERROR(
-      WriteImage(folder / "images" / name, bgr, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality}));
-  return WriteImage(folder / "masks" / fs::path(name).replace_extension(".png"), mask, {});
+  ORBWEAVE_RETURN_IF_ERROR(WriteImage(folder / "images" / name, EncodeJpeg(bgr, jpeg_quality)));
+  return WriteImage(folder / "masks" / fs::path(name).replace_extension(".png"), EncodePng(mask));
 }
 
 /// printf into a string.

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/image_header.h"
+#include "core/pictures/image_header.h"
 #include "tests/core/features/panorama_images.h"
 
 namespace orbweave {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "core/base/random.h"
+#include "tests/core/pictures/encoded_images.h"
 
 namespace orbweave {
 
@@ -65,12 +65,6 @@ inline cv::Mat Rolled(const cv::Mat& panorama, int columns) {
     panorama.col(x).copyTo(rolled.col((x + columns) % panorama.cols));
   }
   return rolled;
-}
-
-inline std::string Encoded(const cv::Mat& image, const std::string& extension) {
-  std::vector<uint8_t> bytes;
-  cv::imencode(extension, image, bytes);
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace orbweave

@@ -8,7 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <string_view>
@@ -18,6 +18,7 @@
 #include "core/geometry/rotation.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"
+#include "tests/core/pictures/encoded_images.h"
 
 namespace orbweave {
 
@@ -59,9 +60,7 @@ inline std::string EncodedImage(int width_px,
   Random random(seed);
   for (int i = 0; i < image.rows * image.cols * 3; ++i)
     image.data[i] = static_cast<uint8_t>(random.Index(256));
-  std::vector<uint8_t> bytes;
-  cv::imencode(extension, image, bytes);
-  return {bytes.begin(), bytes.end()};
+  return Encoded(image, extension);
 }
 
 /// Cameras on a street of two panorama sizes that see `num_points` points, each in every third

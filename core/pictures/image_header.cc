@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/scene/image_header.h"
+#include "core/pictures/image_header.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -136,18 +136,12 @@ int TakePnmNumber(std::string_view data, size_t& at) {
   return Dimension(value);
 }
 
-/// "P6 # comment 640 320 255", one blank, and rows of 3 (P5: 1) samples of 1 or 2 bytes.
 ImageHeader ReadPnm(std::string_view data) {
-  size_t at = 2;
-  ImageHeader header;
-  header.width_px = TakePnmNumber(data, at);
-  header.height_px = TakePnmNumber(data, at);
-  const int largest = TakePnmNumber(data, at);
-  const size_t pixel_bytes = (data[1] == '6' ? 3U : 1U) * (largest > 255 ? 2U : 1U);
-  const size_t pixels =
-      static_cast<size_t>(header.width_px) * static_cast<size_t>(header.height_px);
-  header.complete = at < data.size() && pixels <= (data.size() - at - 1) / pixel_bytes;
-  return header;
+  const PnmHeader pnm = ReadPnmHeader(data);
+  return {
+      .width_px = pnm.width_px,
+      .height_px = pnm.height_px,
+      .complete = data.size() >= pnm.pixels_at && data.size() - pnm.pixels_at >= pnm.NumBytes()};
 }
 
 ImageHeader ReadWebp(std::string_view data) {
@@ -189,6 +183,22 @@ absl::StatusOr<ImageHeader> ReadByKind(std::string_view data) {
 }
 
 }  // namespace
+
+size_t PnmHeader::NumBytes() const {
+  const size_t pixels = static_cast<size_t>(width_px) * static_cast<size_t>(height_px);
+  return pixels * static_cast<size_t>(channels) * (largest > 255 ? 2U : 1U);
+}
+
+PnmHeader ReadPnmHeader(std::string_view encoded) {
+  size_t at = 2;
+  PnmHeader header;
+  header.width_px = TakePnmNumber(encoded, at);
+  header.height_px = TakePnmNumber(encoded, at);
+  header.largest = TakePnmNumber(encoded, at);
+  header.channels = encoded.starts_with("P6") ? 3 : 1;
+  header.pixels_at = at + 1;
+  return header;
+}
 
 ImageKind IdentifyImage(std::string_view encoded) {
   using namespace std::string_view_literals;
