@@ -71,18 +71,6 @@ std::string FormatJobStatus(const JobStatus& status) {
   return text;
 }
 
-uint64_t CountOpenTasks(const std::vector<JobStatus>& jobs) {
-  uint64_t wanted = 0;
-  for (const JobStatus& job : jobs) {
-    if (job.state != JobState::kRunning) continue;
-    uint64_t open = 0;
-    for (const StageStatus& stage : job.stages)
-      open += stage.tasks_total - std::min(stage.tasks_done, stage.tasks_total);
-    wanted += std::max<uint64_t>(open, 1);
-  }
-  return wanted;
-}
-
 std::string FormatWorkers(const std::vector<WorkerStatus>& workers) {
   if (workers.empty()) return "no workers\n";
   std::string text =

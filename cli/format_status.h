@@ -16,10 +16,6 @@ namespace orbweave {
 /// A job as lines for people: its line, what went wrong, a table of its stages that have tasks.
 [[nodiscard]] std::string FormatJobStatus(const JobStatus& status);
 
-/// Tasks of running jobs that are planned and not done, one at least for each job: so many slots
-/// there is work for now.
-[[nodiscard]] uint64_t CountOpenTasks(const std::vector<JobStatus>& jobs);
-
 /// A table of workers.
 [[nodiscard]] std::string FormatWorkers(const std::vector<WorkerStatus>& workers);
 

@@ -174,6 +174,16 @@ CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arg
                    arguments->launch.sbatch,
                    "A further option of sbatch, as in --sbatch=--account=city (repeatable)")
       ->allow_extra_args(false);
+  slurm
+      ->add_option("--sbatch-workers",
+                   arguments->launch.workers_sbatch,
+                   "The same for the workers alone, as in --sbatch-workers=--mem=64G (repeatable)")
+      ->allow_extra_args(false);
+  slurm
+      ->add_option("--sbatch-coordinator",
+                   arguments->launch.coordinator_sbatch,
+                   "The same for the coordinator alone (repeatable)")
+      ->allow_extra_args(false);
   slurm->add_option("--journal-folder",
                     arguments->launch.journal_folder,
                     "Folder on a disk of the coordinator's node for its journal (default: $TMPDIR, "

@@ -167,6 +167,10 @@ absl::StatusOr<std::vector<WorkerStatus>> PatientCoordinator::ListWorkers() {
   return Wait([&] { return api_->ListWorkers(); });
 }
 
+absl::StatusOr<uint32_t> PatientCoordinator::CountWantedSlots() {
+  return Wait([&] { return api_->CountWantedSlots(); });
+}
+
 absl::Status PatientCoordinator::CancelJob(const Digest& job) {
   return Wait([&] { return api_->CancelJob(job); });
 }

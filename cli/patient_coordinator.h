@@ -48,6 +48,7 @@ class PatientCoordinator final : public ClientApi {
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
   [[nodiscard]] absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() override;
+  [[nodiscard]] absl::StatusOr<uint32_t> CountWantedSlots() override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;

@@ -12,8 +12,11 @@
 namespace orbweave {
 namespace {
 
-/// What both scripts say to Slurm.
-std::string Header(const SlurmLaunch& launch, const std::string& name, const std::string& log) {
+/// What both scripts say to Slurm, and what `own` says for one of them.
+std::string Header(const SlurmLaunch& launch,
+                   const std::vector<std::string>& own,
+                   const std::string& name,
+                   const std::string& log) {
   std::string header = absl::StrCat(
       "#!/bin/bash\n#SBATCH --job-name=",
       ShellWord(name),
@@ -25,8 +28,8 @@ std::string Header(const SlurmLaunch& launch, const std::string& name, const std
       "#SBATCH --ntasks=1\n#SBATCH --requeue\n"
       "#SBATCH --signal=B:TERM@60\n");
   if (!launch.time.empty()) absl::StrAppend(&header, "#SBATCH --time=", launch.time, "\n");
-  for (const std::string& option : launch.sbatch)
-    absl::StrAppend(&header, "#SBATCH ", option, "\n");
+  for (const auto* options : {&launch.sbatch, &own})
+    for (const std::string& option : *options) absl::StrAppend(&header, "#SBATCH ", option, "\n");
   return header;
 }
 
@@ -80,7 +83,7 @@ std::string CoordinatorScript(const SlurmLaunch& launch) {
   for (const std::string& argument : launch.run_arguments)
     absl::StrAppend(&arguments, " ", ShellWord(argument));
   return absl::StrCat(
-      Header(launch, launch.name, "coordinator.log"),
+      Header(launch, launch.coordinator_sbatch, launch.name, "coordinator.log"),
       "#SBATCH --cpus-per-task=1\n\n",
       kOwnId,
       "launch=",
@@ -159,7 +162,7 @@ exit $code
 
 std::string WorkersScript(const SlurmLaunch& launch) {
   return absl::StrCat(
-      Header(launch, launch.WorkersName(), "worker-%A_%a.log"),
+      Header(launch, launch.workers_sbatch, launch.WorkersName(), "worker-%A_%a.log"),
       "#SBATCH --cpus-per-task=",
       launch.cpus,
       "\n\n",

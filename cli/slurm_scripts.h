@@ -19,7 +19,9 @@ struct SlurmLaunch {
   uint32_t max_nodes = 1;                    ///< workers there are while there is work for so many
   uint32_t cpus = 1;                         ///< of a worker, and so its tasks at a time
   std::string time{};                 ///< of an allocation, as sbatch takes it; empty: the site's
-  std::vector<std::string> sbatch{};  ///< further options of sbatch
+  std::vector<std::string> sbatch{};  ///< further options of sbatch, for all
+  std::vector<std::string> coordinator_sbatch{};  ///< for the coordinator alone
+  std::vector<std::string> workers_sbatch{};      ///< for the workers: graphics cards, memory
   std::string
       journal_folder{};  ///< of `orbweave run`; empty: where the node has its temporary files
 

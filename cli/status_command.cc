@@ -76,12 +76,13 @@ absl::Status ShowStatus(const StatusOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const auto coordinator,
       Connect(options.coordinator, {.patience_s = patience_s, .stop = signals.token()}));
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs,
-                            WantedJobs(*coordinator, options.job));
   if (options.wanted) {
-    std::printf("%llu\n", static_cast<unsigned long long>(CountOpenTasks(jobs)));
+    ORBWEAVE_ASSIGN_OR_RETURN(const uint32_t slots, coordinator->CountWantedSlots());
+    std::printf("%u\n", slots);
     return absl::OkStatus();
   }
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<JobStatus> jobs,
+                            WantedJobs(*coordinator, options.job));
   if (options.watch && !jobs.empty()) return Watch(*coordinator, jobs.back(), signals.token());
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerStatus> workers, coordinator->ListWorkers());
   Print(jobs, workers, options.json);
@@ -103,7 +104,7 @@ void AddStatusCommand(CLI::App& app, SelectedCommand& selected) {
   command
       ->add_flag("--wanted",
                  options->wanted,
-                 "Only a number: the slots there is work for now, for who starts workers")
+                 "Only a number: the slots that there is work for, as /wanted of --http says")
       ->excludes(json)
       ->excludes(watch);
   command->footer(

@@ -98,6 +98,7 @@ class Coordinator final : public ServedApi {
   [[nodiscard]] absl::StatusOr<JobStatus> GetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<JobStatus>> ListJobs() override;
   [[nodiscard]] absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() override;
+  [[nodiscard]] absl::StatusOr<uint32_t> CountWantedSlots() override { return SlotsWanted(); }
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<std::vector<TaskOutcome>> GetOutcomes(const Digest& job) override;
@@ -126,7 +127,7 @@ class Coordinator final : public ServedApi {
   /// OK when it can work: the journal saves and is its own, a blob can be put and got. Waits for
   /// both.
   [[nodiscard]] absl::Status CheckReady();
-  /// How many slots of workers there is work for; see WantedSlots.
+  /// How many slots of workers there is work for; see wanted_slots.h.
   [[nodiscard]] uint32_t SlotsWanted();
   /// Wakes every waiting call and gives no more tasks.
   void BeginShutdown(Farewell farewell = Farewell::kDismissWorkers);

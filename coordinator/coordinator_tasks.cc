@@ -103,11 +103,11 @@ absl::Status Coordinator::CompleteTask(uint64_t session,
       // What ails the store is no fault of the result.
       if (!is_stored.ok()) return absl::UnavailableError(is_stored.status().message());
       if (*is_stored) continue;
-      return absl::InvalidArgumentError(absl::StrCat("the result of task ",
-                                                     lease.task.ToShortHex(),
-                                                     " names blob ",
-                                                     blob.ToShortHex(),
-                                                     ", never put"));
+      return absl::AbortedError(absl::StrCat("the result of task ",
+                                             lease.task.ToShortHex(),
+                                             " names blob ",
+                                             blob.ToShortHex(),
+                                             ", which is not in the store"));
     }
   }
   std::unique_lock lock(mutex_);

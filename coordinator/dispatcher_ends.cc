@@ -57,7 +57,7 @@ void Dispatcher::FailOrBeginAnew(const LeaseEntry& entry, const absl::Status& er
       std::ranges::move(job.machine->TasksReadBy(*entry.ref), std::back_inserter(spoilt_));
     return BeginAnew(job, now_s);
   }
-  job.machine->TaskFailed({*entry.ref, entry.epoch}, error, now_s);
+  job.machine->TaskFailed({*entry.ref, entry.epoch}, error, now_s, roster_.Serving(now_s));
   if (!job.IsRunning()) VoidLeases(entry.job, "the job failed");
 }
 

@@ -96,8 +96,10 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(ServedApi& api,
 GrpcServer::GrpcServer(ServedApi& api,
                        const ServerOptions& options,
                        std::unique_ptr<EnrollmentService> enrollment_service)
-    : service_(
-          api, options.tls_folder.empty() ? Peers::kTrusted : Peers::kCertified, options.roots),
+    : service_(api,
+               options.tls_folder.empty() ? Peers::kTrusted : Peers::kCertified,
+               options.roots,
+               options.limits.streams),
       enrollment_(std::move(enrollment_service)) {}
 
 GrpcServer::~GrpcServer() {

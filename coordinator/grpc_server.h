@@ -18,6 +18,7 @@ struct ServerLimits {
   int message_bytes = 8 << 20;
   int streams_per_connection = 256;  ///< further ones wait
   int threads = 256;                 ///< one per call, but for those that wait for a task
+  StreamLimits streams{};
 };
 
 struct ServerOptions {

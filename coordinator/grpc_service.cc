@@ -142,6 +142,14 @@ grpc::Status GrpcService::ListWorkers(Context*,
   return WriteAll(api_.ListWorkers(), *writer);
 }
 
+grpc::Status GrpcService::CountWantedSlots(Context*,
+                                           const v1::Empty*,
+                                           v1::WantedSlotsReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const uint32_t slots, api_.CountWantedSlots());
+  reply->set_slots(slots);
+  return grpc::Status::OK;
+}
+
 grpc::Status GrpcService::DrainWorkers(Context*,
                                        const v1::DrainWorkersRequest* request,
                                        v1::DrainWorkersReply* reply) {
@@ -213,22 +221,37 @@ grpc::Status GrpcService::LinkFile(Context*, const v1::LinkFileRequest* request,
   return OnWire(api_.LinkFile(digest, path));
 }
 
-grpc::Status GrpcService::GetBlob(Context*,
+absl::StatusOr<std::unique_ptr<StreamWatch::Stream>> GrpcService::BeginStream(Context& context) {
+  std::string peer;
+  if (peers_ == Peers::kCertified) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Identity identity, CertifiedPeerOf(*context.auth_context()));
+    const std::string address = context.peer();  // "ipv4:192.0.2.7:40312"
+    peer = identity.ToUri() + " " + address.substr(0, address.rfind(':'));
+  }
+  return streams_.Begin([&context] { context.TryCancel(); }, peer);
+}
+
+grpc::Status GrpcService::GetBlob(Context* context,
                                   const v1::GetBlobRequest* request,
                                   grpc::ServerWriter<v1::BlobChunk>* writer) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(request->digest()));
-  return OnWire(api_.Read(digest, [writer](std::string_view piece) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const auto stream, BeginStream(*context));
+  return OnWire(api_.Read(digest, [&](std::string_view piece) {
     v1::BlobChunk chunk;
     chunk.set_data(piece.data(), piece.size());
-    return writer->Write(chunk) ? absl::OkStatus() : absl::CancelledError("the reader left");
+    return stream->Wait([&] { return writer->Write(chunk); })
+               ? absl::OkStatus()
+               : absl::CancelledError("the reader left, or took nothing for long");
   }));
 }
 
 grpc::Status GrpcService::PutBlob(Context* context,
                                   grpc::ServerReader<v1::BlobChunk>* reader,
                                   v1::PutBlobReply* reply) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const auto stream, BeginStream(*context));
   v1::BlobChunk chunk;
-  if (!reader->Read(&chunk)) return OnWire(absl::InvalidArgumentError("a blob without a name"));
+  const auto read = [&] { return stream->Wait([&] { return reader->Read(&chunk); }); };
+  if (!read()) return OnWire(absl::InvalidArgumentError("a blob without a name"));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(chunk.digest()));
   const uint64_t size_bytes = chunk.size_bytes();
   if (size_bytes > kMaxBlobBytes)
@@ -236,8 +259,9 @@ grpc::Status GrpcService::PutBlob(Context* context,
   bool is_first = true;
   const auto next = [&]() -> absl::StatusOr<std::string_view> {
     if (std::exchange(is_first, false) && !chunk.data().empty()) return chunk.data();
-    if (reader->Read(&chunk)) return chunk.data();
-    if (context->IsCancelled()) return absl::CancelledError("the writer left");
+    if (read()) return chunk.data();
+    if (context->IsCancelled())
+      return absl::CancelledError("the writer left, or brought nothing for long");
     return std::string_view();
   };
   ORBWEAVE_GRPC_RETURN_IF_ERROR(api_.Write(digest, size_bytes, next));

@@ -5,6 +5,7 @@
 #include "coordinator/file_roots.h"
 #include "coordinator/served_api.h"
 #include "coordinator/session_owners.h"
+#include "coordinator/stream_watch.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 
 namespace orbweave {
@@ -22,8 +23,8 @@ class GrpcService final
     : public v1::Coordinator::WithCallbackMethod_LeaseTask<v1::Coordinator::Service> {
  public:
   /// Files are named to it beneath `roots` alone.
-  GrpcService(ServedApi& api, Peers peers, FileRoots roots)
-      : api_(api), peers_(peers), roots_(std::move(roots)) {}
+  GrpcService(ServedApi& api, Peers peers, FileRoots roots, StreamLimits streams)
+      : api_(api), peers_(peers), roots_(std::move(roots)), streams_(streams) {}
 
   using Context = grpc::ServerContext;
   using WithCallbackMethod_LeaseTask::LeaseTask;
@@ -47,6 +48,7 @@ class GrpcService final
                             const v1::DrainWorkersRequest*,
                             v1::DrainWorkersReply*) override;
   grpc::Status StopCoordinator(Context*, const v1::Empty*, v1::Empty*) override;
+  grpc::Status CountWantedSlots(Context*, const v1::Empty*, v1::WantedSlotsReply* reply) override;
   grpc::Status CancelJob(Context*, const v1::JobRequest*, v1::Empty*) override;
   grpc::Status ForgetJob(Context*, const v1::JobRequest*, v1::Empty*) override;
   grpc::Status CollectGarbage(Context*, const v1::GarbageRequest*, v1::GarbageReport*) override;
@@ -74,10 +76,14 @@ class GrpcService final
   [[nodiscard]] absl::Status CheckSession(const grpc::ServerContextBase& context,
                                           uint64_t session) const;
 
+  /// A stream of blobs of the caller's.
+  [[nodiscard]] absl::StatusOr<std::unique_ptr<StreamWatch::Stream>> BeginStream(Context& context);
+
   ServedApi& api_;
   Peers peers_;
   FileRoots roots_;
   SessionOwners owners_;
+  StreamWatch streams_;
 };
 
 }  // namespace orbweave

@@ -140,7 +140,8 @@ void JobMachine::CountPastFailures(double now_s) {
       if (task.done) {
         ++num_failures_;
       } else {
-        CountFailure(task, failure.worker, absl::Status(failure.code, failure.reason), now_s);
+        // Who serves is not known yet: what was to be tried elsewhere still is.
+        CountFailure(task, failure.worker, {failure.code, failure.reason}, true, now_s);
       }
       if (state_ != JobState::kRunning) return;
     }
@@ -204,7 +205,10 @@ void JobMachine::TaskDone(AttemptRef ref, TaskResult result, double now_s) {
   EndIfAllDone(now_s);
 }
 
-void JobMachine::TaskFailed(AttemptRef ref, const absl::Status& error, double now_s) {
+void JobMachine::TaskFailed(AttemptRef ref,
+                            const absl::Status& error,
+                            double now_s,
+                            const std::vector<std::string>& serving) {
   if (state_ != JobState::kRunning) return;
   StageRun& run = runs_[ref.task.run];
   TaskRecord& task = Task(ref.task);
@@ -213,20 +217,24 @@ void JobMachine::TaskFailed(AttemptRef ref, const absl::Status& error, double no
   if (task.attempts.empty()) run.SetReady(ref.task.part);
   run.UpdateStragglerTime(policy_);
   if (ClassifyFailure(error.code()) == FailureClass::kReturned) return;
-  CountFailure(task, worker, error, now_s);
+  const bool another_may_try = std::ranges::any_of(
+      serving, [&](const std::string& name) { return name != worker && !task.HasFailedOn(name); });
+  CountFailure(task, worker, error, another_may_try, now_s);
   if (state_ == JobState::kRunning) ++run.retries;
 }
 
 void JobMachine::CountFailure(TaskRecord& task,
                               const std::string& worker,
                               const absl::Status& error,
+                              bool another_may_try,
                               double now_s) {
   task.failures.Add(ClassifyFailure(error.code()));
   ++num_failures_;
   runs_.back().failed.insert(task.spec.part);
   task.failed_on.push_back(worker);
   task.not_before_s = now_s + policy_.WaitAfter(task.failures.Total(), task.id.ToSeed());
-  const auto reason = JudgeFailure(policy_, task, worker, error, {num_failures_, num_tasks_});
+  const JobTally tally{num_failures_, num_tasks_, another_may_try};
+  const auto reason = JudgeFailure(policy_, task, worker, error, tally);
   if (reason) JobFails(*reason, now_s);
 }
 

@@ -106,8 +106,11 @@ class JobMachine {
   void TaskProgressed(AttemptRef ref, const Progress& progress);
   /// Ends every attempt at the task.
   void TaskDone(AttemptRef ref, TaskResult result, double now_s);
-  /// See retry_policy.h for what becomes of which error.
-  void TaskFailed(AttemptRef ref, const absl::Status& error, double now_s);
+  /// See retry_policy.h for what becomes of which error. `serving`: the workers that there are.
+  void TaskFailed(AttemptRef ref,
+                  const absl::Status& error,
+                  double now_s,
+                  const std::vector<std::string>& serving = {});
   void JobFails(const std::string& error, double now_s);
   void JobIsCancelled(double now_s);
 
@@ -138,6 +141,7 @@ class JobMachine {
   void CountFailure(TaskRecord& task,
                     const std::string& worker,
                     const absl::Status& error,
+                    bool another_may_try,
                     double now_s);
   void JobEnds(JobState state, double now_s);
   void EndIfAllDone(double now_s);

@@ -20,11 +20,12 @@ std::optional<std::string> JudgeFailure(const RetryPolicy& policy,
                                         const absl::Status& error,
                                         const JobTally& job) {
   const FailureClass failure = ClassifyFailure(error.code());
-  if (failure == FailureClass::kPermanent)
-    return absl::StrCat(task.Describe(), ": ", TextOf(error));
-  const std::string last = absl::StrCat("last on ", worker, ": ", TextOf(error));
   const uint32_t failures = task.failures.Of(failure);
-  if (failures >= policy.MaxFailures(failure)) {
+  const bool is_last = failures >= policy.MaxFailures(failure);
+  const std::string last = absl::StrCat("last on ", worker, ": ", TextOf(error));
+  if (failure == FailureClass::kPermanent) {
+    if (is_last || !job.another_may_try) return absl::StrCat(task.Describe(), ": ", TextOf(error));
+  } else if (is_last) {
     const char* verb = failure == FailureClass::kProcessLost ? " lost its process " : " failed ";
     return absl::StrCat(
         task.Describe(), verb, failures, " times, ", last, "; ", task.DescribeInputs());

@@ -15,6 +15,7 @@ namespace orbweave {
 struct JobTally {
   uint32_t failures = 0;  ///< of attempts
   size_t tasks = 0;
+  bool another_may_try = false;  ///< a worker that has not failed the task
 };
 
 /// An attempt at `task` failed on `worker`, which is counted already: why the job fails now, or

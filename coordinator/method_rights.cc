@@ -11,7 +11,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<MethodRight, 26> kRights = {{
+constexpr std::array<MethodRight, 27> kRights = {{
     {.method = "/orbweave.v1.Coordinator/Join", .worker = true},
     {.method = "/orbweave.v1.Coordinator/LeaseTask", .worker = true},
     {.method = "/orbweave.v1.Coordinator/Heartbeat", .worker = true},
@@ -23,6 +23,7 @@ constexpr std::array<MethodRight, 26> kRights = {{
     {.method = "/orbweave.v1.Coordinator/GetJob", .client = true},
     {.method = "/orbweave.v1.Coordinator/ListJobs", .client = true},
     {.method = "/orbweave.v1.Coordinator/ListWorkers", .client = true},
+    {.method = "/orbweave.v1.Coordinator/CountWantedSlots", .client = true},
     {.method = "/orbweave.v1.Coordinator/CancelJob", .client = true},
     {.method = "/orbweave.v1.Coordinator/GetOutcomes", .client = true},
     {.method = "/orbweave.v1.Coordinator/GetTimings", .client = true},

@@ -42,7 +42,7 @@ uint32_t RetryPolicy::MaxFailures(FailureClass failure) const {
     case FailureClass::kReturned:
       return 0;
     case FailureClass::kPermanent:
-      return 1;
+      return max_permanent;
     case FailureClass::kTransient:
     case FailureClass::kInputLost:
       return max_transient;

@@ -14,7 +14,7 @@ namespace orbweave {
 enum class FailureClass : uint8_t {
   kReturned,        ///< given back unharmed; does not count
   kInputLost,       ///< an input is gone or damaged: what made it is to run again
-  kPermanent,       ///< would fail anywhere: the job fails
+  kPermanent,       ///< would fail anywhere, if it is true: another worker is to say so too
   kTransient,       ///< the stage failed in a way that may not happen again
   kInfrastructure,  ///< a worker, a store or a machine failed, not the task
   kProcessLost,     ///< the task's process died or had to be killed: it may be the task's fault
@@ -30,6 +30,9 @@ struct RetryPolicy {
   uint32_t max_transient = 3;
   uint32_t max_infrastructure = 5;
   uint32_t max_process_lost = 3;
+  /// Where another worker may try; 1 where there is none. One that is broken or means ill cannot
+  /// fail a job by its word alone.
+  uint32_t max_permanent = 2;
   /// Retries of a whole job: a number, and a share of its tasks. More are a storm.
   uint32_t job_retries = 50;
   double job_retry_share = 0.1;

@@ -17,12 +17,14 @@ double FractionOf(const Progress& progress) {
 
 }  // namespace
 
+bool TaskRecord::HasFailedOn(const std::string& worker) const {
+  return std::ranges::find(failed_on, worker) != failed_on.end();
+}
+
 bool TaskRecord::MayTake(const std::string& worker,
                          const std::vector<std::string>& alive,
                          double now_s) const {
-  const auto has_failed = [this](const std::string& name) {
-    return std::find(failed_on.begin(), failed_on.end(), name) != failed_on.end();
-  };
+  const auto has_failed = [this](const std::string& name) { return HasFailedOn(name); };
   if (not_before_s > now_s) return false;
   return !has_failed(worker) || std::all_of(alive.begin(), alive.end(), has_failed);
 }

@@ -47,6 +47,7 @@ struct TaskRecord {
   std::vector<std::string> failed_on{};  ///< workers
   TaskCost cost{};
 
+  [[nodiscard]] bool HasFailedOn(const std::string& worker) const;
   /// Whether `worker` may begin an attempt: the wait is over, and it has not failed the task, or
   /// all workers in `alive` have.
   [[nodiscard]] bool MayTake(const std::string& worker,

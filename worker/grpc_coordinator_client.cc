@@ -234,6 +234,12 @@ absl::StatusOr<std::vector<WorkerStatus>> GrpcCoordinatorClient::ListWorkers() {
   return ReadAll<WorkerStatus>(*link->stub->ListWorkers(&context, v1::Empty()));
 }
 
+absl::StatusOr<uint32_t> GrpcCoordinatorClient::CountWantedSlots() {
+  ORBWEAVE_ASSIGN_OR_RETURN(const v1::WantedSlotsReply reply,
+                            Call(&Stub::CountWantedSlots, v1::Empty(), kFile_s));
+  return reply.slots();
+}
+
 absl::Status GrpcCoordinatorClient::CancelJob(const Digest& job) {
   return Call(&Stub::CancelJob, RequestFor(job), kFile_s).status();
 }

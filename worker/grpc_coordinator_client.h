@@ -59,6 +59,7 @@ class GrpcCoordinatorClient final : public CoordinatorApi {
   [[nodiscard]] absl::StatusOr<std::vector<std::string>> DrainWorkers(
       const std::string& name) override;
   [[nodiscard]] absl::Status StopCoordinator() override;
+  [[nodiscard]] absl::StatusOr<uint32_t> CountWantedSlots() override;
   [[nodiscard]] absl::Status CancelJob(const Digest& job) override;
   [[nodiscard]] absl::Status ForgetJob(const Digest& job) override;
   [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(

@@ -287,10 +287,19 @@ class Worker {
     }
   }
 
-  /// Hands a result in.
+  /// Hands a result in. Blobs that the coordinator does not see yet are waited for; in the end it
+  /// is the store that failed, not the task.
   absl::Status HandIn(const Lease& lease, const TaskResult& result) {
-    const absl::Status status =
-        InSession([&](uint64_t session) { return api_.CompleteTask(session, lease, result); });
+    constexpr double kLongestLag_s = 10.0;  // NFS keeps what it knows of a folder for some seconds
+    const double until_s = Now_s() + kLongestLag_s;
+    const RetryRule until_seen{
+        .stop = ending_.get_token(),
+        .is_passing = [](const absl::Status& status) { return absl::IsAborted(status); },
+        .goes_on = [&](const absl::Status&) { return Now_s() < until_s; }};
+    const absl::Status status = Retry(until_seen, [&] {
+      return InSession([&](uint64_t session) { return api_.CompleteTask(session, lease, result); });
+    });
+    if (absl::IsAborted(status)) return absl::UnavailableError(status.message());
     if (status.ok()) Log(Describe(lease, "task_done", absl::StrCat("wall_s=", result.cost.wall_s)));
     return status;
   }

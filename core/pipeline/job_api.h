@@ -104,6 +104,9 @@ class JobApi {
   [[nodiscard]] virtual absl::StatusOr<std::vector<JobStatus>> ListJobs() = 0;
   /// Who works for the coordinator, and who did until a while ago, by name.
   [[nodiscard]] virtual absl::StatusOr<std::vector<WorkerStatus>> ListWorkers() = 0;
+  /// How many slots of workers there is work for, now or in the last minute: for who starts
+  /// workers.
+  [[nodiscard]] virtual absl::StatusOr<uint32_t> CountWantedSlots() = 0;
   [[nodiscard]] virtual absl::Status CancelJob(const Digest& job) = 0;
   /// Takes a job that has ended off the list: nothing is kept for it any more (see CollectGarbage).
   /// FailedPrecondition: it runs.

@@ -77,14 +77,16 @@ class WorkerApi {
   [[nodiscard]] virtual absl::StatusOr<HeartbeatReply> Heartbeat(
       uint64_t session, const std::vector<LeaseProgress>& leases) = 0;
   /// FailedPrecondition: stale epoch, the result was not taken (harmless). NotFound: unknown
-  /// session (join again).
+  /// session (join again). Aborted: a blob that the result names is not in the store; folders that
+  /// machines share over a network show some seconds late what another one wrote.
   [[nodiscard]] virtual absl::Status CompleteTask(uint64_t session,
                                                   const Lease& lease,
                                                   const TaskResult& result) = 0;
   /// The error's code decides what becomes of the task (coordinator/retry_policy.cc has the table):
-  /// InvalidArgument and its like are permanent and fail the job; Cancelled gives the task back;
-  /// others are tried again, so often. Where the error names a damaged blob (BlobToBlame), what
-  /// made it is done again. Answers as CompleteTask.
+  /// InvalidArgument and its like are permanent and fail the job, where there is another worker
+  /// once that says so too; Cancelled gives the task back; others are tried again, so often. Where
+  /// the error names a damaged blob (BlobToBlame), what made it is done again. Answers as
+  /// CompleteTask.
   [[nodiscard]] virtual absl::Status FailTask(uint64_t session,
                                               const Lease& lease,
                                               const absl::Status& error) = 0;

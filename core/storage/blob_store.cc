@@ -95,17 +95,30 @@ absl::StatusOr<std::string> BlobStore::Get(const Digest& digest) {
 absl::Status BlobStore::Read(const Digest& digest, const TakePiece& take) {
   FaultPoint("get", FaultSide::kBefore);
   const std::string path = FileOf(digest);
-  if (path.empty())
-    return absl::NotFoundError(absl::StrCat(DescribeBlob(digest), " is not stored"));
+  if (path.empty()) return NotStored(digest);
   DigestBuilder builder;
   ORBWEAVE_RETURN_IF_ERROR(ReadInPieces(path, [&](std::string_view piece) {
     builder.Add(piece);
     return take(piece);
   }));
   if (builder.Finish() == digest) return absl::OkStatus();
-  Forget(digest);
-  return absl::DataLossError(
-      absl::StrCat(DescribeBlob(digest), " is damaged: ", path, " has other bytes"));
+  // A link is kept, so that whoever asks again is told of the file too.
+  const bool is_own = path == BlobPath(digest);
+  if (is_own) Forget(digest);
+  return absl::DataLossError(absl::StrCat(
+      DescribeBlob(digest),
+      " is damaged: ",
+      path,
+      is_own ? " has other bytes" : " was changed after the job was submitted; submit it again"));
+}
+
+absl::Status BlobStore::NotStored(const Digest& digest) const {
+  const std::string linked = follows_links_ ? LinkOf(digest) : std::string();
+  return absl::NotFoundError(absl::StrCat(DescribeBlob(digest),
+                                          " is not stored",
+                                          linked.empty() ? "" : ": it was the file ",
+                                          linked,
+                                          linked.empty() ? "" : ", which is gone"));
 }
 
 absl::StatusOr<Digest> BlobStore::Put(std::string_view bytes) {

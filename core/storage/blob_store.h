@@ -74,6 +74,8 @@ class BlobStore final : public BlobDepot {
   [[nodiscard]] std::string BlobPath(const Digest& digest) const;
   [[nodiscard]] std::string LinkPath(const Digest& digest) const;
   [[nodiscard]] std::string ScratchDir() const { return folder_ + "/tmp"; }
+  /// The error of a blob that is not there, with the name of the file that it was.
+  [[nodiscard]] absl::Status NotStored(const Digest& digest) const;
   /// The file that holds the blob's bytes, whether ours or linked; empty when there is none.
   [[nodiscard]] std::string FileOf(const Digest& digest) const;
   void Forget(const Digest& digest) const;

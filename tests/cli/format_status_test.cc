@@ -42,17 +42,6 @@ TEST(FormatJobStatus, SaysHowLongARunningJobMayTake) {
   EXPECT_EQ(nlohmann::json::parse(JobStatusToJson(job))["eta_s"], 61.0);
 }
 
-TEST(CountOpenTasks, AreTheOpenTasksOfRunningJobs) {
-  EXPECT_EQ(CountOpenTasks({}), 0U);
-  JobStatus job = Example();
-  EXPECT_EQ(CountOpenTasks({job}), 0U) << "it has failed";
-  job.state = JobState::kRunning;
-  job.stages = {{.stage = "match", .tasks_total = 9, .tasks_done = 2}, {.stage = "merge"}};
-  EXPECT_EQ(CountOpenTasks({job, job}), 14U);
-  job.stages = {{.stage = "match", .tasks_total = 9, .tasks_done = 9}};
-  EXPECT_EQ(CountOpenTasks({job}), 1U) << "between two stages";
-}
-
 TEST(FormatJobStatus, SaysWhatNoWorkerHas) {
   JobStatus job = Example();
   EXPECT_THAT(FormatJobStatus(job), ::testing::Not(::testing::HasSubstr("waits")));

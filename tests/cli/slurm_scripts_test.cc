@@ -78,7 +78,9 @@ class SlurmScripts : public ::testing::Test {
                       .max_nodes = 3,
                       .cpus = 2,
                       .time = "0:10:00",
-                      .sbatch = {"--account=city"}};
+                      .sbatch = {"--account=city"},
+                      .coordinator_sbatch = {"--partition=long"},
+                      .workers_sbatch = {"--mem=64G"}};
 };
 
 TEST_F(SlurmScripts, TheCoordinatorSubmitsWorkersRunsTheJobAndCancelsWhoStillWaits) {
@@ -201,6 +203,10 @@ TEST_F(SlurmScripts, SayWhatTheSiteWants) {
     EXPECT_THAT(script, HasSubstr("\n#SBATCH --requeue\n"));
   }
   EXPECT_THAT(WorkersScript(launch_), HasSubstr("\n#SBATCH --cpus-per-task=2\n"));
+  EXPECT_THAT(WorkersScript(launch_), HasSubstr("\n#SBATCH --mem=64G\n"));
+  EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--partition")));
+  EXPECT_THAT(CoordinatorScript(launch_), HasSubstr("\n#SBATCH --partition=long\n"));
+  EXPECT_THAT(CoordinatorScript(launch_), Not(HasSubstr("--mem")));
 }
 
 TEST(ShellWord, IsOneWordWhateverIsInIt) {

@@ -224,6 +224,7 @@ TEST_P(CoordinatorContract, RunsAJobFromSubmissionToAnswer) {
   EXPECT_EQ(workers->at(0).slots, 2U);
   EXPECT_TRUE(workers->at(0).alive);
   EXPECT_EQ(*ToyAnswer(Api(), job), "14");
+  EXPECT_EQ(*Api().CountWantedSlots(), 3U) << "so many tasks there were within the last minute";
 }
 
 TEST_P(CoordinatorContract, ListsOutcomesByStageAndPartAndTimings) {

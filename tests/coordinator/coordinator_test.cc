@@ -292,7 +292,7 @@ TEST_F(CoordinatorTest, AResultThatNamesUnknownBlobsIsRefused) {
   Submit("1");
   const Lease lease = MustLease(session);
   const TaskResult result{.outputs = {DigestOf("never put")}};
-  EXPECT_TRUE(absl::IsInvalidArgument(coordinator_->CompleteTask(session, lease, result)));
+  EXPECT_TRUE(absl::IsAborted(coordinator_->CompleteTask(session, lease, result)));
   EXPECT_TRUE(Do(session, lease).ok());
 }
 

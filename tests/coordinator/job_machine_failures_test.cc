@@ -143,6 +143,27 @@ TEST(JobMachineFailures, FailsAtOnceWhenAnErrorIsPermanent) {
   }
 }
 
+TEST(JobMachineFailures, HearsASecondWorkerWhereThereIsOneBeforeAnErrorIsPermanent) {
+  const absl::Status error = absl::InvalidArgumentError("no images");
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", 1);
+  machine.TaskFailed(LeaseNext(machine, "w1", 100.0), error, 100.0, {"w1", "w2"});
+  EXPECT_EQ(machine.state(), JobState::kRunning);
+  EXPECT_EQ(machine.NextReady({"w1"}, {"w1", "w2"}, 200.0), std::nullopt);
+  machine.TaskFailed(LeaseNext(machine, "w2", 200.0), error, 200.0, {"w1", "w2", "w3"});
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+  EXPECT_THAT(machine.error(), HasSubstr("no images"));
+}
+
+TEST(JobMachineFailures, DoesNotWaitForASecondWorkerThatLeft) {
+  JobMachine machine = MachineFor({"a"});
+  Begin(machine, "a", 1);
+  const absl::Status error = absl::InvalidArgumentError("no images");
+  machine.TaskFailed(LeaseNext(machine, "w1", 100.0), error, 100.0, {"w1", "w2"});
+  machine.TaskFailed(LeaseNext(machine, "w1", 200.0), error, 200.0, {"w1"});
+  EXPECT_EQ(machine.state(), JobState::kFailed);
+}
+
 TEST(JobMachineFailures, AReturnedTaskIsReadyAtOnceAndDoesNotCount) {
   JobMachine machine = MachineFor({"a"});
   Begin(machine, "a", 1);

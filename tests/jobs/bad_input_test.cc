@@ -86,6 +86,87 @@ TEST(BadInput, BadImagesAreLeftOutByNameAndTheRestGoesOn) {
   EXPECT_EQ(run.exit_code, 1);
 }
 
+/// What a run of these images says that ends with nothing, and names no fault of its own.
+std::string VerdictOf(const std::map<std::string, std::string>& images) {
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] : images) WriteAll(folder / ("images/" + name), bytes);
+  const CommandOutcome run = RunImages(folder);
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_EQ(ReportOf(folder / "out")["verdict"]["level"], "bad");
+  return run.out + run.err;
+}
+
+TEST(BadInput, TooLittleToReconstructEndsWithWhatIsMissing) {
+  const std::string panorama = Jpeg(512, 256, 1);
+  EXPECT_THAT(VerdictOf({{"one.jpg", panorama}}), HasSubstr("one.jpg: no verified matches"));
+  EXPECT_THAT(VerdictOf({{"a.jpg", panorama}, {"b.jpg", panorama}, {"c.jpg", panorama}}),
+              HasSubstr("2 images: it is byte for byte a copy of a.jpg"));
+}
+
+TEST(BadInput, TinyPicturesAreNoReasonToFail) {
+  std::map<std::string, std::string> tiny;
+  for (int i = 0; i < 4; ++i) {
+    std::vector<uchar> png;
+    cv::imencode(".png", cv::Mat(1, 2, CV_8UC3, cv::Scalar(40 * i, 7 * i, 90)), png);
+    tiny["tiny_" + std::to_string(i) + ".png"] = std::string(png.begin(), png.end());
+  }
+  EXPECT_THAT(VerdictOf(tiny), HasSubstr("4 images: no verified matches"));
+}
+
+/// A job of three images that waits for its first worker.
+class WaitingJob : public ::testing::Test {
+ protected:
+  WaitingJob() {
+    WriteGoodImages(folder_);
+    run_.emplace(std::vector<std::string>{ORBWEAVE_BINARY,
+                                          "run",
+                                          folder_ / "images",
+                                          "--output",
+                                          folder_ / "out",
+                                          "--workers",
+                                          "0",
+                                          "--listen",
+                                          "unix:" + (folder_ / "s"),
+                                          "--announce",
+                                          folder_ / "c.json"});
+    EXPECT_TRUE(WaitUntil([this] { return IsSubmitted(); }, 30.0)) << run_->ErrSoFar();
+  }
+  /// How it ends once somebody works.
+  CommandOutcome End() {
+    Command worker({ORBWEAVE_BINARY, "work", "--join", "@" + (folder_ / "c.json")});
+    const CommandOutcome outcome = run_->Wait();
+    worker.Wait();
+    return outcome;
+  }
+
+  TemporaryFolder folder_;
+  std::string changed_ = folder_ / "images/good_2.jpg";
+
+ private:
+  bool IsSubmitted() {
+    const CommandOutcome status =
+        RunCommand({ORBWEAVE_BINARY, "status", "--coordinator", "@" + (folder_ / "c.json")});
+    return status.out.find("running") != std::string::npos;
+  }
+  std::optional<Command> run_;
+};
+
+TEST_F(WaitingJob, NamesAnImageThatWasChangedMeanwhile) {
+  WriteAll(changed_, Jpeg(512, 256, 7));
+  const CommandOutcome run = End();
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr(changed_ + " was changed after the job was submitted"));
+  const CommandOutcome again = RunImages(folder_);
+  EXPECT_EQ(ReportOf(folder_ / "out")["images_total"], 3) << again.err;
+}
+
+TEST_F(WaitingJob, NamesAnImageThatWasRemovedMeanwhile) {
+  std::filesystem::remove(changed_);
+  const CommandOutcome run = End();
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr(changed_ + ", which is gone"));
+}
+
 TEST(BadInput, AnEmptyFolderIsRefused) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "images");

@@ -162,6 +162,61 @@ TEST(Limits, StreamsBeyondThoseOfAConnectionWait) {
   EXPECT_EQ(answered, 6);
 }
 
+/// A stream of a blob of ten bytes, of which one is sent.
+class BegunBlob {
+ public:
+  explicit BegunBlob(v1::Coordinator::Stub& stub) : writer_(stub.PutBlob(&context_, &reply_)) {
+    v1::BlobChunk chunk;
+    chunk.set_digest(std::string(32, 'd'));
+    chunk.set_size_bytes(10);
+    chunk.set_data("x");
+    writer_->Write(chunk);
+  }
+  bool SendOne() {
+    v1::BlobChunk chunk;
+    chunk.set_data("x");
+    return writer_->Write(chunk);
+  }
+  grpc::StatusCode End() { return writer_->Finish().error_code(); }
+  grpc::StatusCode Close() {
+    writer_->WritesDone();
+    return End();
+  }
+
+ private:
+  grpc::ClientContext context_;
+  v1::PutBlobReply reply_;
+  std::unique_ptr<grpc::ClientWriter<v1::BlobChunk>> writer_;
+};
+
+TEST(Limits, AStreamThatBringsNothingIsCalledOff) {
+  TlsServer server({.limits = {.streams = {.longest_wait_s = 0.4}}});
+  const auto stub =
+      v1::Coordinator::NewStub(OpenChannel(server.address(), server.keys() + "/client"));
+  BegunBlob slow(*stub);
+  for (int i = 0; i < 8; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_TRUE(slow.SendOne());
+  }
+  EXPECT_EQ(slow.Close(), grpc::StatusCode::DATA_LOSS) << "a byte less than was said";
+  BegunBlob silent(*stub);
+  EXPECT_EQ(silent.End(), grpc::StatusCode::CANCELLED);
+}
+
+TEST(Limits, SilentStreamsDoNotKeepOthersOut) {
+  constexpr int kThreads = 12;
+  TlsServer server({.limits = {.threads = kThreads, .streams = {.most_of_one_peer = 4}}});
+  const auto stub =
+      v1::Coordinator::NewStub(OpenChannel(server.address(), server.keys() + "/client"));
+  std::vector<std::unique_ptr<BegunBlob>> held;
+  for (int i = 0; i < 4; ++i) held.push_back(std::make_unique<BegunBlob>(*stub));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  for (int i = 0; i < 3 * kThreads; ++i)
+    EXPECT_EQ(BegunBlob(*stub).Close(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_TRUE(server.As("node")->Join(Worker("node")).ok());
+  EXPECT_TRUE(server.As("node")->Put("bytes of another").ok());
+}
+
 TEST(Limits, AWorkerHasSlotsWithinReason) {
   TlsServer server;
   const auto node = server.As("node");

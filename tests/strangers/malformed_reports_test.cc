@@ -99,8 +99,7 @@ TEST_F(MalformedReports, OfTasksAreRefused) {
       [](auto& request) { request.mutable_lease()->mutable_spec()->add_inputs("short"); },
       [](auto& request) { request.mutable_result()->add_outputs(""); },
       [](auto& request) { request.mutable_result()->add_outputs(std::string(33, 'd')); },
-      [](auto& request) { request.mutable_result()->add_recipes(std::string(1'000'000, 'd')); },
-      [](auto& request) { request.mutable_result()->add_outputs(std::string(32, 'd')); }};
+      [](auto& request) { request.mutable_result()->add_recipes(std::string(1'000'000, 'd')); }};
   const v1::CompleteTaskRequest done = Done();
   for (size_t i = 0; i < ways.size(); ++i) {
     v1::CompleteTaskRequest spoilt = done;
@@ -108,6 +107,10 @@ TEST_F(MalformedReports, OfTasksAreRefused) {
     EXPECT_EQ(Complete(spoilt), grpc::StatusCode::INVALID_ARGUMENT) << i;
     ExpectTheTaskIsStillOurs();
   }
+  v1::CompleteTaskRequest never_put = done;
+  never_put.mutable_result()->add_outputs(std::string(32, 'd'));
+  EXPECT_EQ(Complete(never_put), grpc::StatusCode::ABORTED) << "it may be there in a moment";
+  ExpectTheTaskIsStillOurs();
   EXPECT_EQ(Complete(done), grpc::StatusCode::OK);
 }
 

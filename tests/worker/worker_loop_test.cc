@@ -165,6 +165,52 @@ TEST_F(WorkerLoopTest, HandsInOnlyWhatIsStoredAndBeginsTheNextTaskMeanwhile) {
   EXPECT_EQ(coordinator->GetJob(job)->stages[1].retries, 0U);
 }
 
+/// A store whose blobs the coordinator sees a while later, as folders that are shared over a
+/// network have it.
+class LateBlobs final : public BlobAccess {
+ public:
+  LateBlobs(BlobAccess& store, double lag_s) : store_(store), lag_s_(lag_s) {}
+  ~LateBlobs() override {
+    for (std::thread& writer : writers_) writer.join();
+  }
+  absl::StatusOr<std::string> Get(const Digest& digest) override { return store_.Get(digest); }
+  absl::StatusOr<Digest> Put(std::string_view bytes) override {
+    const std::lock_guard lock(mutex_);
+    writers_.emplace_back([this, late = std::string(bytes)] {
+      std::this_thread::sleep_for(std::chrono::duration<double>(lag_s_));
+      (void)store_.Put(late);
+    });
+    return DigestOf(bytes);
+  }
+
+ private:
+  BlobAccess& store_;
+  double lag_s_ = 0.0;
+  std::mutex mutex_;
+  std::vector<std::thread> writers_;
+};
+
+TEST_F(WorkerLoopTest, WaitsForBlobsThatTheCoordinatorDoesNotSeeYet) {
+  const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
+  const Digest job = Submit(*coordinator, "2");
+  testing::StageMap stages = ToyStages();
+  LateBlobs blobs(*coordinator, 0.7);
+  std::stop_source stop;
+  std::thread worker([&] {
+    const StageLookup lookup = LookupIn(stages);
+    (void)RunWorker(*coordinator,
+                    blobs,
+                    testing::RunInProcess(lookup, clock_),
+                    {.name = "w", .slots = 1, .poll_s = 0.1},
+                    stop.get_token());
+  });
+  EXPECT_EQ(WaitForEnd(*coordinator, job)->state, JobState::kDone);
+  EXPECT_EQ(*ToyAnswer(*coordinator, job), "4");
+  EXPECT_EQ(coordinator->GetJob(job)->stages[1].retries, 0U);
+  stop.request_stop();
+  worker.join();
+}
+
 TEST_F(WorkerLoopTest, ReadsAndWritesInTheFolderThatItShares) {
   const std::string address = "unix:" + (folder_ / "s");
   const auto coordinator = OpenCoordinator(folder_ / "state", clock_);

@@ -94,7 +94,17 @@ TEST(BlobStore, ReadsALinkedFileAndNoticesWhenItChanged) {
   ASSERT_TRUE(store->LinkFile(digest, image).ok());
   EXPECT_EQ(*store->Get(digest), "pixels");
   Overwrite(image, "others");
-  EXPECT_TRUE(absl::IsDataLoss(store->Get(digest).status()));
+  for (int i = 0; i < 2; ++i) {
+    const absl::Status changed = store->Get(digest).status();
+    EXPECT_TRUE(absl::IsDataLoss(changed)) << i;
+    EXPECT_NE(changed.message().find(image + " was changed"), std::string::npos) << changed;
+  }
+  Overwrite(image, "pixels");
+  EXPECT_EQ(*store->Get(digest), "pixels") << "as it was";
+  std::filesystem::remove(image);
+  const absl::Status gone = store->Get(digest).status();
+  EXPECT_TRUE(absl::IsNotFound(gone));
+  EXPECT_NE(gone.message().find(image + ", which is gone"), std::string::npos) << gone;
 }
 
 TEST(BlobStore, RefusesToLinkWhatIsNotTheFile) {
