@@ -82,7 +82,7 @@ std::string Lines(const char* label, const std::vector<std::string>& lines, cons
 
 std::string VerdictLines(const Verdict& verdict) {
   return absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
-         Lines("", verdict.reasons, "reasons");
+         Lines("", verdict.reasons, "reasons") + Lines("unchecked", verdict.unchecked, "things");
 }
 
 std::string StageTable(const JobReport& report) {

@@ -215,7 +215,8 @@ std::string ReportJson(const JobReport& report) {
   json["version"] = report.version;
   json["title"] = report.title;
   json["verdict"] = {{"level", LevelText(report.verdict.level)},
-                     {"reasons", report.verdict.reasons}};
+                     {"reasons", report.verdict.reasons},
+                     {"unchecked", report.verdict.unchecked}};
   json["images_total"] = report.images_total;
   json["registered"] = report.registered;
   json["not_registered"] = NotRegistered(report);

@@ -103,6 +103,8 @@ std::string VerdictHtml(const JobReport& report) {
                             report.checks.size() == 1 ? " check finds" : " checks find",
                             " nothing that speaks against the model.</p>")
              : "<ul>" + body + "</ul>";
+  for (const std::string& thing : verdict.unchecked)
+    absl::StrAppend(&body, "<p class=\"sub\">Not checked: ", EscapeHtml(thing), ".</p>");
   return absl::StrCat("<section class=\"verdict ",
                       LevelText(verdict.level),
                       "\"><h2>",

@@ -17,6 +17,7 @@
 #include "core/report/check_standing_camera.h"
 #include "core/report/judge_model.h"
 #include "core/report/list_missing_images.h"
+#include "core/report/list_unchecked.h"
 #include "core/report/summarise_uncertainty.h"
 
 namespace orbweave {
@@ -267,6 +268,7 @@ void Judge(const JobResults& results, JobReport& report) {
     report.checks.push_back(*pairs);
   std::ranges::copy(CheckJob(results, report), std::back_inserter(report.checks));
   report.verdict = JudgeModel(report);
+  report.verdict.unchecked = ListUnchecked(results, report);
 }
 
 }  // namespace

@@ -266,26 +266,37 @@ void DoubtGnssInUse(const ReportGnss& gnss, double stated_m, CrossCheck& check) 
   }
 }
 
-std::optional<CrossCheck> CheckGnssUse(const JobResults& results, const JobReport& report) {
-  constexpr size_t kMinPositions = 4;   // fewer never georeference
-  constexpr double kMinAgreeing = 0.7;  // nor does GNSS of which less agree
-  if (results.models.empty() || report.gnss.reason == "switched off") return std::nullopt;
+/// Positions of the images that a model holds by itself.
+std::vector<const PosePrior*> PositionsOf(const JobResults& results, size_t model) {
   std::vector<const PosePrior*> priors;
-  for (const auto& [id, image] : results.models.front().images) {
+  for (const auto& [id, image] : results.models[model].images) {
     const PosePrior& prior = results.manifest.At(id).prior;
     if (!image.loose && prior.position_in_enu) priors.push_back(&prior);
   }
+  return priors;
+}
+
+/// Of the model with this number; of others than the first, where its positions put it on earth.
+std::optional<CrossCheck> CheckGnssUse(const JobResults& results,
+                                       const JobReport& report,
+                                       size_t model) {
+  constexpr size_t kMinPositions = 4;   // fewer never georeference
+  constexpr double kMinAgreeing = 0.7;  // nor does GNSS of which less agree
+  const ReportGnss& gnss = report.each_model[model].gnss;
+  if (gnss.reason == "switched off" || (model > 0 && !gnss.used)) return std::nullopt;
+  const std::vector<const PosePrior*> priors = PositionsOf(results, model);
   if (priors.size() < kMinPositions) return std::nullopt;
   CrossCheck check{.name = "gnss_used", .limit = kMinAgreeing, .unit = "share"};
-  if (report.gnss.used) {
-    check.value = ShareOf(report.gnss.num_inliers, report.gnss.num_priors);
-    check.sentence = CountOf(
-        report.gnss.num_inliers, report.gnss.num_priors, "GNSS positions agree with the model");
-    DoubtGnssInUse(report.gnss, StatedDistance(priors), check);
+  const std::string of_model = model > 0 ? absl::StrCat("model ", model, ": ") : "";
+  if (gnss.used) {
+    check.value = ShareOf(gnss.num_inliers, gnss.num_priors);
+    check.sentence =
+        of_model +
+        CountOf(gnss.num_inliers, gnss.num_priors, "GNSS positions agree with the model");
+    DoubtGnssInUse(gnss, StatedDistance(priors), check);
     return check;
   }
-  check.sentence =
-      absl::StrCat(priors.size(), " GNSS positions are not used: ", report.gnss.reason);
+  check.sentence = absl::StrCat(priors.size(), " GNSS positions are not used: ", gnss.reason);
   if (!SpreadBeyondNoise(priors)) return check;
   check.level = CheckLevel::kDoubtful;
   check.sentence += "; either they are wrong or the model is";
@@ -357,10 +368,12 @@ std::vector<CrossCheck> CheckJob(const JobResults& results, const JobReport& rep
                                                  CheckSeamFits(report),
                                                  CheckSeamsInLoops(report),
                                                  CheckCertified(report),
-                                                 CheckGnssUse(results, report),
                                                  CheckConverged(results),
                                                  CheckUncertainty(report)}) {
     if (check) checks.push_back(*check);
+  }
+  for (size_t model = 0; model < results.models.size(); ++model) {
+    if (const auto check = CheckGnssUse(results, report, model)) checks.push_back(*check);
   }
   return checks;
 }

@@ -19,9 +19,10 @@ namespace orbweave {
 ///   seams_fit               share of the certified seams whose two sides agree
 ///   seams_in_loops          share of the seams that no loop contradicts
 ///   clusters_certified      share of the clusters with seams of which one at least is certified
-///   gnss_used               share of the main model's GNSS positions that agree; 0 when not used
 ///   adjustment_converged    what the last step of an adjustment that stopped early moved
 ///   uncertainty_known       share of the registered images whose sigmas are known
+///   gnss_used               of each model that GNSS puts on earth: share of its positions that
+///                           agree; 0 where those of the first model are not used
 [[nodiscard]] std::vector<CrossCheck> CheckJob(const JobResults& results, const JobReport& report);
 
 }  // namespace orbweave

@@ -38,6 +38,7 @@ struct CrossCheck {
 struct Verdict {
   CheckLevel level = CheckLevel::kGood;
   std::vector<std::string> reasons{};
+  std::vector<std::string> unchecked{};  ///< what no check could see (ListUnchecked)
 };
 
 }  // namespace orbweave

@@ -149,7 +149,7 @@ TEST_F(GrantedBlobsTest, AResultIsTakenWhenItsBlobsAreInTheStore) {
       client_->Join({.name = "w", .version = std::string(BuildVersion())})->session;
   const Lease lease = LeaseTask(session);
   TaskResult result{.recipes = {DigestOf(large_)}, .report_json = "{}"};
-  EXPECT_TRUE(absl::IsInvalidArgument(client_->CompleteTask(session, lease, result)));
+  EXPECT_TRUE(absl::IsAborted(client_->CompleteTask(session, lease, result)));
   ASSERT_TRUE(client_->Put(large_).ok());
   store_.FailNext("HEAD", std::vector<StoreFault>(6, StoreFault::kSlowDown));
   // A store that does not answer is no fault of the result.

@@ -16,6 +16,7 @@
 namespace orbweave {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -96,6 +97,22 @@ TEST(JudgeModel, NoModelIsBad) {
   ASSERT_EQ(verdict.reasons.size(), 1U);
   EXPECT_THAT(verdict.reasons.front(), HasSubstr("no panorama"));
   EXPECT_EQ(JudgeModel({}).level, CheckLevel::kBad) << "nor is an empty report good";
+}
+
+TEST(JudgeModel, SaysWhatNothingCouldCheck) {
+  JobResults free = Street(36, {{0, 36}});
+  EXPECT_THAT(BuildJobReport(free).verdict.unchecked,
+              ElementsAre("the lengths of the steps along the street: no GNSS tells them"));
+  JobResults on_earth = Street(36, {{0, 36}}, true);
+  EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked,
+              ElementsAre(HasSubstr("whether a vehicle can have made the steps: they have no")));
+  for (ImageRecord& image : on_earth.manifest.images) image.capture_time_s = 2.0 * image.id.value;
+  EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked, IsEmpty());
+  JobResults both = Street(36, {{0, 30}, {30, 36}}, true);
+  both.models[1].report.gnss.used = false;
+  EXPECT_THAT(BuildJobReport(both).verdict.unchecked.front(),
+              HasSubstr("of 6 of 36 registered panoramas along the street"));
+  EXPECT_THAT(BuildJobReport(Street(36, {})).verdict.unchecked, IsEmpty());
 }
 
 TEST(JudgeModel, ASideModelOfAFreeStreetIsDoubtfulAndManyAreBad) {
@@ -232,6 +249,20 @@ TEST(JudgeModel, ASeamThatLoopsContradictIsDoubted) {
 }
 
 /// Two models on earth of a street in two parts, with a check each.
+TEST(CheckJob, DoubtsASmallerModelThatItsPositionsPutWhereMostOfThemAreNot) {
+  JobResults results = Street(60, {{0, 40}, {40, 60}}, true);
+  const auto doubts = [&results] {
+    const JobReport report = BuildJobReport(results);
+    return std::ranges::count_if(report.checks, [](const CrossCheck& check) {
+      return check.name == "gnss_used" && check.level == CheckLevel::kDoubtful;
+    });
+  };
+  EXPECT_EQ(doubts(), 0);
+  results.models[1].report.gnss.num_inliers = 13;
+  EXPECT_EQ(doubts(), 1);
+  EXPECT_THAT(Find(BuildJobReport(results).checks, "gnss_used")->sentence, HasSubstr("40 of 40"));
+}
+
 JobResults TwoParts(uint32_t first) {
   JobResults results = Street(60, {{0, first}, {first, 60}}, true);
   std::erase_if(results.view_graph.edges,
