@@ -80,9 +80,11 @@ std::string Lines(const char* label, const std::vector<std::string>& lines, cons
   return text;
 }
 
+/// The verdict stands last.
 std::string VerdictLines(const Verdict& verdict) {
-  return absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
-         Lines("", verdict.reasons, "reasons") + Lines("unchecked", verdict.unchecked, "things");
+  return Lines("unchecked", verdict.unchecked, "things") +
+         absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
+         Lines("", verdict.reasons, "reasons");
 }
 
 std::string StageTable(const JobReport& report) {
