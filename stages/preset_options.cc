@@ -11,10 +11,11 @@ namespace {
 
 /// Sections 3 to 5 of the paper; docs/benchmarks.md says what each stands for. A stage that learns
 /// something the paper does not have gets a line here that turns it off.
-constexpr std::array<std::string_view, 18> kPaper = {
+constexpr std::array<std::string_view, 19> kPaper = {
     "mapping.preset=paper",
     "features.max_features=8192",
     "pairs.gnss_max_neighbours=10000",
+    "pairs.gnss_min_neighbours=0",
     "pairs.first_neighbours=0",
     "retrieval.num_neighbours=0",
     "matching.guided=false",
