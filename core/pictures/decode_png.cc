@@ -69,7 +69,10 @@ absl::Status DecodePng(std::string_view encoded, cv::Mat& bgr) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, StopAtError, StaySilent);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   bool fits = true;
-  if (info == nullptr) return absl::ResourceExhaustedError("no memory to decode a PNG");
+  if (info == nullptr) {
+    png_destroy_read_struct(&png, nullptr, nullptr);
+    return absl::ResourceExhaustedError("no memory to decode a PNG");
+  }
   if (setjmp(source.stop) == 0) {
     // A panorama's text and profiles may be large; what they take of memory is libpng's limit.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);

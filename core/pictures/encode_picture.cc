@@ -4,20 +4,41 @@
 
 #include <png.h>
 
-#include <cstdlib>
-#include <memory>
-#include <vector>
+#include <cstdint>
+#include <utility>
 
 #include "core/pictures/jpeg_judge.h"
 
 namespace orbweave {
 namespace {
 
-/// What libjpeg allocates for the bytes.
-struct JpegBytes {
-  unsigned char* data = nullptr;
-  unsigned long size = 0;  // NOLINT(google-runtime-int): libjpeg's type
+/// Takes libjpeg's bytes into a string, which grows as they come. libjpeg's own growing buffer is
+/// told to its owner only at the end, and an error would leave it with one that is gone.
+struct JpegSink {
+  jpeg_destination_mgr manager{};  ///< first: libjpeg knows this address alone
+  std::string bytes{};
 };
+
+JpegSink& SinkOf(j_compress_ptr codec) { return *reinterpret_cast<JpegSink*>(codec->dest); }
+
+/// Room for as many bytes again as there are, and some.
+void Grow(j_compress_ptr codec) {
+  JpegSink& sink = SinkOf(codec);
+  const size_t taken = sink.bytes.size();
+  sink.bytes.resize(2 * taken + (size_t{64} << 10));
+  sink.manager.next_output_byte = reinterpret_cast<JOCTET*>(sink.bytes.data() + taken);
+  sink.manager.free_in_buffer = sink.bytes.size() - taken;
+}
+
+boolean GrowFull(j_compress_ptr codec) {
+  Grow(codec);
+  return TRUE;
+}
+
+void CutOff(j_compress_ptr codec) {
+  JpegSink& sink = SinkOf(codec);
+  sink.bytes.resize(sink.bytes.size() - sink.manager.free_in_buffer);
+}
 
 /// Owns nothing itself: errors jump over it.
 void EncodeAllRows(jpeg_compress_struct& codec, const cv::Mat& pixels, int quality) {
@@ -69,19 +90,21 @@ absl::StatusOr<std::string> EncodePng(const cv::Mat& pixels) {
 
 absl::StatusOr<std::string> EncodeJpeg(const cv::Mat& pixels, int quality) {
   JpegJudge judge;
-  JpegBytes encoded;
+  JpegSink sink;
+  sink.manager.init_destination = Grow;
+  sink.manager.empty_output_buffer = GrowFull;
+  sink.manager.term_destination = CutOff;
   jpeg_compress_struct codec{};
   SetJudge(reinterpret_cast<j_common_ptr>(&codec), 0, judge);
   if (setjmp(judge.stop) == 0) {
     jpeg_create_compress(&codec);
-    jpeg_mem_dest(&codec, &encoded.data, &encoded.size);
+    codec.dest = &sink.manager;
     EncodeAllRows(codec, pixels, quality);
   }
   jpeg_destroy_compress(&codec);
-  const std::unique_ptr<unsigned char, decltype(&std::free)> owner(encoded.data, std::free);
   if (judge.problem[0] != '\0')
     return absl::InternalError("cannot encode the picture: " + std::string(judge.problem));
-  return std::string(reinterpret_cast<const char*>(encoded.data), encoded.size);
+  return std::move(sink.bytes);
 }
 
 }  // namespace orbweave

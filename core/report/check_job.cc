@@ -287,11 +287,10 @@ std::optional<CrossCheck> CheckGnssUse(const JobResults& results,
   const std::vector<const PosePrior*> priors = PositionsOf(results, model);
   if (priors.size() < kMinPositions) return std::nullopt;
   CrossCheck check{.name = "gnss_used", .limit = kMinAgreeing, .unit = "share"};
-  const std::string of_model = model > 0 ? absl::StrCat("model ", model, ": ") : "";
   if (gnss.used) {
     check.value = ShareOf(gnss.num_inliers, gnss.num_priors);
     check.sentence =
-        of_model +
+        (model > 0 ? absl::StrCat("model ", model, ": ") : "") +
         CountOf(gnss.num_inliers, gnss.num_priors, "GNSS positions agree with the model");
     DoubtGnssInUse(gnss, StatedDistance(priors), check);
     return check;

@@ -27,16 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-absl::Status WriteBytes(const fs::path& path, const char* bytes, size_t size) {
+absl::Status WriteText(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
-  file.write(bytes, static_cast<std::streamsize>(size));
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
   file.close();
   if (!file) return absl::UnavailableError("cannot write " + path.string());
   return absl::OkStatus();
-}
-
-absl::Status WriteText(const fs::path& path, const std::string& text) {
-  return WriteBytes(path, text.data(), text.size());
 }
 
 absl::Status WriteImage(const fs::path& path, const absl::StatusOr<std::string>& encoded) {

@@ -8,10 +8,10 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/random.h"
+#include "tests/core/pictures/encoded_images.h"
 #include "tests/jobs/corridor_job.h"
 
 namespace orbweave::testing {
@@ -33,9 +33,7 @@ cv::Mat Texture(int width, int height, uint64_t seed) {
 }
 
 std::string Jpeg(int width, int height, uint64_t seed) {
-  std::vector<uchar> bytes;
-  cv::imencode(".jpg", Texture(width, height, seed), bytes);
-  return {bytes.begin(), bytes.end()};
+  return Encoded(Texture(width, height, seed), ".jpg");
 }
 
 CommandOutcome RunImages(const TemporaryFolder& folder, const std::vector<std::string>& more = {}) {
@@ -106,9 +104,8 @@ TEST(BadInput, TooLittleToReconstructEndsWithWhatIsMissing) {
 TEST(BadInput, TinyPicturesAreNoReasonToFail) {
   std::map<std::string, std::string> tiny;
   for (int i = 0; i < 4; ++i) {
-    std::vector<uchar> png;
-    cv::imencode(".png", cv::Mat(1, 2, CV_8UC3, cv::Scalar(40 * i, 7 * i, 90)), png);
-    tiny["tiny_" + std::to_string(i) + ".png"] = std::string(png.begin(), png.end());
+    tiny["tiny_" + std::to_string(i) + ".png"] =
+        Encoded(cv::Mat(1, 2, CV_8UC3, cv::Scalar(40 * i, 7 * i, 90)), ".png");
   }
   EXPECT_THAT(VerdictOf(tiny), HasSubstr("4 images: no verified matches"));
 }
@@ -193,9 +190,7 @@ TEST(BadInput, AFolderOfUselessFilesFailsWithTheReasons) {
 TEST(BadInput, AMaskOfAnotherShapeIsWarnedOfAndNotUsed) {
   const TemporaryFolder folder;
   WriteGoodImages(folder);
-  std::vector<uchar> png;
-  cv::imencode(".png", cv::Mat::zeros(100, 128, CV_8UC1), png);
-  WriteAll(folder / "masks/good_2.png", {png.begin(), png.end()});
+  WriteAll(folder / "masks/good_2.png", Encoded(cv::Mat::zeros(100, 128, CV_8UC1), ".png"));
   const CommandOutcome run = RunImages(folder, {"--masks", folder / "masks"});
   EXPECT_THAT(ReportOf(folder / "out")["warnings"].dump(), HasSubstr("good_2")) << run.err;
 }

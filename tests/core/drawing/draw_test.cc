@@ -10,6 +10,7 @@
 #include "core/drawing/color_scale.h"
 #include "core/drawing/draw_image.h"
 #include "core/drawing/draw_pair.h"
+#include "tests/core/pictures/encoded_images.h"
 
 namespace orbweave {
 namespace {
@@ -24,9 +25,7 @@ cv::Mat Decoded(const absl::StatusOr<std::string>& png) {
 
 /// A panorama of one colour.
 std::string PlainImage(const cv::Scalar& bgr) {
-  std::vector<uchar> bytes;
-  cv::imencode(".png", cv::Mat(256, 512, CV_8UC3, bgr), bytes);
-  return {bytes.begin(), bytes.end()};
+  return Encoded(cv::Mat(256, 512, CV_8UC3, bgr), ".png");
 }
 
 /// How many pixels of the picture have nearly this colour.
