@@ -27,8 +27,8 @@ absl::Status RunInto(const std::string& folder,
   const auto conclude = [&cloud_folder](ClientApi& coordinator, const JobStatus& status) {
     return WriteJob(coordinator, status, cloud_folder);
   };
-  return RunLocalJob({.output = folder, .fleet = fleet, .prepare = prepare, .conclude = conclude},
-                     signals);
+  const LocalJob job{.output = folder, .fleet = fleet, .prepare = prepare, .conclude = conclude};
+  return RunLocalJob(job, signals);
 }
 
 }  // namespace

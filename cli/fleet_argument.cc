@@ -28,6 +28,14 @@ void AddFleetArguments(CLI::App& command, FleetArgument& argument) {
                      argument.journal_folder,
                      "Folder on a disk of this machine to keep the journal in, with a copy in the "
                      "output (default: only where that is on NFS, Lustre and their like)");
+  AddLeaseArgument(command, argument.lease_s);
+  AddMonitoringArguments(command, argument.monitoring);
+}
+
+void AddLeaseArgument(CLI::App& command, double& lease_s) {
+  command.add_option("--lease", lease_s, "Seconds of silence after which a worker is given up")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
 }
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "cli/local_fleet.h"
+#include "cli/monitoring.h"
 #include "core/base/status.h"
 
 namespace orbweave {
@@ -15,12 +16,18 @@ struct FleetArgument {
   uint32_t workers = 2;          ///< processes of this machine
   FleetDoor door{};              ///< for workers of others
   std::string journal_folder{};  ///< see LocalFleetOptions
+  MonitoringArgument monitoring{};
+  double lease_s = kDefaultLease_s;
 
   /// InvalidArgument: there would be nobody.
   [[nodiscard]] absl::Status Check() const;
 };
 
-/// Declares `--workers`, `--listen`, `--tls`, `--announce` and `--announce-host`.
+/// Declares `--workers`, `--listen`, `--tls`, `--announce` and `--announce-host`, `--lease`,
+/// `--journal-folder`, and those of AddMonitoringArguments.
 void AddFleetArguments(CLI::App& command, FleetArgument& argument);
+
+/// Declares `--lease` alone.
+void AddLeaseArgument(CLI::App& command, double& lease_s);
 
 }  // namespace orbweave

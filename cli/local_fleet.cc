@@ -48,10 +48,16 @@ absl::StatusOr<std::unique_ptr<LocalFleet>> LocalFleet::Start(const LocalFleetOp
 }
 
 absl::Status LocalFleet::OpenCoordinator() {
-  ORBWEAVE_ASSIGN_OR_RETURN(options_.coordinator.log,
+  ORBWEAVE_ASSIGN_OR_RETURN(EventLog file_log,
                             OpenEventLog(CoordinatorLogPath(options_.coordinator.state_dir)));
-  ChooseJournal();
+  ORBWEAVE_ASSIGN_OR_RETURN(monitoring_,
+                            Monitoring::Start(options_.monitoring, std::move(file_log)));
+  options_.coordinator.log = monitoring_->Log();
+  options_.coordinator.open_journal = [this, folder = JournalFolder()](const std::string&) {
+    return OpenJournalOf(folder);
+  };
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
+  ORBWEAVE_ASSIGN_OR_RETURN(pages_, monitoring_->ServePages(*coordinator_, clock_));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string socket, ChooseSocket());
   ORBWEAVE_ASSIGN_OR_RETURN(server_, GrpcServer::Start(*coordinator_, socket));
   return options_.door.IsOpen() ? OpenDoor() : absl::OkStatus();
@@ -79,17 +85,23 @@ void LocalFleet::CloseDoor() {
   door_.reset();
 }
 
-void LocalFleet::ChooseJournal() {
-  const std::string& state_dir = options_.coordinator.state_dir;
-  std::string folder = options_.journal_folder;
+std::string LocalFleet::JournalFolder() const {
   std::error_code error;
-  if (folder.empty() && !SharedFileSystemOf(state_dir).empty())
-    folder = fs::temp_directory_path(error).string();
-  if (folder.empty()) return;
-  options_.coordinator.open_journal = [place = PlaceJournal(state_dir, folder),
-                                       log = options_.coordinator.log](const std::string&) {
-    return OpenCopiedJournal(place, {.log = log});
+  const bool is_shared = !SharedFileSystemOf(options_.coordinator.state_dir).empty();
+  if (!options_.journal_folder.empty() || !is_shared) return options_.journal_folder;
+  return fs::temp_directory_path(error).string();
+}
+
+absl::StatusOr<std::unique_ptr<Journal>> LocalFleet::OpenJournalOf(
+    const std::string& journal_folder) const {
+  const std::string& state_dir = options_.coordinator.state_dir;
+  const auto open = [&] {
+    if (journal_folder.empty()) return OpenJournal(state_dir);
+    return OpenCopiedJournal(PlaceJournal(state_dir, journal_folder),
+                             {.log = options_.coordinator.log});
   };
+  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, open());
+  return monitoring_->Meter(std::move(journal));
 }
 
 absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
@@ -107,6 +119,7 @@ absl::StatusOr<std::string> LocalFleet::ChooseSocket() {
 
 LocalFleet::~LocalFleet() {
   supervisor_ = {};
+  pages_.reset();
   if (coordinator_) coordinator_->BeginShutdown(farewell_);
   if (door_) CloseDoor();
   server_.reset();

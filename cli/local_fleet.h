@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/announce.h"
+#include "cli/monitoring.h"
 #include "cli/wait_for_job.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
@@ -31,6 +32,7 @@ struct FleetDoor {
 struct LocalFleetOptions {
   CoordinatorOptions coordinator{};
   FleetDoor door{};
+  MonitoringArgument monitoring{};
   /// Where the journal is, with a copy in the state folder; empty: in the state folder itself, or
   /// in that of temporary files where machines share its file system.
   std::string journal_folder{};
@@ -77,7 +79,10 @@ class LocalFleet {
   }
   [[nodiscard]] absl::Status OpenCoordinator();
   [[nodiscard]] absl::StatusOr<std::string> ChooseSocket();
-  void ChooseJournal();
+  /// Where the journal is kept besides the state folder; empty: nowhere.
+  [[nodiscard]] std::string JournalFolder() const;
+  [[nodiscard]] absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(
+      const std::string& journal_folder) const;
   [[nodiscard]] absl::Status OpenDoor();
   void CloseDoor();
   void Supervise(const std::stop_token& stop);
@@ -89,7 +94,9 @@ class LocalFleet {
   LocalFleetOptions options_;
   SteadyClock clock_;
   std::string short_folder_;  ///< of the socket, when the state folder's path is too long for one
+  std::unique_ptr<Monitoring> monitoring_;
   std::unique_ptr<Coordinator> coordinator_;
+  std::unique_ptr<HttpServer> pages_;  ///< null: nobody asked for them
   std::unique_ptr<GrpcServer> server_;
   std::unique_ptr<GrpcServer> door_;  ///< null: there is none
   Farewell farewell_ = Farewell::kDismissWorkers;

@@ -31,19 +31,15 @@ absl::Status Reconstruct(const ReconstructArguments& arguments) {
   const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(PipelineOptions options, ReadOptions(arguments.options));
   if (arguments.single) options.partition.cluster_size = 0;
-  return RunLocalJob({.output = arguments.output,
-                      .fleet = arguments.fleet,
-                      .fail_on = arguments.fail_on,
-                      .prepare =
-                          [&](BlobDepot& coordinator, const StageContext& context) {
-                            return PrepareDatabaseJob(coordinator,
-                                                      arguments.database,
-                                                      arguments.gnss,
-                                                      arguments.clusters,
-                                                      options,
-                                                      context);
-                          }},
-                     signals);
+  const LocalJob job{
+      .output = arguments.output,
+      .fleet = arguments.fleet,
+      .fail_on = arguments.fail_on,
+      .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
+        return PrepareDatabaseJob(
+            coordinator, arguments.database, arguments.gnss, arguments.clusters, options, context);
+      }};
+  return RunLocalJob(job, signals);
 }
 
 }  // namespace

@@ -53,11 +53,13 @@ absl::Status RunOn(LocalFleet& fleet, const LocalJob& job, const std::stop_token
 absl::Status RunLocalJob(const LocalJob& job, const StopSignals& signals) {
   ORBWEAVE_RETURN_IF_ERROR(job.fleet.Check());
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(job.output));
-  const LocalFleetOptions fleet_options{
-      .coordinator = {.state_dir = job.output + "/.orbweave", .find_plan = FindJobPlan},
-      .door = job.fleet.door,
-      .journal_folder = job.fleet.journal_folder,
-      .workers = job.fleet.workers};
+  const LocalFleetOptions fleet_options{.coordinator = {.state_dir = job.output + "/.orbweave",
+                                                        .lease_s = job.fleet.lease_s,
+                                                        .find_plan = FindJobPlan},
+                                        .door = job.fleet.door,
+                                        .monitoring = job.fleet.monitoring,
+                                        .journal_folder = job.fleet.journal_folder,
+                                        .workers = job.fleet.workers};
   ORBWEAVE_ASSIGN_OR_RETURN(const auto fleet, LocalFleet::Start(fleet_options));
   const absl::Status end = RunOn(*fleet, job, signals.token());
   const bool is_stopped =

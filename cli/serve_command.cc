@@ -16,17 +16,16 @@
 #include "cli/coordinator_argument.h"
 #include "cli/event_log.h"
 #include "cli/exit_code.h"
+#include "cli/fleet_argument.h"
+#include "cli/monitoring.h"
 #include "cli/root_argument.h"
 #include "cli/see_workers_off.h"
 #include "cli/stop_signals.h"
 #include "cli/store_argument.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
-#include "coordinator/http_pages.h"
 #include "coordinator/journal_copy.h"
-#include "coordinator/journal_meter.h"
 #include "coordinator/postgres_journal.h"
-#include "coordinator/span_sender.h"
 #include "core/base/sleep.h"
 #include "objects/s3_store.h"
 
@@ -37,39 +36,22 @@ struct ServeOptions {
   std::string listen{};
   std::string journal{};         ///< of a PostgreSQL database; empty: in the state folder
   std::string journal_folder{};  ///< where it is instead, with a copy in the state folder
-  std::string http{};            ///< address to serve HttpPages on; empty: nowhere
-  HttpServerOptions http_server{};
-  std::string store{};  ///< address of an object store; empty: none
+  std::string store{};           ///< address of an object store; empty: none
   std::string store_keys{};
   std::map<std::string, std::string> roots{};  ///< by name: folders, and parts of object stores
-  std::string otlp{};                          ///< URL of a collector of traces; empty: none
+  MonitoringArgument monitoring{};
   AnnounceArgument announce{};
   ServerOptions server{};
   CoordinatorOptions coordinator{};
 };
 
 /// To stderr for who watches the process, and to a file beside the state for who comes later.
-absl::StatusOr<EventLog> OpenLog(const std::string& state_dir, MetricsCounters& counters) {
+absl::StatusOr<EventLog> OpenLog(const std::string& state_dir) {
   ORBWEAVE_ASSIGN_OR_RETURN(EventLog file, OpenEventLog(CoordinatorLogPath(state_dir)));
-  return [file = std::move(file), &counters](const LogEvent& event) {
-    counters.CountEvent(event);
+  return [file = std::move(file)](const LogEvent& event) {
     file(event);
     LogToStderr(event);
   };
-}
-
-/// Null when nobody asked for it.
-absl::StatusOr<std::unique_ptr<SpanSender>> StartSpanSender(const ServeOptions& options,
-                                                            MetricsCounters& counters,
-                                                            const EventLog& log) {
-  if (options.otlp.empty()) return nullptr;
-  ORBWEAVE_ASSIGN_OR_RETURN(HttpUrl collector, ParseHttpUrl(options.otlp));
-  if (collector.target == "/") collector.target = "/v1/traces";
-  const auto count = [&counters](std::string_view outcome, uint64_t spans) {
-    counters.CountSpans(outcome, spans);
-  };
-  return std::make_unique<SpanSender>(
-      SpanSenderOptions{.collector = std::move(collector), .count = count, .log = log});
 }
 
 absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& options,
@@ -78,32 +60,6 @@ absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& optio
   if (!options.journal.empty()) return OpenPostgresJournal(options.journal);
   if (options.journal_folder.empty()) return OpenJournal(state_dir);
   return OpenCopiedJournal(PlaceJournal(state_dir, options.journal_folder), {.log = log});
-}
-
-absl::StatusOr<std::unique_ptr<Journal>> OpenMeteredJournal(const ServeOptions& options,
-                                                            const EventLog& log,
-                                                            MetricsCounters& counters) {
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, OpenJournalOf(options, log));
-  return MeterJournal(
-      std::move(journal),
-      [&counters](std::string_view what, double wait_s, const absl::Status& status) {
-        counters.CountSave(what, wait_s, status);
-      });
-}
-
-/// Null when nobody asked for it.
-absl::StatusOr<std::unique_ptr<HttpServer>> ServeHttp(const ServeOptions& options,
-                                                      Coordinator& coordinator,
-                                                      const MetricsCounters& counters,
-                                                      const Clock& clock,
-                                                      const EventLog& log) {
-  if (options.http.empty()) return nullptr;
-  const auto pages = std::make_shared<HttpPages>(coordinator, counters, clock);
-  const auto find = [pages](std::string_view path) { return pages->Find(path); };
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<HttpServer> server,
-                            HttpServer::Start(options.http, options.http_server, find));
-  log({.event = "http_ready", .message = absl::StrCat("address=", server->address())});
-  return server;
 }
 
 /// Why a coordinator ends.
@@ -140,22 +96,19 @@ FileRoots FileRootsOf(const ServeOptions& options) {
 
 /// Those given, with what this process has for the coordinator. All arguments outlive it.
 absl::StatusOr<CoordinatorOptions> CompleteOptions(const ServeOptions& options,
-                                                   const EventLog& log,
-                                                   SpanSender* spans,
-                                                   MetricsCounters& counters,
+                                                   Monitoring& monitoring,
                                                    EndOfService& service) {
   CoordinatorOptions complete = options.coordinator;
-  complete.log = [&log, spans](const LogEvent& event) {
-    log(event);
-    if (spans != nullptr) spans->Take(event);
-  };
+  complete.log = monitoring.Log();
   complete.lost = [&service] { service.end.request_stop(); };
   complete.stop = [&service] {
     service.is_told = true;
     service.end.request_stop();
   };
-  complete.open_journal = [&](const std::string&) {
-    return OpenMeteredJournal(options, log, counters);
+  complete.open_journal = [&](const std::string&) -> absl::StatusOr<std::unique_ptr<Journal>> {
+    ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
+                              OpenJournalOf(options, monitoring.Log()));
+    return monitoring.Meter(std::move(journal));
   };
   if (!options.store.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(complete.objects, OpenS3Store(options.store, options.store_keys));
@@ -169,11 +122,12 @@ absl::Status Serve(const ServeOptions& options) {
   EndOfService service;
   const std::stop_callback on_signal(signals.token(), [&service] { service.end.request_stop(); });
   const SteadyClock clock;
-  MetricsCounters counters;
-  ORBWEAVE_ASSIGN_OR_RETURN(const EventLog log, OpenLog(options.coordinator.state_dir, counters));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto spans, StartSpanSender(options, counters, log));
+  ORBWEAVE_ASSIGN_OR_RETURN(EventLog file_log, OpenLog(options.coordinator.state_dir));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto monitoring,
+                            Monitoring::Start(options.monitoring, std::move(file_log)));
+  const EventLog log = monitoring->Log();
   ORBWEAVE_ASSIGN_OR_RETURN(const CoordinatorOptions coordinator_options,
-                            CompleteOptions(options, log, spans.get(), counters, service));
+                            CompleteOptions(options, *monitoring, service));
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
   ServerOptions server_options = options.server;
   server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
@@ -181,8 +135,7 @@ absl::Status Serve(const ServeOptions& options) {
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto http,
-                            ServeHttp(options, *coordinator, counters, clock, log));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto http, monitoring->ServePages(*coordinator, clock));
   ORBWEAVE_RETURN_IF_ERROR(
       Announce(options.announce, server->address(), options.server.tls_folder));
   log({.event = "coordinator_ready",
@@ -251,31 +204,13 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
                   options->roots,
                   "Folder, or s3://BUCKET/PREFIX as for --store, beneath which clients may name "
                   "images, instead of sending them (repeatable)");
-  CLI::Option* http = command->add_option(
-      "--http",
-      options->http,
-      "Serve /metrics, /livez, /readyz and /wanted at http://ADDRESS (127.0.0.1:port)");
-  command
-      ->add_flag("--http-open",
-                 options->http_server.is_open,
-                 "Let other machines read these pages: they are neither encrypted nor protected")
-      ->needs(http);
-  command->add_option(
-      "--otlp",
-      options->otlp,
-      "Send the spans of jobs, stages and attempts to the collector of OpenTelemetry at "
-      "http://HOST:4318; what it does not take in time is dropped");
+  AddMonitoringArguments(*command, options->monitoring);
   command
       ->add_option("--max-slots",
                    options->coordinator.max_slots,
                    "Slots of workers beyond which /wanted asks for no more; without it: any number")
       ->check(CLI::Range(0, 1'000'000));
-  command
-      ->add_option("--lease",
-                   options->coordinator.lease_s,
-                   "Seconds of silence after which a worker is given up")
-      ->check(CLI::Range(1.0, 3600.0))
-      ->capture_default_str();
+  AddLeaseArgument(*command, options->coordinator.lease_s);
   command->footer(
       "Examples:\n"
       "  orbweave serve --listen 127.0.0.1:7000 --state state\n"

@@ -26,13 +26,15 @@
 
 namespace orbweave {
 
+inline constexpr double kDefaultLease_s = 20.0;
+
 struct CoordinatorOptions {
   std::string state_dir{};
   /// Whether workers outlive the process of the coordinator. Then what they held when it died is
   /// given to others only when they did not come back within one lease time.
   bool leases_survive = true;
-  double lease_s =
-      20.0;  ///< a worker silent for so long loses its tasks; it beats ten times as often
+  /// A worker silent for so long loses its tasks; it beats ten times as often.
+  double lease_s = kDefaultLease_s;
   uint32_t max_running_jobs = 1000;                           ///< more are not taken
   uint32_t max_slots = std::numeric_limits<uint32_t>::max();  ///< more are never wanted
   RetryPolicy retry{};

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "core/averaging/average_differences.h"
 #include "core/base/shortest_half.h"
 #include "core/graph/disjoint_sets.h"
+#include "core/mapping/ray_depths.h"
 
 namespace orbweave {
 namespace {
@@ -19,8 +19,6 @@ constexpr size_t kMinShared = 8;
 /// In one image a pair is compared with those few others that tell most, which keeps the system
 /// sparse where streets cross.
 constexpr int kMaxPartners = 4;
-/// Towards the baseline itself depths are as good as unknown.
-constexpr double kMinSine = 0.05;
 /// Directions of baselines are no better than half a degree, nor are depths with them.
 constexpr double kRatioFloor = 0.01;
 /// A ratio is clear where its half lies within a fifth.
@@ -29,44 +27,6 @@ constexpr double kClearWidth = 0.2;
 /// counts as better than a tenth: a wrong position makes long steps, which seem the most exact.
 constexpr double kMaxStepSigma = 0.5;
 constexpr double kMinStepSigma = 0.1;
-
-/// The depth of a ray as one pair has it.
-struct DepthSample {
-  Node node = 0;
-  uint32_t pair = 0;  ///< position among the given pairs
-  double log_depth = 0.0;
-};
-
-/// Log depths of the rays of all matches, sorted by (node, pair).
-std::vector<DepthSample> SampleDepths(const ClusterProblem& problem,
-                                      const CorrespondenceGraph& graph,
-                                      std::span<const uint32_t> pairs,
-                                      double min_angle_rad) {
-  const double min_sin_angle = std::sin(min_angle_rad);
-  std::vector<DepthSample> samples;
-  for (uint32_t i = 0; i < pairs.size(); ++i) {
-    const LinkedPair& pair = graph.pairs[pairs[i]];
-    const TwoViewGeometry& geometry = problem.pairs[pair.index];
-    const Eigen::Matrix3d a_from_b = geometry.b_from_a.rotation.conjugate().toRotationMatrix();
-    const Eigen::Vector3d baseline = geometry.b_from_a.Centre();
-    for (const FeatureMatch& match : geometry.inliers) {
-      const Node a = graph.node_of_feature[pair.a][match.a];
-      const Node b = graph.node_of_feature[pair.b][match.b];
-      const Eigen::Vector3d ray_a = graph.bearing_of_node[a];
-      const Eigen::Vector3d ray_b = a_from_b * graph.bearing_of_node[b];
-      const double sin_x = ray_a.cross(ray_b).norm();
-      const double sin_a = baseline.cross(ray_a).norm();
-      const double sin_b = baseline.cross(ray_b).norm();
-      if (sin_x < min_sin_angle || sin_a < kMinSine || sin_b < kMinSine) continue;
-      samples.push_back({a, i, std::log(sin_b / sin_x)});
-      samples.push_back({b, i, std::log(sin_a / sin_x)});
-    }
-  }
-  std::sort(samples.begin(), samples.end(), [](const DepthSample& x, const DepthSample& y) {
-    return std::tuple(x.node, x.pair, x.log_depth) < std::tuple(y.node, y.pair, y.log_depth);
-  });
-  return samples;
-}
 
 /// log s_b - log s_a of two pairs, by the rays that they share in one image.
 struct Ratio {
@@ -101,9 +61,9 @@ class RatioTable {
   explicit RatioTable(uint32_t num_pairs) : local_of_pair_(num_pairs, 0) {}
 
   /// `samples`: those of one image.
-  void Fill(std::span<const DepthSample> samples) {
+  void Fill(std::span<const RayDepth> samples) {
     pairs_.clear();
-    for (const DepthSample& sample : samples) pairs_.push_back(sample.pair);
+    for (const RayDepth& sample : samples) pairs_.push_back(sample.pair);
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     for (uint32_t i = 0; i < pairs_.size(); ++i) local_of_pair_[pairs_[i]] = i;
@@ -146,7 +106,7 @@ class RatioTable {
     return ranked;
   }
 
-  void FillFromRay(std::span<const DepthSample> samples) {
+  void FillFromRay(std::span<const RayDepth> samples) {
     for (size_t p = 0; p < samples.size(); ++p) {
       for (size_t q = p + 1; q < samples.size(); ++q) {
         if (samples[p].pair == samples[q].pair) continue;
@@ -163,7 +123,7 @@ class RatioTable {
 };
 
 std::vector<Ratio> CompareBaselines(const CorrespondenceGraph& graph,
-                                    const std::vector<DepthSample>& samples,
+                                    const std::vector<RayDepth>& samples,
                                     uint32_t num_pairs) {
   std::vector<Ratio> ratios;
   RatioTable table(num_pairs);
@@ -253,7 +213,7 @@ absl::StatusOr<BaselineLengths> AverageBaselines(const ClusterProblem& problem,
                                                  const StageContext& context) {
   const auto num_pairs = static_cast<uint32_t>(pairs.size());
   const std::vector<Ratio> ratios =
-      CompareBaselines(graph, SampleDepths(problem, graph, pairs, min_angle_rad), num_pairs);
+      CompareBaselines(graph, MeasureRayDepths(problem, graph, pairs, min_angle_rad), num_pairs);
   return LengthGraph(num_pairs, ratios, steps).Solve(context);
 }
 

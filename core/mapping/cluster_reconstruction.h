@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mapping/pair_length.h"
 #include "core/scene/ids.h"
 #include "core/scene/reconstruction.h"
 
@@ -21,7 +22,8 @@ struct ClusterReconstruction {
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};  ///< by the submodels; JudgePairs
   std::vector<ImagePair> explained_pairs{};
-  int num_joined = 0;  ///< submodels fewer, since bridges joined them
+  std::vector<PairLength> pair_lengths{};  ///< of the submodels; MeasurePairLengths
+  int num_joined = 0;                      ///< submodels fewer, since bridges joined them
   int num_global_adjustments = 0;
   int num_local_adjustments = 0;
   double residual_rms_px = 0.0;

@@ -9,6 +9,7 @@
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/borne_out_images.h"
 #include "core/mapping/check_against_pairs.h"
+#include "core/mapping/measure_pair_lengths.h"
 
 namespace orbweave {
 namespace {
@@ -20,7 +21,8 @@ constexpr double kClearly = 1.5;
 }  // namespace
 
 bool IsContested(const MappingState& state, const MappingOptions& options) {
-  return CheckAgainstPairs(state, options).agreeing_share < kAtOne;
+  return CheckAgainstPairs(state, options).agreeing_share < kAtOne ||
+         !FindLengthFaults(state, options).empty();
 }
 
 size_t CountHeldPlaces(const MappingState& state) {
@@ -39,12 +41,19 @@ size_t CountHeldPlaces(const MappingState& state) {
   return count;
 }
 
-bool IsBetterModel(const MappingState& one, const MappingState& other) {
+double EvidenceFor(const MappingState& state, const MappingOptions& options) {
+  return (1.0 + CountAgreeingRays(state, options)) *
+         (1.0 + static_cast<double>(CountHeldPlaces(state)));
+}
+
+bool IsBetterModel(const MappingState& one,
+                   const MappingState& other,
+                   const MappingOptions& options) {
   const double worth = BorneOutImages(one);
   const double worth_of_other = BorneOutImages(other);
   if (worth > kClearly * worth_of_other) return true;
   if (kClearly * worth < worth_of_other) return false;
-  return CountHeldPlaces(one) > CountHeldPlaces(other);
+  return EvidenceFor(one, options) > EvidenceFor(other, options);
 }
 
 }  // namespace orbweave

@@ -11,6 +11,7 @@
 #include "core/mapping/adjust_local.h"
 #include "core/mapping/adjust_new_images.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/mend_lengths.h"
 #include "core/mapping/rank_next_images.h"
 #include "core/mapping/reconsider_images.h"
 
@@ -47,6 +48,7 @@ class Growth {
       if (!goes_on) break;
     }
     ORBWEAVE_RETURN_IF_ERROR(Reconsider());
+    ORBWEAVE_RETURN_IF_ERROR(Mend());
     ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state_, options_, context_));
     ++report_.num_global_adjustments;
     DropWeakImages();
@@ -151,6 +153,15 @@ class Growth {
   absl::Status Reconsider() {
     if (!schedule_.relaxes_registration) return absl::OkStatus();
     return ReconsiderImages(state_, options_, Limits(), log_, context_);
+  }
+
+  absl::Status Mend() {
+    if (!schedule_.relaxes_registration) return absl::OkStatus();
+    ORBWEAVE_ASSIGN_OR_RETURN(const int num_moved, MendLengths(state_, options_, context_));
+    report_.num_local_adjustments += num_moved;
+    if (num_moved == 0) return absl::OkStatus();
+    ++report_.num_global_adjustments;
+    return AdjustGrowingModel(state_, options_, context_);
   }
 
   /// Images that kept hardly a point were registered wrongly; they may be tried again.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/bundle/bearing_error.h"
@@ -12,6 +13,7 @@
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/weigh_pixels_alike.h"
 
@@ -112,6 +114,7 @@ void TakeSubmodel(const MappingState& state,
       result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
   result.explained_pairs.insert(
       result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
+  std::ranges::copy(MeasurePairLengths(state, options), std::back_inserter(result.pair_lengths));
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
         BorneOutImages(state) >= kGoodShare * CountReachable(graph, available, pair.a);
     const bool is_contested =
         is_large && ScheduleOf(options).relaxes_registration && IsContested(state, options);
-    if (!result.state || IsBetterModel(state, *result.state)) {
+    if (!result.state || IsBetterModel(state, *result.state, options)) {
       result.state.emplace(std::move(state));
       result.started_globally = false;
       log = own_log;
@@ -160,7 +160,8 @@ bool LeavesImagesOut(const CorrespondenceGraph& graph,
   return size < (1.0 - kLeftOut) * reachable;
 }
 
-/// Where seeds leave images out: all at once, if that is sound and holds more.
+/// Where seeds leave images out, or pairs contest their model: all at once, if that is sound and
+/// holds more, or is the better one of the two.
 absl::Status CompeteGlobally(const ClusterProblem& problem,
                              const CorrespondenceGraph& graph,
                              std::span<const uint8_t> available,
@@ -174,11 +175,12 @@ absl::Status CompeteGlobally(const ClusterProblem& problem,
       GlobalModel model, ReconstructGlobally(problem, graph, available, options, own_log, context));
   result.growth.num_local_adjustments += model.growth.num_local_adjustments;
   result.growth.num_global_adjustments += model.growth.num_global_adjustments;
+  if (!model.state || !model.fault.empty()) return absl::OkStatus();
   const double worth = result.state ? BorneOutImages(*result.state) : 0.0;
-  if (!model.state || !model.fault.empty() ||
-      BorneOutImages(*model.state) <= (1.0 + kClearlyMore) * worth) {
-    return absl::OkStatus();
-  }
+  const bool holds_more = BorneOutImages(*model.state) > (1.0 + kClearlyMore) * worth;
+  const bool is_better = result.state && IsContested(*result.state, options) &&
+                         IsBetterModel(*model.state, *result.state, options);
+  if (!holds_more && !is_better) return absl::OkStatus();
   result.state.emplace(std::move(*model.state));
   result.started_globally = true;
   log = std::move(own_log);
@@ -203,7 +205,8 @@ absl::StatusOr<SubmodelResult> ReconstructSubmodel(const ClusterProblem& problem
   ORBWEAVE_RETURN_IF_ERROR(GrowFromSeeds(problem, graph, available, options, log, context, result));
   const bool may_compete = ScheduleOf(options).start == MappingStart::kIncremental &&
                            ScheduleOf(options).relaxes_registration;
-  if (may_compete && (!result.state || LeavesImagesOut(graph, available, *result.state))) {
+  if (may_compete && (!result.state || LeavesImagesOut(graph, available, *result.state) ||
+                      IsContested(*result.state, options))) {
     ORBWEAVE_RETURN_IF_ERROR(
         CompeteGlobally(problem, graph, available, options, log, context, result));
   }

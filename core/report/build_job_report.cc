@@ -12,6 +12,7 @@
 #include "core/base/quantile.h"
 #include "core/report/check_contradicted_pairs.h"
 #include "core/report/check_job.h"
+#include "core/report/check_lengths.h"
 #include "core/report/check_look_alikes.h"
 #include "core/report/check_pairs.h"
 #include "core/report/check_standing_camera.h"
@@ -279,6 +280,7 @@ ClusterSummary SummariseCluster(const ClusterResult& result) {
                          .not_registered = cluster.not_registered,
                          .contradicted_pairs = cluster.contradicted_pairs,
                          .explained_pairs = cluster.explained_pairs,
+                         .pair_lengths = cluster.pair_lengths,
                          .residual_rms_px = cluster.residual_rms_px};
   for (const Reconstruction& submodel : cluster.submodels) {
     summary.submodels.push_back(
@@ -313,6 +315,7 @@ JobReport BuildJobReport(const JobResults& results) {
   TellReviews(results.review, report);
   TellWeakCuts(results.view_graph.partition, report);
   report.checks.push_back(CheckPairs(results));
+  report.checks.push_back(CheckLengths(results));
   if (std::optional<CrossCheck> standing = CheckStandingCamera(results, report.images))
     report.checks.push_back(*std::move(standing));
   report.checks.push_back(CheckLookAlikes(results));

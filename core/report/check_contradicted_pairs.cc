@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/report/model_of_images.h"
+
 namespace orbweave {
 namespace {
 
@@ -18,27 +20,11 @@ constexpr double kExpectedShare = 0.05;
 // The witnesses against the model outnumber those for it.
 constexpr double kMajority = 0.5;
 
-/// Model of each image, -1 for none.
-std::vector<int> ModelOfImages(const JobResults& results) {
-  std::vector<int> model_of_image(results.manifest.images.size(), -1);
-  for (size_t model = results.models.size(); model-- > 0;) {
-    for (const auto& [id, image] : results.models[model].images) {
-      if (!image.loose && id.value < model_of_image.size())
-        model_of_image[id.value] = static_cast<int>(model);
-    }
-  }
-  return model_of_image;
-}
-
 }  // namespace
 
 std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results) {
   const std::vector<int> model_of_image = ModelOfImages(results);
-  const auto is_judged = [&](const ImagePair& pair) {
-    const size_t size = model_of_image.size();
-    return pair.a.value < size && pair.b.value < size && model_of_image[pair.a.value] >= 0 &&
-           model_of_image[pair.a.value] == model_of_image[pair.b.value];
-  };
+  const auto is_judged = [&](const ImagePair& pair) { return AreOfOneModel(model_of_image, pair); };
   std::set<ImagePair> judged;
   std::ranges::copy_if(results.view_graph.edges, std::inserter(judged, judged.end()), is_judged);
   std::set<ImagePair> contradicted;

@@ -32,6 +32,8 @@ absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
     const std::string whose = absl::StrCat("cluster ", cluster.cluster);
     for (const NotRegistered& missing : cluster.not_registered)
       ORBWEAVE_RETURN_IF_ERROR(CheckImages({&missing.image, 1}, manifest, whose));
+    for (const PairLength& length : cluster.pair_lengths)
+      ORBWEAVE_RETURN_IF_ERROR(CheckImages({&length.pair.b, 1}, manifest, whose));
     for (const auto* pairs : {&cluster.contradicted_pairs, &cluster.explained_pairs}) {
       for (const ImagePair& pair : *pairs) {
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.a, 1}, manifest, whose));

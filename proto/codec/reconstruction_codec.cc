@@ -41,6 +41,13 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_image_b(pair.b.value);
   }
   proto.set_explained_pairs(codec::Pack(result.reconstruction.explained_pairs));
+  for (const PairLength& length : result.reconstruction.pair_lengths) {
+    v1::PairLength* out = proto.add_pair_lengths();
+    out->set_image_a(length.pair.a.value);
+    out->set_image_b(length.pair.b.value);
+    out->set_told(length.agreement.told);
+    out->set_agreeing(length.agreement.agreeing);
+  }
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
   proto.set_num_local_adjustments(result.reconstruction.num_local_adjustments);
   proto.set_residual_rms_px(result.reconstruction.residual_rms_px);
@@ -72,6 +79,16 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
   for (const ImagePair& pair : result.reconstruction.explained_pairs) {
     if (!(pair.a < pair.b))
       return absl::DataLossError("cluster reconstruction: images of a pair out of order");
+  }
+  for (const v1::PairLength& length : proto.pair_lengths()) {
+    ORBWEAVE_RETURN_IF_ERROR(
+        codec::Expect(length.image_a() < length.image_b() && codec::IsAmount(length.told()) &&
+                          codec::IsAmount(length.agreeing()) && length.agreeing() <= length.told(),
+                      "cluster reconstruction",
+                      "images of a length are out of order, or more rays agree than tell it"));
+    result.reconstruction.pair_lengths.push_back(
+        {.pair = {ImageId(length.image_a()), ImageId(length.image_b())},
+         .agreement = {.told = length.told(), .agreeing = length.agreeing()}});
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();
   result.reconstruction.num_local_adjustments = proto.num_local_adjustments();

@@ -21,6 +21,7 @@
 #include "cli/work_command.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"
+#include "tests/support/http_get.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 
@@ -76,6 +77,33 @@ TEST(LocalFleet, RunsAJobOnWorkerProcesses) {
   ASSERT_EQ(workers->size(), 2U);
   for (const WorkerStatus& worker : *workers) EXPECT_GT(worker.tasks_done, 0U) << worker.name;
   EXPECT_EQ((*fleet)->restarts(), 0U);
+}
+
+TEST(LocalFleet, ShowsItsPagesWhileItRuns) {
+  const TemporaryFolder folder;
+  LocalFleetOptions options = FleetOptions(folder / "state", 1);
+  options.monitoring.http = "127.0.0.1:0";
+  const auto fleet = LocalFleet::Start(options);
+  ASSERT_TRUE(fleet.ok()) << fleet.status();
+  const auto job = PrepareToyJob((*fleet)->coordinator(), "1 2 3");
+  ASSERT_TRUE((*fleet)->RunJob(*job, {}, {}).ok());
+  const std::string log = testing::ReadAll(folder / "state/logs/coordinator.log");
+  const size_t begin = log.find("127.0.0.1:", log.find("http_ready"));
+  ASSERT_NE(begin, std::string::npos) << log;
+  const std::string http = log.substr(begin, log.find('"', begin) - begin);
+  EXPECT_THAT(testing::HttpGet(http, "/livez"), HasSubstr("\r\n\r\nok\n"));
+  const std::string metrics = testing::HttpGet(http, "/metrics");
+  EXPECT_THAT(metrics, HasSubstr("orbweave_events_total{event=\"job_done\",level=\"info\"} 1\n"));
+  EXPECT_THAT(metrics, HasSubstr("orbweave_journal_save_seconds_count"));
+}
+
+TEST(LocalFleet, PagesThatCannotBeServedAreToldAtOnce) {
+  const TemporaryFolder folder;
+  LocalFleetOptions options = FleetOptions(folder / "state", 1);
+  options.monitoring.http = "0.0.0.0:0";
+  EXPECT_EQ(LocalFleet::Start(options).status().code(), absl::StatusCode::kInvalidArgument);
+  options.monitoring = {.otlp = "ftp://nowhere"};
+  EXPECT_EQ(LocalFleet::Start(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 /// Squares 12, 13 and 14 on a fleet where 13 brings death the first time.

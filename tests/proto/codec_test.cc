@@ -534,6 +534,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                          .not_registered = {{ImageId(77), "no verified matches"}},
                          .contradicted_pairs = {{ImageId(3), ImageId(8)}},
                          .explained_pairs = {{ImageId(3), ImageId(4)}},
+                         .pair_lengths = {{.pair = {ImageId(3), ImageId(4)},
+                                           .agreement = {.told = 80.5, .agreeing = 20.25}}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
                          .start_remark = "29 of 30 images stay registered"}};
@@ -543,6 +545,10 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
   EXPECT_EQ(cluster_out->reconstruction.contradicted_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(8)}}));
+  ASSERT_EQ(cluster_out->reconstruction.pair_lengths.size(), 1U);
+  EXPECT_EQ(cluster_out->reconstruction.pair_lengths[0].pair.b, ImageId(4));
+  EXPECT_EQ(cluster_out->reconstruction.pair_lengths[0].agreement.told, 80.5);
+  EXPECT_EQ(cluster_out->reconstruction.pair_lengths[0].agreement.agreeing, 20.25);
   EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);

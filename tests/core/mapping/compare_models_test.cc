@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mapping/check_against_pairs.h"
 #include "tests/core/mapping/gnss_walk.h"
 
 namespace orbweave {
@@ -21,14 +22,14 @@ MappingState TornAt(const GnssWalk& walk, ImageSlot first, double metres) {
   return state;
 }
 
-TEST(IsBetterModel, PrefersTheOneThatHoldsMorePlaces) {
+TEST(IsBetterModel, PrefersTheOneForWhichMoreSpeaks) {
   const GnssWalk walk;
   const MappingState right = TornAt(walk, GnssWalk::kImages, 0.0);
   const MappingState torn = TornAt(walk, 7, 5.0);
   EXPECT_GT(CountHeldPlaces(right), CountHeldPlaces(torn));
-  EXPECT_TRUE(IsBetterModel(right, torn));
-  EXPECT_FALSE(IsBetterModel(torn, right));
-  EXPECT_FALSE(IsBetterModel(right, right));
+  EXPECT_TRUE(IsBetterModel(right, torn, {}));
+  EXPECT_FALSE(IsBetterModel(torn, right, {}));
+  EXPECT_FALSE(IsBetterModel(right, right, {}));
 }
 
 TEST(IsBetterModel, PrefersALargerOneOfWhichGnssBearsOutMuchMore) {
@@ -36,8 +37,8 @@ TEST(IsBetterModel, PrefersALargerOneOfWhichGnssBearsOutMuchMore) {
   const MappingState all = walk.StateWithout(GnssWalk::kImages);
   MappingState few(walk.Fixture().world.problem, walk.Fixture().graph);
   for (ImageSlot image = 0; image < 6; ++image) few.Register(image, walk.InModel(image));
-  EXPECT_TRUE(IsBetterModel(all, few));
-  EXPECT_FALSE(IsBetterModel(few, all));
+  EXPECT_TRUE(IsBetterModel(all, few, {}));
+  EXPECT_FALSE(IsBetterModel(few, all, {}));
 }
 
 TEST(CountHeldPlaces, CountsWhereFourSee) {
@@ -54,6 +55,14 @@ TEST(IsContested, OnlyWherePairsDisagree) {
   const Rigid3 pose = moved.CamFromWorld(5);
   const Eigen::Vector3d aside = pose.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, 0.8);
   moved.SetPose(5, Rigid3::FromCentre(pose.rotation, pose.Centre() + aside));
+  EXPECT_TRUE(IsContested(moved, {}));
+}
+
+TEST(IsContested, WhereRaysContradictWhatNoPairDoes) {
+  const GnssWalk walk;
+  MappingState moved = walk.StateWithout(GnssWalk::kImages);
+  moved.SetPose(5, walk.Further(5, 6.0));
+  EXPECT_EQ(CheckAgainstPairs(moved, {}).agreeing_share, 1.0);
   EXPECT_TRUE(IsContested(moved, {}));
 }
 

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/scene/ids.h"
+
+namespace orbweave {
+
+/// How far rays bear out lengths of the model.
+struct LengthAgreement {
+  double told = 0.0;      ///< rays that say how long it is, weighed
+  double agreeing = 0.0;  ///< of them those that say what the model has
+
+  void Add(const LengthAgreement& other) {
+    told += other.told;
+    agreeing += other.agreeing;
+  }
+  /// 1 where nothing is told.
+  [[nodiscard]] double Share() const { return told > 0.0 ? agreeing / told : 1.0; }
+};
+
+/// That of the baseline of a pair (MeasurePairLengths).
+struct PairLength {
+  ImagePair pair{};
+  LengthAgreement agreement{};
+};
+
+}  // namespace orbweave

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/ray_depths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace orbweave {
+namespace {
+
+/// Towards the baseline itself depths are as good as unknown.
+constexpr double kMinSine = 0.05;
+
+}  // namespace
+
+std::vector<RayDepth> MeasureRayDepths(const ClusterProblem& problem,
+                                       const CorrespondenceGraph& graph,
+                                       std::span<const uint32_t> pairs,
+                                       double min_angle_rad) {
+  const double min_sin_angle = std::sin(min_angle_rad);
+  std::vector<RayDepth> depths;
+  for (uint32_t i = 0; i < pairs.size(); ++i) {
+    const LinkedPair& pair = graph.pairs[pairs[i]];
+    const TwoViewGeometry& geometry = problem.pairs[pair.index];
+    const Eigen::Matrix3d a_from_b = geometry.b_from_a.rotation.conjugate().toRotationMatrix();
+    const Eigen::Vector3d baseline = geometry.b_from_a.Centre();
+    for (const FeatureMatch& match : geometry.inliers) {
+      const Node a = graph.node_of_feature[pair.a][match.a];
+      const Node b = graph.node_of_feature[pair.b][match.b];
+      const Eigen::Vector3d ray_a = graph.bearing_of_node[a];
+      const Eigen::Vector3d ray_b = a_from_b * graph.bearing_of_node[b];
+      const double sin_x = ray_a.cross(ray_b).norm();
+      const double sin_a = baseline.cross(ray_a).norm();
+      const double sin_b = baseline.cross(ray_b).norm();
+      if (sin_x < min_sin_angle || sin_a < kMinSine || sin_b < kMinSine) continue;
+      depths.push_back({a, i, std::log(sin_b / sin_x)});
+      depths.push_back({b, i, std::log(sin_a / sin_x)});
+    }
+  }
+  std::sort(depths.begin(), depths.end(), [](const RayDepth& x, const RayDepth& y) {
+    return std::tuple(x.node, x.pair, x.log_depth) < std::tuple(y.node, y.pair, y.log_depth);
+  });
+  return depths;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tests/core/mapping/true_state.h"
+
+namespace orbweave {
+
+/// A street of panoramas 8 m apart, turned any way, to be put together wrongly.
+class TornStreet {
+ public:
+  static constexpr uint32_t kImages = 15;
+
+  TornStreet()
+      : fixture_({.centres = Centres(),
+                  .points_per_metre = 8,
+                  .reach_m = 30.0,
+                  .window = 4,
+                  .outlier_share = 0.1,
+                  .random_rotations = true}) {}
+
+  [[nodiscard]] StreetFixture& Fixture() { return fixture_; }
+  [[nodiscard]] const StreetFixture& Fixture() const { return fixture_; }
+  [[nodiscard]] static Eigen::Vector3d Centre(ImageSlot image) { return Centres()[image]; }
+  [[nodiscard]] MappingState Right() const { return fixture_.StateWith(FirstImages(kImages)); }
+
+  static void Move(ImageSlot image, const Eigen::Vector3d& by, MappingState& state) {
+    const Rigid3 pose = state.CamFromWorld(image);
+    state.SetPose(image, Rigid3::FromCentre(pose.rotation, pose.Centre() + by));
+  }
+
+  /// The matches of two images as if they stood as they do in `state`: tracks that jump from a
+  /// house to the next, more of them than right ones.
+  void Fool(ImageSlot a, ImageSlot b, const MappingState& state) {
+    const Rigid3 jump = state.CamFromWorld(b) * state.CamFromWorld(a).Inverse();
+    for (TwoViewGeometry& pair : fixture_.world.problem.pairs) {
+      if (pair.pair != ImagePair{ImageId(a), ImageId(b)}) continue;
+      for (const FeatureMatch& match : pair.inliers) {
+        const Eigen::Vector3d& ray = fixture_.world.problem.images[a].bearings[match.a];
+        fixture_.world.problem.images[b].bearings[match.b] =
+            (jump.rotation * (12.0 * ray) + jump.translation).normalized();
+      }
+    }
+  }
+
+ private:
+  static std::vector<Eigen::Vector3d> Centres() {
+    std::vector<Eigen::Vector3d> centres;
+    for (uint32_t i = 0; i < kImages; ++i) centres.emplace_back(8.0 * i, 0.0, 0.02 * i * i);
+    return centres;
+  }
+
+  StreetFixture fixture_;
+};
+
+}  // namespace orbweave

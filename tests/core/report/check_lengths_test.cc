@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/report/check_lengths.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr uint32_t kImages = 100;
+
+/// A model of a drive, with the pairs of each image with the three after it: 70 % of the rays of
+/// each agree.
+JobResults Drive() {
+  JobResults results;
+  results.clusters.emplace_back();
+  results.models.emplace_back();
+  for (uint32_t a = 0; a < kImages; ++a) {
+    ImageRecord& image = results.manifest.images.emplace_back();
+    image.id = ImageId(a);
+    image.name = std::to_string(a) + ".jpg";
+    results.models[0].images[image.id] = {};
+    for (uint32_t b = a + 1; b < std::min(a + 4, kImages); ++b) {
+      results.clusters[0].pair_lengths.push_back(
+          {{ImageId(a), ImageId(b)}, {.told = 100.0, .agreeing = 70.0}});
+    }
+  }
+  return results;
+}
+
+void ContradictPairsOf(uint32_t image, JobResults& results) {
+  for (PairLength& length : results.clusters[0].pair_lengths) {
+    if (length.pair.a.value == image || length.pair.b.value == image)
+      length.agreement.agreeing = 15.0;
+  }
+}
+
+TEST(CheckLengths, IsGoodWhereRaysAgree) {
+  const CrossCheck check = CheckLengths(Drive());
+  EXPECT_EQ(check.level, CheckLevel::kGood);
+  EXPECT_DOUBLE_EQ(check.value, 0.7);
+  EXPECT_THAT(check.sentence, HasSubstr("70 %"));
+  EXPECT_EQ(CheckLengths({}).level, CheckLevel::kGood);
+}
+
+TEST(CheckLengths, OneImageIsDoubtfulAndNamed) {
+  JobResults results = Drive();
+  ContradictPairsOf(42, results);
+  const CrossCheck check = CheckLengths(results);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_DOUBLE_EQ(check.value, 0.15);
+  EXPECT_THAT(check.sentence, HasSubstr("only 15 % agree with the model at 42.jpg"));
+  EXPECT_THAT(check.sentence, HasSubstr("(1 such places)"));
+}
+
+TEST(CheckLengths, ManyAreBad) {
+  JobResults results = Drive();
+  for (const uint32_t image : {10U, 50U, 80U}) ContradictPairsOf(image, results);
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kBad);
+}
+
+TEST(CheckLengths, ATearIsDoubtful) {
+  JobResults results = Drive();
+  for (PairLength& length : results.clusters[0].pair_lengths) {
+    for (const uint32_t before : {20U, 50U, 80U}) {
+      if (length.pair.a.value <= before && length.pair.b.value > before)
+        length.agreement.agreeing = 15.0;
+    }
+  }
+  const CrossCheck check = CheckLengths(results);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(check.sentence, HasSubstr("between 20.jpg and 21.jpg"));
+  EXPECT_THAT(check.sentence, HasSubstr("(3 such places)"));
+}
+
+TEST(CheckLengths, TheClusterThatSpeaksForAPairLessJudgesIt) {
+  JobResults results = Drive();
+  results.clusters.push_back(results.clusters[0]);
+  ContradictPairsOf(42, results);
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kDoubtful);
+  std::swap(results.clusters[0], results.clusters[1]);
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kDoubtful);
+}
+
+TEST(CheckLengths, ImagesThatAreNotInAModelAreNotAsked) {
+  JobResults results = Drive();
+  ContradictPairsOf(42, results);
+  ContradictPairsOf(60, results);
+  results.models[0].images.erase(ImageId(42));
+  results.models[0].images[ImageId(60)].loose = true;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood);
+}
+
+}  // namespace
+}  // namespace orbweave
