@@ -160,6 +160,20 @@ bool LeavesImagesOut(const CorrespondenceGraph& graph,
   return size < (1.0 - kLeftOut) * reachable;
 }
 
+/// Whether a model of all images at once is to be had instead of one from seeds: it holds clearly
+/// more where that leaves images out; where it leaves none out, GNSS has no say between the two, as
+/// the one began with its positions, and more has to speak for it.
+bool Surpasses(const MappingState& global,
+               const MappingState& grown,
+               const CorrespondenceGraph& graph,
+               std::span<const uint8_t> available,
+               const MappingOptions& options) {
+  if (LeavesImagesOut(graph, available, grown))
+    return BorneOutImages(global) > (1.0 + kClearlyMore) * BorneOutImages(grown);
+  return global.Registered().size() >= grown.Registered().size() &&
+         EvidenceFor(global, options) > EvidenceFor(grown, options);
+}
+
 /// Where seeds leave images out, or pairs contest their model: all at once, if that is sound and
 /// holds more, or is the better one of the two.
 absl::Status CompeteGlobally(const ClusterProblem& problem,
@@ -176,11 +190,8 @@ absl::Status CompeteGlobally(const ClusterProblem& problem,
   result.growth.num_local_adjustments += model.growth.num_local_adjustments;
   result.growth.num_global_adjustments += model.growth.num_global_adjustments;
   if (!model.state || !model.fault.empty()) return absl::OkStatus();
-  const double worth = result.state ? BorneOutImages(*result.state) : 0.0;
-  const bool holds_more = BorneOutImages(*model.state) > (1.0 + kClearlyMore) * worth;
-  const bool is_better = result.state && IsContested(*result.state, options) &&
-                         IsBetterModel(*model.state, *result.state, options);
-  if (!holds_more && !is_better) return absl::OkStatus();
+  if (result.state && !Surpasses(*model.state, *result.state, graph, available, options))
+    return absl::OkStatus();
   result.state.emplace(std::move(*model.state));
   result.started_globally = true;
   log = std::move(own_log);
