@@ -35,9 +35,10 @@ std::vector<std::string> ListUnchecked(const JobResults& results, const JobRepor
         return image.registered && !report.IsGeoreferenced(image);
       }));
   if (without_gnss > 0) {
-    unchecked.push_back(absl::StrCat("the lengths of the steps",
-                                     CountOf(without_gnss, report.registered),
-                                     " along the street: no GNSS tells them"));
+    unchecked.push_back(absl::StrCat(
+        "the lengths of the steps",
+        CountOf(without_gnss, report.registered),
+        " along the street, but by rays that several pairs share: no GNSS tells them"));
   }
   const size_t without_times = CountWithoutTimes(results, report);
   if (without_gnss < report.registered && without_times > 0) {

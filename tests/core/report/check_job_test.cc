@@ -101,8 +101,11 @@ TEST(JudgeModel, NoModelIsBad) {
 
 TEST(JudgeModel, SaysWhatNothingCouldCheck) {
   JobResults free = Street(36, {{0, 36}});
-  EXPECT_THAT(BuildJobReport(free).verdict.unchecked,
-              ElementsAre("the lengths of the steps along the street: no GNSS tells them"));
+  EXPECT_THAT(
+      BuildJobReport(free).verdict.unchecked,
+      ElementsAre(
+          "the lengths of the steps along the street, but by rays that several pairs share: no "
+          "GNSS tells them"));
   JobResults on_earth = Street(36, {{0, 36}}, true);
   EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked,
               ElementsAre(HasSubstr("whether a vehicle can have made the steps: they have no")));
