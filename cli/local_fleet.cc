@@ -17,6 +17,7 @@
 #include "cli/see_workers_off.h"
 #include "coordinator/journal_copy.h"
 #include "coordinator/listen_address.h"
+#include "coordinator/open_journal.h"
 #include "core/base/sleep.h"
 #include "worker/machine_offers.h"
 
@@ -53,8 +54,11 @@ absl::Status LocalFleet::OpenCoordinator() {
   ORBWEAVE_ASSIGN_OR_RETURN(monitoring_,
                             Monitoring::Start(options_.monitoring, std::move(file_log)));
   options_.coordinator.log = monitoring_->Log();
-  options_.coordinator.open_journal = [this, folder = JournalFolder()](const std::string&) {
-    return OpenJournalOf(folder);
+  options_.coordinator.open_journal =
+      [this](const std::string& state_dir) -> absl::StatusOr<std::unique_ptr<Journal>> {
+    ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
+                              OpenJournalIn(JournalFolder(), state_dir, options_.coordinator.log));
+    return monitoring_->Meter(std::move(journal));
   };
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator_, Coordinator::Open(options_.coordinator, clock_));
   ORBWEAVE_ASSIGN_OR_RETURN(pages_, monitoring_->ServePages(*coordinator_, clock_));
@@ -90,18 +94,6 @@ std::string LocalFleet::JournalFolder() const {
   const bool is_shared = !SharedFileSystemOf(options_.coordinator.state_dir).empty();
   if (!options_.journal_folder.empty() || !is_shared) return options_.journal_folder;
   return fs::temp_directory_path(error).string();
-}
-
-absl::StatusOr<std::unique_ptr<Journal>> LocalFleet::OpenJournalOf(
-    const std::string& journal_folder) const {
-  const std::string& state_dir = options_.coordinator.state_dir;
-  const auto open = [&] {
-    if (journal_folder.empty()) return OpenJournal(state_dir);
-    return OpenCopiedJournal(PlaceJournal(state_dir, journal_folder),
-                             {.log = options_.coordinator.log});
-  };
-  ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal, open());
-  return monitoring_->Meter(std::move(journal));
 }
 
 absl::StatusOr<std::string> LocalFleet::ChooseSocket() {

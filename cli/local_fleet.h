@@ -81,8 +81,6 @@ class LocalFleet {
   [[nodiscard]] absl::StatusOr<std::string> ChooseSocket();
   /// Where the journal is kept besides the state folder; empty: nowhere.
   [[nodiscard]] std::string JournalFolder() const;
-  [[nodiscard]] absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(
-      const std::string& journal_folder) const;
   [[nodiscard]] absl::Status OpenDoor();
   void CloseDoor();
   void Supervise(const std::stop_token& stop);

@@ -24,7 +24,7 @@
 #include "cli/store_argument.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/grpc_server.h"
-#include "coordinator/journal_copy.h"
+#include "coordinator/open_journal.h"
 #include "coordinator/postgres_journal.h"
 #include "core/base/sleep.h"
 #include "objects/s3_store.h"
@@ -58,8 +58,7 @@ absl::StatusOr<std::unique_ptr<Journal>> OpenJournalOf(const ServeOptions& optio
                                                        const EventLog& log) {
   const std::string& state_dir = options.coordinator.state_dir;
   if (!options.journal.empty()) return OpenPostgresJournal(options.journal);
-  if (options.journal_folder.empty()) return OpenJournal(state_dir);
-  return OpenCopiedJournal(PlaceJournal(state_dir, options.journal_folder), {.log = log});
+  return OpenJournalIn(options.journal_folder, state_dir, log);
 }
 
 /// Why a coordinator ends.

@@ -38,4 +38,11 @@ absl::StatusOr<std::unique_ptr<Journal>> OpenJournal(const std::string& state_di
   return OpenSqliteJournal(state_dir + "/journal.db");
 }
 
+absl::StatusOr<std::unique_ptr<Journal>> OpenJournalIn(const std::string& journal_folder,
+                                                       const std::string& state_dir,
+                                                       const EventLog& log) {
+  if (journal_folder.empty()) return OpenJournal(state_dir);
+  return OpenCopiedJournal(PlaceJournal(state_dir, journal_folder), {.log = log});
+}
+
 }  // namespace orbweave

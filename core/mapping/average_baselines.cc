@@ -69,10 +69,7 @@ class RatioTable {
     for (uint32_t i = 0; i < pairs_.size(); ++i) local_of_pair_[pairs_[i]] = i;
     if (cells_.size() < pairs_.size() * pairs_.size()) cells_.resize(pairs_.size() * pairs_.size());
     for (auto& cell : cells_) cell.clear();
-    for (size_t from = 0, to = 0; from < samples.size(); from = to) {
-      for (to = from; to < samples.size() && samples[to].node == samples[from].node;) ++to;
-      FillFromRay(samples.subspan(from, to - from));
-    }
+    ForEachRay(samples, [&](std::span<const RayDepth> ray) { FillFromRay(ray); });
   }
 
   /// Appends ratios of pairs with enough shared rays: those that share most first, as long as one

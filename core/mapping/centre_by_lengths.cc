@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "core/base/quantile.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/ray_depths.h"
 
@@ -87,16 +87,12 @@ std::vector<double> LengthsOf(const MappingState& state,
   const std::vector<RayDepth> depths =
       MeasureRayDepths(state.Problem(), graph, pairs, min_angle_rad);
   std::vector<double> lengths;
-  for (size_t begin = 0, end = 0; begin < depths.size(); begin = end) {
-    while (end < depths.size() && depths[end].node == depths[begin].node) ++end;
-    if (graph.image_of_node[depths[begin].node] != approach.from || depths[begin].pair != 0)
-      continue;
-    std::vector<double> told;
-    for (size_t i = begin + 1; i < end; ++i) {
-      if (depths[i].pair != 0) told.push_back(known[depths[i].pair] + depths[i].log_depth);
-    }
-    if (!told.empty()) lengths.push_back(Quantile(std::move(told), 0.5) - depths[begin].log_depth);
-  }
+  ForEachRay(depths, [&](std::span<const RayDepth> ray) {
+    const RayDepth& first = ray.front();
+    if (graph.image_of_node[first.node] != approach.from || first.pair != 0) return;
+    if (const std::optional<double> told = ToldLogLength(ray, first, known))
+      lengths.push_back(*told);
+  });
   std::ranges::sort(lengths);
   return lengths;
 }

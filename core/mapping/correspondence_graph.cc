@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <tuple>
 
@@ -14,15 +13,6 @@ namespace {
 
 std::string PairName(const ImagePair& pair) {
   return "pair (" + std::to_string(pair.a.value) + ", " + std::to_string(pair.b.value) + ")";
-}
-
-std::optional<ImageSlot> SlotOf(const ClusterProblem& problem, ImageId id) {
-  const auto it = std::lower_bound(
-      problem.images.begin(), problem.images.end(), id, [](const ClusterImage& image, ImageId x) {
-        return image.id < x;
-      });
-  if (it == problem.images.end() || it->id != id) return std::nullopt;
-  return static_cast<ImageSlot>(it - problem.images.begin());
 }
 
 /// Per feature, the first feature with exactly the same bearing.
@@ -128,6 +118,15 @@ void AddNeighbours(const ClusterProblem& problem, CorrespondenceGraph& graph) {
 }
 
 }  // namespace
+
+std::optional<ImageSlot> SlotOf(const ClusterProblem& problem, ImageId id) {
+  const auto it = std::lower_bound(
+      problem.images.begin(), problem.images.end(), id, [](const ClusterImage& image, ImageId x) {
+        return image.id < x;
+      });
+  if (it == problem.images.end() || it->id != id) return std::nullopt;
+  return static_cast<ImageSlot>(it - problem.images.begin());
+}
 
 absl::StatusOr<CorrespondenceGraph> BuildCorrespondenceGraph(const ClusterProblem& problem) {
   CorrespondenceGraph graph;

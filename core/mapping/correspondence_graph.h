@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,6 +48,9 @@ struct CorrespondenceGraph {
             neighbours.data() + first_neighbour[node + 1]};
   }
 };
+
+/// Where the image is in the problem; nullopt: nowhere.
+[[nodiscard]] std::optional<ImageSlot> SlotOf(const ClusterProblem& problem, ImageId id);
 
 /// InvalidArgument when images are not sorted by id, a pair names an image that is not there, or a
 /// match a feature that is not there.

@@ -11,7 +11,6 @@
 #include <span>
 #include <utility>
 
-#include "core/base/quantile.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/ray_depths.h"
 
@@ -48,16 +47,12 @@ class RayCounts {
   /// `depths`: of one ray.
   void Add(std::span<const RayDepth> depths) {
     for (const RayDepth& depth : depths) {
-      std::vector<double> others;
-      for (const RayDepth& other : depths) {
-        if (other.pair != depth.pair)
-          others.push_back(asked_.log_lengths[other.pair] + other.log_depth);
-      }
-      if (others.empty()) continue;
-      const double told = Quantile(std::move(others), 0.5) - depth.log_depth;
+      const std::optional<double> told = ToldLogLength(depths, depth, asked_.log_lengths);
+      if (!told) continue;
       RayCount& count = counts_[SideOf(depth)];
       ++count.told;
-      count.agreeing += std::abs(told - asked_.log_lengths[depth.pair]) <= kLengthTolerance ? 1 : 0;
+      count.agreeing +=
+          std::abs(*told - asked_.log_lengths[depth.pair]) <= kLengthTolerance ? 1 : 0;
     }
   }
   /// Of pair `i` of those asked, at most kMaxRaysOfPair.
@@ -101,10 +96,7 @@ std::vector<PairLength> MeasurePairLengths(const MappingState& state,
   const std::vector<RayDepth> depths =
       MeasureRayDepths(state.Problem(), state.Graph(), asked.pairs, min_angle_rad);
   RayCounts counts(state, asked);
-  for (size_t from = 0, to = 0; from < depths.size(); from = to) {
-    while (to < depths.size() && depths[to].node == depths[from].node) ++to;
-    counts.Add(std::span(depths).subspan(from, to - from));
-  }
+  ForEachRay(depths, [&](std::span<const RayDepth> ray) { counts.Add(ray); });
   std::vector<PairLength> lengths;
   for (size_t i = 0; i < asked.pairs.size(); ++i) {
     const LinkedPair& pair = state.Graph().pairs[asked.pairs[i]];

@@ -25,13 +25,12 @@ constexpr int kMaxMoves = 2;
 
 /// Those at a fault.
 std::set<ImageSlot> ImagesAtFaults(const MappingState& state, const MappingOptions& options) {
-  std::map<ImageId, ImageSlot> slots;
-  for (ImageSlot image = 0; image < state.Problem().images.size(); ++image)
-    slots[state.Problem().images[image].id] = image;
   std::set<ImageSlot> images;
   for (const LengthFault& fault : FindLengthFaults(state, options)) {
     for (const std::optional<ImageId> id : {std::optional(fault.image), fault.next}) {
-      if (id && state.IsRegistered(slots.at(*id))) images.insert(slots.at(*id));
+      if (!id) continue;
+      const ImageSlot image = SlotOf(state.Problem(), *id).value();
+      if (state.IsRegistered(image)) images.insert(image);
     }
   }
   return images;
@@ -83,6 +82,7 @@ absl::StatusOr<int> MoveImages(const MappingOptions& options,
 absl::StatusOr<int> MendLengths(MappingState& state,
                                 const MappingOptions& options,
                                 const StageContext& context) {
+  if (FindLengthFaults(state, options).empty()) return 0;
   MappingState mended = state;
   ORBWEAVE_ASSIGN_OR_RETURN(const int num_moved, MoveImages(options, context, mended));
   if (num_moved == 0 || EvidenceFor(mended, options) <= EvidenceFor(state, options)) return 0;

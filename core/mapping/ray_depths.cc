@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
+
+#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {
@@ -43,6 +46,17 @@ std::vector<RayDepth> MeasureRayDepths(const ClusterProblem& problem,
     return std::tuple(x.node, x.pair, x.log_depth) < std::tuple(y.node, y.pair, y.log_depth);
   });
   return depths;
+}
+
+std::optional<double> ToldLogLength(std::span<const RayDepth> ray,
+                                    const RayDepth& asked,
+                                    std::span<const double> log_lengths) {
+  std::vector<double> told;
+  for (const RayDepth& other : ray) {
+    if (other.pair != asked.pair) told.push_back(log_lengths[other.pair] + other.log_depth);
+  }
+  if (told.empty()) return std::nullopt;
+  return Quantile(std::move(told), 0.5) - asked.log_depth;
 }
 
 }  // namespace orbweave

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,5 +27,21 @@ struct RayDepth {
                                                      const CorrespondenceGraph& graph,
                                                      std::span<const uint32_t> pairs,
                                                      double min_angle_rad);
+
+/// Calls visit(depths of one ray) for each ray; `depths` as MeasureRayDepths sorts them.
+template <typename Visit>
+void ForEachRay(std::span<const RayDepth> depths, const Visit& visit) {
+  for (size_t from = 0, to = 0; from < depths.size(); from = to) {
+    while (to < depths.size() && depths[to].node == depths[from].node) ++to;
+    visit(depths.subspan(from, to - from));
+  }
+}
+
+/// How long the baseline of asked.pair is by the other pairs that share its ray, whose lengths are
+/// known: log s_p = log s_q + log d_q - log d_p, the median over all q. nullopt where none shares
+/// it. `ray`: the depths of that ray; `log_lengths`: per pair.
+[[nodiscard]] std::optional<double> ToldLogLength(std::span<const RayDepth> ray,
+                                                  const RayDepth& asked,
+                                                  std::span<const double> log_lengths);
 
 }  // namespace orbweave

@@ -30,12 +30,8 @@ struct ResidualSum {
   void Add(const ClusterProblem& problem, const Reconstruction& reconstruction) {
     for (const Track& track : reconstruction.tracks) {
       for (const Observation& seen : track.observations) {
-        const auto image =
-            std::lower_bound(problem.images.begin(),
-                             problem.images.end(),
-                             seen.ref.image,
-                             [](const ClusterImage& each, ImageId id) { return each.id < id; });
-        const double error_px = image->camera.PixelsFromAngle(
+        const ClusterImage& image = problem.images[SlotOf(problem, seen.ref.image).value()];
+        const double error_px = image.camera.PixelsFromAngle(
             BearingError(reconstruction.images.at(seen.ref.image).cam_from_world,
                          track.point_in_world,
                          seen.bearing));
