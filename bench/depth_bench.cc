@@ -9,12 +9,14 @@
 ///
 /// Surface counts that the truth has 2 to 15 m away and that another panorama sees as near. A point
 /// is as wrong as it is away from the true surface (tangent planes of what the rays around its own
-/// hit). --realistic has all hardships of a town's street; --exact takes away those that no pose
+/// hit). Panes that mirror and what moves (traffic, crowns in the wind) are judged apart.
+/// --realistic has all hardships of a town's street; --exact takes away those that no pose
 /// explains, lenses beside the panorama's centre and the rolling shutter.
 
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,6 +26,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/depth_score.h"
+#include "bench/street_truth.h"
 #include "core/base/random.h"
 #include "core/dense/check_depths.h"
 #include "core/dense/equiangular_raster.h"
@@ -38,9 +42,6 @@
 
 namespace orbweave {
 namespace {
-
-constexpr double kNearest_m = 2.0;
-constexpr double kFarthest_m = 15.0;
 
 struct Arguments {
   StreetOptions street{.panoramas = 5};
@@ -69,18 +70,23 @@ struct Shot {
   }
 };
 
-/// What the rays of an equiangular raster meet.
-struct Truth {
-  std::vector<float> range_m{};  // 0: sky
-  std::vector<Eigen::Vector3f> points{};
-  std::vector<Eigen::Vector3f> normals{};
-  std::vector<uint8_t> counts{};  // near enough, and another panorama sees it
-};
+const char* NameOf(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::kGlass:
+      return "glass";
+    case SurfaceKind::kMoves:
+      return "what moves";
+    default:
+      return "still";
+  }
+}
 
 class Bench {
  public:
   explicit Bench(const Arguments& arguments)
-      : arguments_(arguments), street_(MakeStreet(arguments.street)) {
+      : arguments_(arguments),
+        street_(MakeStreet(arguments.street)),
+        surface_(street_, arguments.street) {
     const double before_s = CpuSeconds();
     for (int k = 0; k < arguments_.street.panoramas; ++k)
       shots_.push_back(Render(static_cast<size_t>(k)));
@@ -93,7 +99,7 @@ class Bench {
     std::vector<Eigen::Vector3d> cloud;
     std::vector<Eigen::Vector3d> surface;
     double check_s = 0.0;
-    std::vector<Truth> truths(shots_.size());
+    std::vector<RasterTruth> truths(shots_.size());
     std::vector<DepthMap> checked;
     for (size_t own = 0; own < shots_.size(); ++own) {
       std::vector<NeighbourMap> neighbours;
@@ -109,16 +115,18 @@ class Bench {
       const bool judged =
           own >= FirstJudged() && own < FirstJudged() + static_cast<size_t>(arguments_.judged);
       if (!judged) continue;
-      const Truth& truth = truths[own] = TruthOf(own);
+      const RasterTruth& truth = truths[own] = surface_.Of(own, SourcesOf(own), map.face_px);
       pose_ = &shots_[own].cam_from_street;
       std::printf("panorama %zu\n", own);
-      Judge("estimated", maps_[own], truth);
-      Judge("checked", map, truth);
+      const auto is_still = [&](size_t k) { return truth.kinds[k] == SurfaceKind::kStill; };
+      Judge("estimated, still", maps_[own], truth, is_still);
+      Judge("checked, still", map, truth, is_still);
       JudgeParts(map, truth);
       Draw("estimated_" + std::to_string(own), maps_[own], truth);
       Draw("checked_" + std::to_string(own), map, truth);
       for (size_t k = 0; k < truth.points.size(); ++k) {
-        if (truth.counts[k] != 0) surface.push_back(truth.points[k].cast<double>());
+        if (truth.counts[k] != 0 && truth.kinds[k] == SurfaceKind::kStill)
+          surface.push_back(truth.points[k].cast<double>());
       }
     }
     JudgeFused(checked, truths);
@@ -221,8 +229,7 @@ class Bench {
 
   Shot Render(size_t i) const {
     Shot shot{.index = i};
-    const Rigid3 enu_from_street{Eigen::Quaterniond::Identity(), street_.street_in_enu};
-    shot.cam_from_street = street_.cams_from_enu[i] * enu_from_street;
+    shot.cam_from_street = surface_.CamFromStreet(i);
     const int width = arguments_.street.width_px;
     const auto count = static_cast<size_t>(width) * static_cast<size_t>(width / 2);
     if (!arguments_.images.empty()) {
@@ -252,13 +259,6 @@ class Bench {
     return shot;
   }
 
-  SurfaceHit TraceFrom(size_t i, const Eigen::Vector3d& bearing) const {
-    static const Traffic kNone({});
-    const Rigid3& pose = shots_[i].cam_from_street;
-    const LightRay ray{pose.Centre(), pose.rotation.conjugate() * bearing};
-    return Trace(street_.WorldOf(i), kNone, ray);
-  }
-
   std::vector<size_t> SourcesOf(size_t own) const {
     std::vector<size_t> sources;
     for (int step = 1; step <= arguments_.reach; ++step) {
@@ -283,7 +283,7 @@ class Bench {
     for (int k = 0; k < arguments_.seeds; ++k) {
       const Eigen::Vector3d bearing =
           Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
-      const SurfaceHit hit = TraceFrom(own, bearing);
+      const SurfaceHit hit = surface_.TraceFrom(own, bearing);
       if (hit.surface == SurfaceHit::kSky) continue;
       const bool wild = random.Uniform() < 0.05;
       const double range_m =
@@ -293,76 +293,14 @@ class Bench {
     return problem;
   }
 
-  Truth TruthOf(size_t own) const {
-    const EquiangularRaster raster{arguments_.street.width_px / 4};
-    Truth truth;
-    const std::vector<size_t> others = SourcesOf(own);
-    for (int face = 0; face < kCubeFaces; ++face) {
-      for (int row = 0; row < raster.face_px; ++row) {
-        for (int column = 0; column < raster.face_px; ++column) {
-          const SurfaceHit hit =
-              TraceFrom(own, raster.BearingFromPixel(face, row + 0.5, column + 0.5));
-          const bool sky = hit.surface == SurfaceHit::kSky;
-          truth.range_m.push_back(sky ? 0.0F : static_cast<float>(hit.distance_m));
-          truth.points.push_back(hit.point.cast<float>());
-          truth.normals.push_back(hit.normal.cast<float>());
-          bool counts = !sky && hit.distance_m > kNearest_m && hit.distance_m < kFarthest_m;
-          if (counts && (row % 4 != 1 || column % 4 != 1)) counts = false;
-          truth.counts.push_back(counts && IsSeen(hit, others) ? 1 : 0);
-        }
-      }
-    }
-    return truth;
-  }
-
-  bool IsSeen(const SurfaceHit& hit, const std::vector<size_t>& others) const {
-    for (const size_t other : others) {
-      const Eigen::Vector3d in_cam = shots_[other].cam_from_street * hit.point;
-      const double distance_m = in_cam.norm();
-      if (distance_m > kFarthest_m || distance_m < kNearest_m) continue;
-      const SurfaceHit seen = TraceFrom(other, in_cam / distance_m);
-      if (seen.surface != SurfaceHit::kSky && std::abs(seen.distance_m - distance_m) < 0.03)
-        return true;
-    }
-    return false;
-  }
-
-  /// Distance of a point from the surface around pixel (face, row, column).
-  double ErrorAt(const Truth& truth,
-                 const DepthMap& map,
-                 int face,
-                 int row,
-                 int column,
-                 const Eigen::Vector3f& point) const {
-    const EquiangularRaster raster{map.face_px};
-    double least = 1e9;
-    for (int r = std::max(0, row - 1); r <= std::min(map.face_px - 1, row + 1); ++r) {
-      for (int c = std::max(0, column - 1); c <= std::min(map.face_px - 1, column + 1); ++c) {
-        const size_t k = raster.Index(face, r, c);
-        if (truth.range_m[k] == 0.0F) continue;
-        const Eigen::Vector3f away = point - truth.points[k];
-        const double off = std::abs(away.dot(truth.normals[k]));
-        const double along =
-            std::sqrt(std::max(0.0, static_cast<double>(away.squaredNorm()) - off * off));
-        const double footprint_m = 2.0 * raster.PixelAngle() * truth.range_m[k];
-        least = std::min(
-            least,
-            r == row && c == column ? off : std::hypot(off, std::max(0.0, along - footprint_m)));
-      }
-    }
-    return least;
-  }
-
   /// Points of the cloud that judged panoramas give, each on the ray of its own pixel.
-  void JudgeFused(const std::vector<DepthMap>& maps, const std::vector<Truth>& truths) const {
+  void JudgeFused(const std::vector<DepthMap>& maps, const std::vector<RasterTruth>& truths) const {
     std::vector<PosedDepthMap> posed;
     for (size_t i = 0; i < maps.size(); ++i)
       posed.push_back({ImageId(static_cast<uint32_t>(i)), &maps[i], shots_[i].cam_from_street});
-    std::vector<double> errors;
-    size_t one = 0;
-    size_t two = 0;
+    std::array<DepthScore, kSurfaceKinds.size()> scores;
     for (size_t own = 0; own < maps.size(); ++own) {
-      const Truth& truth = truths[own];
+      const RasterTruth& truth = truths[own];
       if (truth.points.empty()) continue;
       std::vector<PosedDepthMap> neighbours = posed;
       neighbours.erase(neighbours.begin() + static_cast<ptrdiff_t>(own));
@@ -370,121 +308,79 @@ class Bench {
       for (const SurfacePoint& point :
            FusePixels(posed[own], shots_[own].Raster(), neighbours).points) {
         const Eigen::Vector3d in_cam = shots_[own].cam_from_street * point.position_in_world;
-        const double range_m = in_cam.norm();
         const EquiangularRaster::Place place = raster.PixelFromBearing(in_cam);
         const size_t k = raster.Index(place);
-        const bool true_near = truth.range_m[k] > kNearest_m && truth.range_m[k] < kFarthest_m;
-        if (!true_near && (range_m > kFarthest_m || range_m < kNearest_m)) continue;
-        errors.push_back(ErrorAt(truth,
-                                 maps[own],
-                                 place.face,
-                                 static_cast<int>(place.row),
-                                 static_cast<int>(place.column),
-                                 point.position_in_world.cast<float>()));
-        const double along = std::abs(range_m - static_cast<double>(truth.range_m[k]));
-        one += along < point.sigma_m ? 1 : 0;
-        two += along < 2.0 * point.sigma_m ? 1 : 0;
+        if (!truth.IsNear(k) && !IsJudged(in_cam.norm())) continue;
+        scores[static_cast<size_t>(truth.kinds[k])].AddPoint(
+            truth.ErrorAt(place.face,
+                          static_cast<int>(place.row),
+                          static_cast<int>(place.column),
+                          point.position_in_world.cast<float>()),
+            std::abs(in_cam.norm() - static_cast<double>(truth.range_m[k])),
+            point.sigma_m);
       }
     }
-    const auto share = [&](auto count) {
-      return 100.0 * static_cast<double>(count) / static_cast<double>(errors.size());
-    };
-    const auto within = [&](double tolerance) {
-      return share(std::ranges::count_if(errors, [&](double e) { return e < tolerance; }));
-    };
-    if (errors.empty()) return;
-    std::printf(
-        "fused: %zu points, precision %5.1f %5.1f %5.1f, within one sigma %4.1f two %4.1f\n",
-        errors.size(),
-        within(0.02),
-        within(0.05),
-        within(0.10),
-        share(one),
-        share(two));
+    std::printf("fused\n");
+    for (const SurfaceKind kind : kSurfaceKinds)
+      scores[static_cast<size_t>(kind)].Print(NameOf(kind));
   }
 
-  void Judge(const char* what, const DepthMap& map, const Truth& truth) const {
-    Judge(what, map, truth, [](size_t) { return true; });
+  static bool IsJudged(double range_m) {
+    return range_m > kNearestJudged_m && range_m < kFarthestJudged_m;
   }
 
   /// Level surface is road, kerbs and roofs of cars; the rest walls and what stands before them.
-  void JudgeParts(const DepthMap& map, const Truth& truth) const {
+  void JudgeParts(const DepthMap& map, const RasterTruth& truth) const {
     const auto is_level = [&](size_t k) { return std::abs(truth.normals[k].z()) > 0.9F; };
-    Judge("  level", map, truth, is_level);
-    Judge("  other", map, truth, [&](size_t k) { return !is_level(k); });
+    const auto is_still = [&](size_t k) { return truth.kinds[k] == SurfaceKind::kStill; };
+    Judge("  still, level", map, truth, [&](size_t k) { return is_still(k) && is_level(k); });
+    Judge("  still, other", map, truth, [&](size_t k) { return is_still(k) && !is_level(k); });
+    Judge("  glass", map, truth, [&](size_t k) { return truth.kinds[k] == SurfaceKind::kGlass; });
+    Judge("  what moves", map, truth, [&](size_t k) {
+      return truth.kinds[k] == SurfaceKind::kMoves;
+    });
   }
 
   /// Of the pixels for which `belongs(k)`.
   template <typename Belongs>
-  void Judge(const char* what, const DepthMap& map, const Truth& truth, Belongs&& belongs) const {
+  void Judge(const char* what,
+             const DepthMap& map,
+             const RasterTruth& truth,
+             Belongs&& belongs) const {
     const EquiangularRaster raster{map.face_px};
-    size_t counted = 0;
-    size_t found = 0;
-    size_t outside = 0;
-    std::vector<double> errors;
-    double within[3] = {};
-    size_t one = 0;
-    size_t two = 0;
+    DepthScore score;
     for (int face = 0; face < kCubeFaces; ++face) {
       for (int row = 1; row < map.face_px; row += 4) {
         for (int column = 1; column < map.face_px; column += 4) {
           const size_t k = raster.Index(face, row, column);
           if (!belongs(k)) continue;
-          counted += truth.counts[k];
-          if (!(map.range_m[k] > 0.0F)) continue;
-          const bool true_near = truth.range_m[k] > kNearest_m && truth.range_m[k] < kFarthest_m;
-          if (truth.counts[k] == 0) {
-            // An invented point counts against precision where it claims to be near.
-            if (true_near || map.range_m[k] > kFarthest_m || map.range_m[k] < kNearest_m) continue;
-          }
-          const double error = ErrorOf(truth, map, face, row, column);
-          if (truth.counts[k] == 0) ++outside;
-          errors.push_back(error);
-          if (truth.counts[k] == 0) continue;
-          ++found;
-          const double tolerances[3] = {0.02, 0.05, 0.10};
-          for (int t = 0; t < 3; ++t) within[t] += error < tolerances[t];
-          const double along = std::abs(map.range_m[k] - truth.range_m[k]);
-          one += along < map.sigma_m[k];
-          two += along < 2.0 * map.sigma_m[k];
+          const bool is_found = map.range_m[k] > 0.0F;
+          const double error_m = is_found ? ErrorOf(truth, map, face, row, column) : -1.0;
+          const bool counts = truth.counts[k] != 0;
+          if (counts) score.AddPlace(error_m);
+          // An invented point counts against precision where it claims to be near.
+          if (!is_found || (!counts && (truth.IsNear(k) || !IsJudged(map.range_m[k])))) continue;
+          score.AddPoint(error_m,
+                         std::abs(map.range_m[k] - truth.range_m[k]),
+                         static_cast<double>(map.sigma_m[k]));
         }
       }
     }
-    std::sort(errors.begin(), errors.end());
-    const auto share = [&](double tolerance) {
-      const auto n = std::lower_bound(errors.begin(), errors.end(), tolerance) - errors.begin();
-      return 100.0 * static_cast<double>(n) /
-             std::max<double>(1.0, static_cast<double>(errors.size()));
-    };
-    const double all = std::max<double>(1.0, static_cast<double>(counted));
-    std::printf(
-        "  %-9s precision %5.1f %5.1f %5.1f  recall %5.1f %5.1f %5.1f  median %.1f mm  within one "
-        "sigma %4.1f two %4.1f  invented %.1f %%\n",
-        what,
-        share(0.02),
-        share(0.05),
-        share(0.10),
-        100.0 * within[0] / all,
-        100.0 * within[1] / all,
-        100.0 * within[2] / all,
-        errors.empty() ? 0.0 : 1e3 * errors[errors.size() / 2],
-        100.0 * static_cast<double>(one) / std::max<double>(1.0, static_cast<double>(found)),
-        100.0 * static_cast<double>(two) / std::max<double>(1.0, static_cast<double>(found)),
-        100.0 * static_cast<double>(outside) /
-            std::max<double>(1.0, static_cast<double>(errors.size())));
+    score.Print(what);
   }
 
-  double ErrorOf(const Truth& truth, const DepthMap& map, int face, int row, int column) const {
+  double ErrorOf(
+      const RasterTruth& truth, const DepthMap& map, int face, int row, int column) const {
     const EquiangularRaster raster{map.face_px};
     const size_t k = raster.Index(face, row, column);
     const Eigen::Vector3d in_cam = static_cast<double>(map.range_m[k]) *
                                    raster.BearingFromPixel(face, row + 0.5, column + 0.5);
     const Eigen::Vector3d point = pose_->Inverse() * in_cam;
-    return ErrorAt(truth, map, face, row, column, point.cast<float>());
+    return truth.ErrorAt(face, row, column, point.cast<float>());
   }
 
   /// Faces side by side: the ranges found, the true ones, errors (white: 10 cm and more).
-  void Draw(const std::string& name, const DepthMap& map, const Truth& truth) const {
+  void Draw(const std::string& name, const DepthMap& map, const RasterTruth& truth) const {
     if (arguments_.pictures.empty()) return;
     const EquiangularRaster raster{map.face_px};
     const int width = map.face_px * kCubeFaces;
@@ -514,6 +410,7 @@ class Bench {
 
   Arguments arguments_;
   Street street_;
+  StreetTruth surface_;
   std::vector<Shot> shots_{};
   std::vector<DepthMap> maps_{};
   const Rigid3* pose_ = nullptr;

@@ -19,6 +19,10 @@ constexpr float kMaxReprojection_px = 1.0F;
 /// Neighbours match the same pixels: their errors are not independent.
 constexpr float kSharedError = 1.5F;
 constexpr float kLeastSine = 0.07F;  // 4 degrees
+/// From farther away, in ranges of the reference, a panorama need not have found the point.
+constexpr float kMuchFarther = 2.0F;
+/// What stands in front by a fifth of the distance hides the point; what is nearer denies it.
+constexpr float kHides = 0.8F;
 
 /// Pixel of the raster that a vector of the camera frame falls on, in single precision.
 class PixelLookup {
@@ -72,6 +76,7 @@ struct Neighbour {
 
 /// What the neighbours say of one point.
 struct Votes {
+  int asked = 0;  // have a depth there, from no much farther away, that hides nothing
   int agreeing = 0;
   int seen_through = 0;
   float sine = 0.0F;  // of the largest parallax
@@ -120,6 +125,7 @@ class Checker {
     const float its_range_m = neighbour.map->range_m[at];
     if (!(its_range_m > 0.0F)) return;
     const float distance_m = there.norm();
+    if (distance_m < kMuchFarther * range_m && its_range_m > kHides * distance_m) ++votes.asked;
     const float sigma_m = neighbour.map->sigma_m[at];
     const float tolerance_m = std::max(kSigmas * std::sqrt(own_variance + sigma_m * sigma_m),
                                        kLeastTolerance * distance_m);
@@ -193,7 +199,8 @@ DepthMap CheckDepths(const DepthMap& own,
     const int needed =
         std::min(options.min_agreeing + more, static_cast<int>(checker.NumNeighbours()));
     const bool hollow = votes.seen_through >= std::max(1, votes.agreeing);
-    if (votes.agreeing < needed || hollow) {
+    const bool is_denied = votes.agreeing < options.min_agreeing_share * votes.asked;
+    if (votes.agreeing < needed || hollow || is_denied) {
       checked.range_m[pixel] = 0.0F;
       continue;
     }

@@ -21,10 +21,13 @@ struct NeighbourMap {
 /// 1 % of the range, and seen from here less than a pixel beside it. It sees through a point when
 /// its surface lies behind it by more than that. A point stays with `min_agreeing` agreeing
 /// neighbours (one more where no two rays meet at 4 degrees or more, at most as many as there are)
-/// unless as many see through it; surfaces of fewer than `min_speckle_px` connected pixels go.
-/// Ranges become the mean of own and agreeing ones, weighted by 1 / sigma^2; as neighbours match
-/// the same pixels, sigmas are 1.5 times what independent errors would leave. An empty map stays as
-/// it is; maps of another size count as absent.
+/// unless as many see through it, or they are less than `min_agreeing_share` of those asked, which
+/// have a depth there, look from less than twice the distance, and see nothing stand before it by a
+/// fifth of that: a point that two maps share and most deny is the errors of two. Surfaces of fewer
+/// than `min_speckle_px` connected pixels go. Ranges become the mean of own and agreeing ones,
+/// weighted by 1 / sigma^2; as neighbours match the same pixels, sigmas are 1.5 times what
+/// independent errors would leave. An empty map stays as it is; maps of another size count as
+/// absent.
 [[nodiscard]] DepthMap CheckDepths(const DepthMap& own,
                                    const std::vector<NeighbourMap>& neighbours,
                                    const DenseOptions& options);

@@ -17,6 +17,7 @@ struct DenseOptions {
   double max_sigma = 0.05;
   bool planar_prior = true;
   int min_agreeing = 1;
+  double min_agreeing_share = 0.5;
   int min_speckle_px = 30;
 
   template <typename Self, typename Visitor>
@@ -45,6 +46,11 @@ struct DenseOptions {
           "other panoramas that must have found the same point; one more below 4 degrees of "
           "parallax",
           Range{0, 8});
+    visit("min_agreeing_share",
+          self.min_agreeing_share,
+          "share that must have found the same point of the panoramas that look at it, nothing in "
+          "between, from less than twice the distance",
+          Range{0, 1});
     visit("min_speckle_px",
           self.min_speckle_px,
           "connected pixels of one surface that are no speckle",

@@ -23,6 +23,7 @@ struct ClusterReconstruction {
   std::vector<ImagePair> contradicted_pairs{};  ///< by the submodels; JudgePairs
   std::vector<ImagePair> explained_pairs{};
   std::vector<PairLength> pair_lengths{};  ///< of the submodels; MeasurePairLengths
+  std::vector<GapLength> gap_lengths{};    ///< MeasureGapLengths
   int num_joined = 0;                      ///< submodels fewer, since bridges joined them
   int num_global_adjustments = 0;
   int num_local_adjustments = 0;

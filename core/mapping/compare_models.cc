@@ -46,6 +46,15 @@ double EvidenceFor(const MappingState& state, const MappingOptions& options) {
          (1.0 + static_cast<double>(CountHeldPlaces(state)));
 }
 
+bool SpeaksMoreFor(const MappingState& one,
+                   const MappingState& other,
+                   const MappingOptions& options) {
+  const size_t faults = FindLengthFaults(one, options).size();
+  const size_t faults_of_other = FindLengthFaults(other, options).size();
+  if (faults != faults_of_other) return faults < faults_of_other;
+  return EvidenceFor(one, options) > EvidenceFor(other, options);
+}
+
 bool IsBetterModel(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
@@ -53,7 +62,7 @@ bool IsBetterModel(const MappingState& one,
   const double worth_of_other = BorneOutImages(other);
   if (worth > kClearly * worth_of_other) return true;
   if (kClearly * worth < worth_of_other) return false;
-  return EvidenceFor(one, options) > EvidenceFor(other, options);
+  return SpeaksMoreFor(one, other, options);
 }
 
 }  // namespace orbweave

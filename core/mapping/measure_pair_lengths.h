@@ -26,7 +26,7 @@ namespace orbweave {
 [[nodiscard]] std::vector<PairLength> MeasurePairLengths(const MappingState& state,
                                                          const MappingOptions& options);
 
-/// FindLengthFaults of the model, its images by drive in the order of their ids.
+/// FindLengthFaults of the model: MeasurePairLengths and MeasureGapLengths.
 [[nodiscard]] std::vector<LengthFault> FindLengthFaults(const MappingState& state,
                                                         const MappingOptions& options);
 

@@ -85,7 +85,7 @@ absl::StatusOr<int> MendLengths(MappingState& state,
   if (FindLengthFaults(state, options).empty()) return 0;
   MappingState mended = state;
   ORBWEAVE_ASSIGN_OR_RETURN(const int num_moved, MoveImages(options, context, mended));
-  if (num_moved == 0 || EvidenceFor(mended, options) <= EvidenceFor(state, options)) return 0;
+  if (num_moved == 0 || !SpeaksMoreFor(mended, state, options)) return 0;
   state = std::move(mended);
   return num_moved;
 }

@@ -13,7 +13,7 @@ namespace orbweave {
 /// (StepWitness), makes their points anew and adjusts around them, one after the other in order of
 /// images, as long as more rays agree with the model after each. A few rounds of it, as a piece of
 /// several images is moved one by one. All of it stays as it was unless more speaks for the result
-/// (EvidenceFor). Returns how many images were moved. Cancelled when asked to stop.
+/// (SpeaksMoreFor). Returns how many images were moved. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<int> MendLengths(MappingState& state,
                                               const MappingOptions& options,
                                               const StageContext& context);

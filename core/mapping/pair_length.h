@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 #include "core/scene/ids.h"
 
 namespace orbweave {
@@ -22,6 +24,13 @@ struct LengthAgreement {
 /// That of the baseline of a pair (MeasurePairLengths).
 struct PairLength {
   ImagePair pair{};
+  LengthAgreement agreement{};
+};
+
+/// That of the way between two images that follow each other in a drive (MeasureGapLengths).
+struct GapLength {
+  ImagePair between{};
+  uint32_t pairs = 0;  ///< that lead across and tell something
   LengthAgreement agreement{};
 };
 

@@ -13,6 +13,7 @@
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/measure_gap_lengths.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/weigh_pixels_alike.h"
@@ -111,6 +112,7 @@ void TakeSubmodel(const MappingState& state,
   result.explained_pairs.insert(
       result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
   std::ranges::copy(MeasurePairLengths(state, options), std::back_inserter(result.pair_lengths));
+  std::ranges::copy(MeasureGapLengths(state, options), std::back_inserter(result.gap_lengths));
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ bool Surpasses(const MappingState& global,
   if (LeavesImagesOut(graph, available, grown))
     return BorneOutImages(global) > (1.0 + kClearlyMore) * BorneOutImages(grown);
   return global.Registered().size() >= grown.Registered().size() &&
-         EvidenceFor(global, options) > EvidenceFor(grown, options);
+         SpeaksMoreFor(global, grown, options);
 }
 
 /// Where seeds leave images out, or pairs contest their model: all at once, if that is sound and

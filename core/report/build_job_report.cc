@@ -281,6 +281,7 @@ ClusterSummary SummariseCluster(const ClusterResult& result) {
                          .contradicted_pairs = cluster.contradicted_pairs,
                          .explained_pairs = cluster.explained_pairs,
                          .pair_lengths = cluster.pair_lengths,
+                         .gap_lengths = cluster.gap_lengths,
                          .residual_rms_px = cluster.residual_rms_px};
   for (const Reconstruction& submodel : cluster.submodels) {
     summary.submodels.push_back(

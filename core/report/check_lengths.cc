@@ -8,38 +8,34 @@
 #include <cstdio>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/mapping/find_length_faults.h"
 #include "core/report/model_of_images.h"
-#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
 
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 
-/// Of pairs of images of one model, in order of pairs.
-std::vector<PairLength> LengthsOf(const JobResults& results) {
+/// Of what lies within one model, each place once: as the cluster has it that it agrees with least.
+template <typename Length>
+std::vector<Length> LeastAgreeing(const JobResults& results,
+                                  std::vector<Length> ClusterSummary::*lengths,
+                                  ImagePair Length::*place) {
   const std::vector<int> model_of_image = ModelOfImages(results);
-  std::map<ImagePair, LengthAgreement> lengths;
+  std::map<ImagePair, Length> least;
   for (const ClusterSummary& cluster : results.clusters) {
-    for (const auto& [pair, agreement] : cluster.pair_lengths) {
-      if (!AreOfOneModel(model_of_image, pair)) continue;
-      const auto [known, is_new] = lengths.try_emplace(pair, agreement);
-      if (!is_new && agreement.Share() < known->second.Share()) known->second = agreement;
+    for (const Length& length : cluster.*lengths) {
+      if (!AreOfOneModel(model_of_image, length.*place)) continue;
+      const auto [known, is_new] = least.try_emplace(length.*place, length);
+      if (!is_new && length.agreement.Share() < known->second.agreement.Share())
+        known->second = length;
     }
   }
-  std::vector<PairLength> sorted;
-  for (const auto& [pair, agreement] : lengths) sorted.push_back({pair, agreement});
+  std::vector<Length> sorted;
+  for (const auto& [where, length] : least) sorted.push_back(length);
   return sorted;
-}
-
-std::vector<std::vector<ImageId>> SequencesOf(const ImageManifest& manifest) {
-  std::vector<std::vector<ImageId>> sequences;
-  for (auto& [drive, sequence] : SequenceOfDrives(manifest)) sequences.push_back(sequence);
-  return sequences;
 }
 
 std::string PlaceOf(const LengthFault& fault, const ImageManifest& manifest) {
@@ -54,11 +50,14 @@ int Percent(double share) { return static_cast<int>(std::lround(100.0 * share));
 CrossCheck CheckLengths(const JobResults& results) {
   CrossCheck check{
       .name = "step_lengths", .value = 1.0, .limit = kMinAgreeingLengths, .unit = "share"};
-  const std::vector<PairLength> lengths = LengthsOf(results);
+  const std::vector<PairLength> lengths =
+      LeastAgreeing(results, &ClusterSummary::pair_lengths, &PairLength::pair);
+  const std::vector<GapLength> gaps =
+      LeastAgreeing(results, &ClusterSummary::gap_lengths, &GapLength::between);
   LengthAgreement all;
   for (const PairLength& length : lengths) all.Add(length.agreement);
   check.value = all.Share();
-  const std::vector<LengthFault> faults = FindLengthFaults(lengths, SequencesOf(results.manifest));
+  const std::vector<LengthFault> faults = FindLengthFaults(lengths, gaps);
   char text[512];
   if (faults.empty()) {
     std::snprintf(text,

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/synthetic/camera_rays.h"
 #include "core/synthetic/random_for_street.h"
-#include "core/synthetic/render_panorama.h"
 #include "core/synthetic/street_solids.h"
 #include "core/synthetic/street_traffic.h"
 
@@ -90,20 +90,29 @@ PanoramaView ViewAt(const Street& street, const StreetOptions& options, size_t i
   return view;
 }
 
+/// What stood there when panorama i was taken.
+StreetWorld WorldAt(const Street& street, const StreetOptions& options, size_t i) {
+  const StreetWorld& world = street.WorldOf(i);
+  const double wind_m = options.hardships.wind_m;
+  if (wind_m == 0.0) return world;
+  const double since_start_s = street.capture_times_s[i] - street.capture_times_s[0];
+  return InTheWind(world, wind_m, since_start_s, RandomForStreet(options, "wind", i));
+}
+
 }  // namespace
+
+StreetMoment MomentOf(const Street& street, const StreetOptions& options, size_t i) {
+  Random random = RandomForStreet(options, "shot", i);
+  PanoramaView view = ViewAt(street, options, i, random);
+  Traffic traffic(MovingAt(street, options, i, random));
+  return {std::move(view), WorldAt(street, options, i), std::move(traffic)};
+}
 
 RenderedPanorama RenderStreetPanorama(const Street& street,
                                       const StreetOptions& options,
                                       size_t i) {
-  Random random = RandomForStreet(options, "shot", i);
-  const PanoramaView view = ViewAt(street, options, i, random);
-  const Traffic traffic(MovingAt(street, options, i, random));
-  const StreetWorld& world = street.WorldOf(i);
-  const double wind_m = options.hardships.wind_m;
-  if (wind_m == 0.0) return RenderPanorama(world, traffic, view);
-  const double since_start_s = street.capture_times_s[i] - street.capture_times_s[0];
-  Random gusts = RandomForStreet(options, "wind", i);
-  return RenderPanorama(InTheWind(world, wind_m, since_start_s, gusts), traffic, view);
+  const StreetMoment moment = MomentOf(street, options, i);
+  return RenderPanorama(moment.world, moment.traffic, moment.view);
 }
 
 }  // namespace orbweave

@@ -12,6 +12,18 @@ namespace orbweave {
 
 static_assert(sizeof(SubmodelExtent) == 8, "packed as written");
 
+namespace {
+
+absl::Status CheckLength(const ImagePair& pair, const LengthAgreement& agreement) {
+  return codec::Expect(pair.a < pair.b && codec::IsAmount(agreement.told) &&
+                           codec::IsAmount(agreement.agreeing) &&
+                           agreement.agreeing <= agreement.told,
+                       "cluster reconstruction",
+                       "images of a length are out of order, or more rays agree than tell it");
+}
+
+}  // namespace
+
 absl::StatusOr<std::string> EncodeReconstruction(const Reconstruction& reconstruction) {
   v1::Reconstruction proto;
   codec::ToProto(reconstruction, &proto);
@@ -48,6 +60,14 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_told(length.agreement.told);
     out->set_agreeing(length.agreement.agreeing);
   }
+  for (const GapLength& length : result.reconstruction.gap_lengths) {
+    v1::GapLength* out = proto.add_gap_lengths();
+    out->set_image(length.between.a.value);
+    out->set_next(length.between.b.value);
+    out->set_pairs(length.pairs);
+    out->set_told(length.agreement.told);
+    out->set_agreeing(length.agreement.agreeing);
+  }
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
   proto.set_num_local_adjustments(result.reconstruction.num_local_adjustments);
   proto.set_residual_rms_px(result.reconstruction.residual_rms_px);
@@ -81,14 +101,16 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
       return absl::DataLossError("cluster reconstruction: images of a pair out of order");
   }
   for (const v1::PairLength& length : proto.pair_lengths()) {
-    ORBWEAVE_RETURN_IF_ERROR(
-        codec::Expect(length.image_a() < length.image_b() && codec::IsAmount(length.told()) &&
-                          codec::IsAmount(length.agreeing()) && length.agreeing() <= length.told(),
-                      "cluster reconstruction",
-                      "images of a length are out of order, or more rays agree than tell it"));
-    result.reconstruction.pair_lengths.push_back(
-        {.pair = {ImageId(length.image_a()), ImageId(length.image_b())},
-         .agreement = {.told = length.told(), .agreeing = length.agreeing()}});
+    const ImagePair pair{ImageId(length.image_a()), ImageId(length.image_b())};
+    const LengthAgreement agreement{.told = length.told(), .agreeing = length.agreeing()};
+    ORBWEAVE_RETURN_IF_ERROR(CheckLength(pair, agreement));
+    result.reconstruction.pair_lengths.push_back({pair, agreement});
+  }
+  for (const v1::GapLength& length : proto.gap_lengths()) {
+    const ImagePair between{ImageId(length.image()), ImageId(length.next())};
+    const LengthAgreement agreement{.told = length.told(), .agreeing = length.agreeing()};
+    ORBWEAVE_RETURN_IF_ERROR(CheckLength(between, agreement));
+    result.reconstruction.gap_lengths.push_back({between, length.pairs(), agreement});
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();
   result.reconstruction.num_local_adjustments = proto.num_local_adjustments();

@@ -84,11 +84,10 @@ struct PairMatcher {
       const std::vector<FeatureMatch> matches = AcceptNearest(nearest.Nearest(), match_options);
       ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, Verify(matches, strict));
       geometry.rung = MatchRung::kLargest;
+      // More may show what is off a plane, that the camera moved, or which direction is right.
       if (geometry.kind == TwoViewKind::kGeneral && ShowsTranslation(geometry) &&
           !HasRival(geometry, matches))
         return geometry;
-      // All may show what is off a plane, that the camera only turned, or which direction is right.
-      if (geometry.kind != TwoViewKind::kNone) return nothing;
     }
   }
 

@@ -1,9 +1,11 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # variables are shared with run.sh
 # Workers that are not heard for longer than their lease, or a coordinator that does not listen; bad networks.
 
+# The worker first, which could otherwise begin another task meanwhile.
 pause_worker() {
+  kill -STOP "${pid_of[$1]}"
   # shellcheck disable=SC2046
-  kill -STOP "${pid_of[$1]}" $(tasks_of "$1")
+  kill -STOP $(tasks_of "$1") 2>/dev/null
 }
 continue_worker() {
   # shellcheck disable=SC2046
@@ -15,21 +17,15 @@ cut_one_way() { drop_incoming "$1"; }
 cut_other_way() { drop_incoming hub "ip saddr 10.77.0.1$1"; }
 mend_other_way() { drop_nothing hub; }
 
-# How many ticks of the processor the tasks of a worker took so far.
-ticks_of() {
-  local pid sum=0
+# Whether a worker that is paused was computing: what its task needs has come, and its process has not ended.
+was_computing() {
+  local pid state ticks
+  has_task "$1" || return 1
   for pid in $(tasks_of "$1"); do
-    ((sum += $(cut -d' ' -f14 "/proc/$pid/stat" 2>/dev/null || echo 0)))
+    read -r _ _ state _ _ _ _ _ _ _ _ _ _ ticks _ <"/proc/$pid/stat"
+    [ "$state" != Z ] && ((ticks > 0)) && return 0
   done
-  echo "$sum"
-}
-
-# Whether a worker computes: what its task needs has come, its result has not gone.
-is_computing() {
-  local before
-  before=$(ticks_of "$1")
-  sleep 0.05
-  (($(ticks_of "$1") > before + 1)) && has_task "$1"
+  return 1
 }
 
 # How many attempts ended because their worker was told so, before anything of them was refused.
@@ -37,14 +33,18 @@ called_off() {
   comm -23 <(attempts_of "gave it up" "$fleet"/worker?.log) <(attempts_of result_refused "$fleet"/coordinator.*.log) | wc -l
 }
 
-# BEGIN END: begins in the middle of a task of a worker that is met computing, which is then $picked. Fails when the job
-# ended before one was.
+# BEGIN END: begins in the middle of a task of a worker that is met computing, which is then $picked. The worker is held
+# while it is looked at, or a short task would be done meanwhile. Fails when the job ended before one was met.
 silence_in_a_task() {
   while is_running submit; do
     any_worker
-    is_computing "$picked" && "$1" "$picked" || continue
-    has_task "$picked" && return 0
-    "$2" "$picked" # its task had just ended
+    pause_worker "$picked"
+    if was_computing "$picked"; then
+      "$1" "$picked"
+      [ "$1" = pause_worker ] || continue_worker "$picked"
+      return 0
+    fi
+    continue_worker "$picked"
   done
   return 1
 }

@@ -536,6 +536,9 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                          .explained_pairs = {{ImageId(3), ImageId(4)}},
                          .pair_lengths = {{.pair = {ImageId(3), ImageId(4)},
                                            .agreement = {.told = 80.5, .agreeing = 20.25}}},
+                         .gap_lengths = {{.between = {ImageId(4), ImageId(5)},
+                                          .pairs = 7,
+                                          .agreement = {.told = 90.5, .agreeing = 30.25}}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
                          .start_remark = "29 of 30 images stay registered"}};
@@ -549,6 +552,12 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.pair_lengths[0].pair.b, ImageId(4));
   EXPECT_EQ(cluster_out->reconstruction.pair_lengths[0].agreement.told, 80.5);
   EXPECT_EQ(cluster_out->reconstruction.pair_lengths[0].agreement.agreeing, 20.25);
+  ASSERT_EQ(cluster_out->reconstruction.gap_lengths.size(), 1U);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].between,
+            (ImagePair{ImageId(4), ImageId(5)}));
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].pairs, 7U);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].agreement.told, 90.5);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].agreement.agreeing, 30.25);
   EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);

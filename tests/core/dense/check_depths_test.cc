@@ -123,6 +123,38 @@ TEST(CheckDepths, AsksForAsManyAsItIsTold) {
   EXPECT_EQ(ShareKept(CheckDepths(maps.own, maps.Neighbours(), {.min_agreeing = 2})), 0.0);
 }
 
+/// Of four neighbours the last `count` have everything at a multiple of its range.
+Maps WithRangesTimes(float factor, size_t count) {
+  Maps maps(0.0);
+  for (size_t k = maps.maps.size() - count; k < maps.maps.size(); ++k) {
+    for (float& range_m : maps.maps[k].range_m) range_m *= factor;
+  }
+  return maps;
+}
+
+TEST(CheckDepths, DropsWhatMostMapsDeny) {
+  const Maps halves = WithRangesTimes(0.9F, 2);
+  EXPECT_GT(ShareKept(CheckDepths(halves.own, halves.Neighbours(), {})), 0.9);
+  const Maps most = WithRangesTimes(0.9F, 3);
+  EXPECT_LT(ShareKept(CheckDepths(most.own, most.Neighbours(), {})), 0.1);
+  EXPECT_GT(ShareKept(CheckDepths(most.own, most.Neighbours(), {.min_agreeing_share = 0.25})), 0.9);
+}
+
+TEST(CheckDepths, DoesNotAskWhoSeesSomethingBefore) {
+  const Maps hidden = WithRangesTimes(0.5F, 3);
+  EXPECT_GT(ShareKept(CheckDepths(hidden.own, hidden.Neighbours(), {})), 0.7);
+}
+
+TEST(CheckDepths, DoesNotAskWhoIsMuchFartherAway) {
+  Maps maps = WithRangesTimes(0.9F, 3);
+  const DepthMap near = CheckDepths(maps.own, maps.Neighbours(), {});
+  for (size_t k = 1; k < 4; ++k) {
+    maps.poses[k].translation *= 20.0;
+    for (float& range_m : maps.maps[k].range_m) range_m *= 20.0F;
+  }
+  EXPECT_GT(ShareKept(CheckDepths(maps.own, maps.Neighbours(), {})), ShareKept(near) + 0.5);
+}
+
 TEST(CheckDepths, LeavesEmptyMapsAndForeignSizesAlone) {
   const Maps maps(0.0);
   const DepthMap empty{.problem = "no source"};

@@ -12,12 +12,6 @@ namespace {
 
 constexpr uint32_t kImages = 20;
 
-std::vector<std::vector<ImageId>> OneDrive() {
-  std::vector<ImageId> drive;
-  for (uint32_t i = 0; i < kImages; ++i) drive.push_back(ImageId(i));
-  return {drive};
-}
-
 /// Pairs of each image with the three after it; 70 % of the rays of each agree.
 std::vector<PairLength> RightLengths() {
   std::vector<PairLength> pairs;
@@ -26,6 +20,14 @@ std::vector<PairLength> RightLengths() {
       pairs.push_back({{ImageId(a), ImageId(b)}, {.told = 100.0, .agreeing = 70.0}});
   }
   return pairs;
+}
+
+/// The ways from each image to the next; 70 % of the rays of each agree.
+std::vector<GapLength> RightGaps() {
+  std::vector<GapLength> gaps;
+  for (uint32_t a = 0; a + 1 < kImages; ++a)
+    gaps.push_back({{ImageId(a), ImageId(a + 1)}, 6, {.told = 300.0, .agreeing = 210.0}});
+  return gaps;
 }
 
 /// 10 % of the rays agree of those pairs of which `is_wrong` holds.
@@ -39,41 +41,32 @@ std::vector<PairLength> WrongWhere(const Predicate& is_wrong) {
 }
 
 TEST(FindLengthFaults, ThereAreNoneWhereRaysAgree) {
-  EXPECT_TRUE(FindLengthFaults(RightLengths(), OneDrive()).empty());
-  EXPECT_TRUE(FindLengthFaults({}, OneDrive()).empty());
-  EXPECT_TRUE(FindLengthFaults(RightLengths(), {}).empty());
+  EXPECT_TRUE(FindLengthFaults(RightLengths(), RightGaps()).empty());
+  EXPECT_TRUE(FindLengthFaults({}, {}).empty());
 }
 
 TEST(FindLengthFaults, AnImageIsOneWhoseOwnPairsContradictIt) {
-  const auto faults = FindLengthFaults(
-      WrongWhere([](uint32_t a, uint32_t b) { return a == 9 || b == 9; }), OneDrive());
+  const auto faults =
+      FindLengthFaults(WrongWhere([](uint32_t a, uint32_t b) { return a == 9 || b == 9; }), {});
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].image, ImageId(9));
   EXPECT_FALSE(faults[0].next);
   EXPECT_DOUBLE_EQ(faults[0].agreement.Share(), 0.1);
 }
 
-TEST(FindLengthFaults, AStreetIsTornWherePairsAcrossContradictIt) {
-  const auto is_across = [](uint32_t a, uint32_t b) { return a <= 9 && b > 9; };
-  const auto faults = FindLengthFaults(WrongWhere(is_across), OneDrive());
+TEST(FindLengthFaults, AStreetIsTornWhereWhatLeadsAcrossIsContradicted) {
+  std::vector<GapLength> gaps = RightGaps();
+  gaps[9].agreement.agreeing = 30.0;
+  const auto faults = FindLengthFaults(RightLengths(), gaps);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].image, ImageId(9));
   EXPECT_EQ(faults[0].next, ImageId(10));
+  EXPECT_DOUBLE_EQ(faults[0].agreement.Share(), 0.1);
 }
 
 TEST(FindLengthFaults, OnePairThatIsWrongIsNone) {
   const auto is_wrong = [](uint32_t a, uint32_t b) { return a == 9 && b == 10; };
-  EXPECT_TRUE(FindLengthFaults(WrongWhere(is_wrong), OneDrive()).empty());
-}
-
-TEST(FindLengthFaults, PlacesFollowTheSequenceNotTheNumbers) {
-  std::vector<std::vector<ImageId>> drive = OneDrive();
-  std::reverse(drive[0].begin(), drive[0].end());
-  const auto is_across = [](uint32_t a, uint32_t b) { return a <= 9 && b > 9; };
-  const auto faults = FindLengthFaults(WrongWhere(is_across), drive);
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].image, ImageId(10));
-  EXPECT_EQ(faults[0].next, ImageId(9));
+  EXPECT_TRUE(FindLengthFaults(WrongWhere(is_wrong), RightGaps()).empty());
 }
 
 TEST(FindLengthFaults, FewRaysAndFewPairsAreNotAsked) {
@@ -81,10 +74,14 @@ TEST(FindLengthFaults, FewRaysAndFewPairsAreNotAsked) {
   std::erase_if(two, [](const PairLength& pair) { return pair.pair.a.value > 0; });
   two.pop_back();
   for (PairLength& pair : two) pair.agreement.agreeing = 0.0;
-  EXPECT_TRUE(FindLengthFaults(two, OneDrive()).empty());
+  EXPECT_TRUE(FindLengthFaults(two, {}).empty());
   std::vector<PairLength> thin = RightLengths();
   for (PairLength& pair : thin) pair.agreement = {.told = 5.0, .agreeing = 0.0};
-  EXPECT_TRUE(FindLengthFaults(thin, OneDrive()).empty());
+  EXPECT_TRUE(FindLengthFaults(thin, {}).empty());
+  std::vector<GapLength> gaps = RightGaps();
+  gaps[3] = {gaps[3].between, 2, {.told = 300.0, .agreeing = 0.0}};
+  gaps[9] = {gaps[9].between, 6, {.told = 49.0, .agreeing = 0.0}};
+  EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
 }
 
 }  // namespace

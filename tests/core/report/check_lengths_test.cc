@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 
 constexpr uint32_t kImages = 100;
 
-/// A model of a drive, with the pairs of each image with the three after it: 70 % of the rays of
-/// each agree.
+/// A model of a drive, with the pairs of each image with the three after it, and the way to the
+/// next: 70 % of the rays of each agree.
 JobResults Drive() {
   JobResults results;
   results.clusters.emplace_back();
@@ -28,6 +28,9 @@ JobResults Drive() {
       results.clusters[0].pair_lengths.push_back(
           {{ImageId(a), ImageId(b)}, {.told = 100.0, .agreeing = 70.0}});
     }
+    if (a + 1 == kImages) continue;
+    results.clusters[0].gap_lengths.push_back(
+        {{ImageId(a), ImageId(a + 1)}, 6, {.told = 300.0, .agreeing = 210.0}});
   }
   return results;
 }
@@ -65,16 +68,18 @@ TEST(CheckLengths, ManyAreBad) {
 
 TEST(CheckLengths, ATearIsDoubtful) {
   JobResults results = Drive();
-  for (PairLength& length : results.clusters[0].pair_lengths) {
-    for (const uint32_t before : {20U, 50U, 80U}) {
-      if (length.pair.a.value <= before && length.pair.b.value > before)
-        length.agreement.agreeing = 15.0;
-    }
-  }
+  for (const uint32_t before : {20U, 50U, 80U})
+    results.clusters[0].gap_lengths[before].agreement.agreeing = 60.0;
   const CrossCheck check = CheckLengths(results);
   EXPECT_EQ(check.level, CheckLevel::kDoubtful);
   EXPECT_THAT(check.sentence, HasSubstr("between 20.jpg and 21.jpg"));
   EXPECT_THAT(check.sentence, HasSubstr("(3 such places)"));
+  results.models.emplace_back();
+  for (const uint32_t beyond : {21U, 51U, 81U}) {
+    results.models[0].images.erase(ImageId(beyond));
+    results.models[1].images[ImageId(beyond)] = {};
+  }
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood) << "gaps between two models";
 }
 
 TEST(CheckLengths, TheClusterThatSpeaksForAPairLessJudgesIt) {

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/asked_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/mapping/log_length_of_pair.h"
+
+namespace orbweave {
+
+AskedPairs::AskedPairs(const MappingState& state) {
+  for (uint32_t p = 0; p < state.Graph().pairs.size(); ++p) {
+    const std::optional<double> log_length = LogLengthOfPair(state, state.Graph().pairs[p]);
+    if (!log_length) continue;
+    pairs.push_back(p);
+    log_lengths.push_back(*log_length);
+  }
+}
+
+std::vector<RayDepth> AskedPairs::DepthsOf(const MappingState& state,
+                                           const MappingOptions& options) const {
+  const double min_angle_rad = options.min_angle_deg / 180.0 * std::numbers::pi;
+  return MeasureRayDepths(state.Problem(), state.Graph(), pairs, min_angle_rad);
+}
+
+void RayCount::Add(double told_log_length, double log_length) {
+  ++told;
+  agreeing += std::abs(told_log_length - log_length) <= kLengthTolerance ? 1 : 0;
+}
+
+LengthAgreement SumOfSides(const RayCount& of_a, const RayCount& of_b) {
+  LengthAgreement sum;
+  for (const RayCount& count : {of_a, of_b}) {
+    if (count.told < kFewestRaysOfPair) continue;
+    sum.told += static_cast<double>(count.told);
+    sum.agreeing += static_cast<double>(count.agreeing);
+  }
+  const double weight = std::min(1.0, kMaxRaysOfPair / std::max(sum.told, 1.0));
+  return {.told = weight * sum.told, .agreeing = weight * sum.agreeing};
+}
+
+}  // namespace orbweave

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/measure_gap_lengths.h"
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/sim3.h"
+#include "core/mapping/measure_pair_lengths.h"
+#include "tests/core/mapping/torn_street.h"
+
+namespace orbweave {
+namespace {
+
+constexpr uint32_t kImages = TornStreet::kImages;
+
+/// Everything from image 7 on stands farther along.
+MappingState Torn(const TornStreet& street, double by_m) {
+  MappingState torn = street.Right();
+  for (ImageSlot image = 7; image < kImages; ++image)
+    TornStreet::Move(image, {by_m, 0.0, 0.0}, torn);
+  return torn;
+}
+
+TEST(GapLengths, AreOneForEachWayFromAnImageToTheNext) {
+  const TornStreet street;
+  const std::vector<GapLength> gaps = MeasureGapLengths(street.Right(), {});
+  ASSERT_EQ(gaps.size(), kImages - 1);
+  for (uint32_t i = 0; i + 1 < kImages; ++i) {
+    EXPECT_EQ(gaps[i].between, (ImagePair{ImageId(i), ImageId(i + 1)}));
+    EXPECT_GE(gaps[i].pairs, 3U);
+    EXPECT_GT(gaps[i].agreement.told, 100.0);
+    EXPECT_GT(gaps[i].agreement.Share(), 0.8);
+  }
+}
+
+TEST(GapLengths, DoNotDependOnTheFrameOfTheModel) {
+  const TornStreet street;
+  const MappingState torn = Torn(street, 3.0);
+  const Sim3 other{0.3, RotationFromVector({0.4, -1.1, 0.7}), {3.0, -8.0, 1.0}};
+  MappingState moved = street.Fixture().StateWith({});
+  for (const ImageSlot image : torn.Registered())
+    moved.Register(image, TransformCamera(other, torn.CamFromWorld(image)));
+  const std::vector<GapLength> of_torn = MeasureGapLengths(torn, {});
+  const std::vector<GapLength> of_moved = MeasureGapLengths(moved, {});
+  ASSERT_EQ(of_moved.size(), of_torn.size());
+  for (size_t i = 0; i < of_torn.size(); ++i) {
+    EXPECT_DOUBLE_EQ(of_moved[i].agreement.told, of_torn[i].agreement.told);
+    EXPECT_NEAR(of_moved[i].agreement.Share(), of_torn[i].agreement.Share(), 0.01);
+  }
+}
+
+/// Pairs across a tear of half a step are all too long and bear each other out.
+TEST(GapLengths, FindATearOfHalfAStep) {
+  const TornStreet street;
+  const double step_m = (TornStreet::Centre(7) - TornStreet::Centre(6)).norm();
+  const std::vector<GapLength> gaps = MeasureGapLengths(Torn(street, 0.5 * step_m), {});
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    if (i == 6) {
+      EXPECT_LT(gaps[i].agreement.Share(), 0.25);
+    } else {
+      EXPECT_GT(gaps[i].agreement.Share(), 0.5) << i;
+    }
+  }
+}
+
+TEST(GapLengths, LeadOverImagesThatAreNotInTheModel) {
+  const TornStreet street;
+  MappingState state = street.Right();
+  state.Deregister(7);
+  const std::vector<GapLength> gaps = MeasureGapLengths(state, {});
+  ASSERT_EQ(gaps.size(), kImages - 2);
+  EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(6), ImageId(8)}));
+  EXPECT_GT(gaps[6].agreement.Share(), 0.8);
+}
+
+TEST(GapLengths, EndWithTheDrive) {
+  const TornStreet street;
+  ClusterProblem problem = street.Fixture().world.problem;
+  for (ClusterImage& image : problem.images) image.drive = image.id.value < 7 ? 0 : 1;
+  MappingState state(problem, street.Fixture().graph);
+  for (ImageSlot image = 0; image < kImages; ++image)
+    state.Register(image, street.Right().CamFromWorld(image));
+  const std::vector<GapLength> gaps = MeasureGapLengths(state, {});
+  ASSERT_EQ(gaps.size(), kImages - 2);
+  EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(7), ImageId(8)}));
+}
+
+TEST(GapLengths, ThereAreNoneOfNoModel) {
+  const TornStreet street;
+  EXPECT_TRUE(MeasureGapLengths(street.Fixture().StateWith({}), {}).empty());
+}
+
+}  // namespace
+}  // namespace orbweave
