@@ -3,6 +3,8 @@
 
 #include "core/mapping/find_length_faults.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace orbweave {
@@ -24,6 +26,24 @@ struct Sum {
   }
 };
 
+/// Of ways at fault that follow each other the one that agrees least.
+std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
+  std::vector<LengthFault> tears;
+  std::optional<ImageId> end_of_last;
+  for (const GapLength& gap : gaps) {
+    if (!Sum{gap.agreement, gap.pairs}.IsFault()) continue;
+    const LengthFault tear{gap.between.a, gap.between.b, gap.agreement};
+    const bool is_same = end_of_last == gap.between.a;
+    end_of_last = gap.between.b;
+    if (!is_same) {
+      tears.push_back(tear);
+    } else if (tear.agreement.Share() < tears.back().agreement.Share()) {
+      tears.back() = tear;
+    }
+  }
+  return tears;
+}
+
 }  // namespace
 
 bool TellsEnough(const LengthAgreement& agreement, uint32_t pairs) {
@@ -41,10 +61,7 @@ std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,
   for (const auto& [image, sum] : images) {
     if (sum.IsFault()) faults.push_back({.image = image, .agreement = sum.agreement});
   }
-  for (const GapLength& gap : gaps) {
-    if (!Sum{gap.agreement, gap.pairs}.IsFault()) continue;
-    faults.push_back({.image = gap.between.a, .next = gap.between.b, .agreement = gap.agreement});
-  }
+  std::ranges::copy(FindTears(gaps), std::back_inserter(faults));
   return faults;
 }
 

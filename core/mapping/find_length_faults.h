@@ -34,7 +34,10 @@ struct LengthFault {
 /// the model was wrong by 2 to 12 m; at the worst place of right models 30 % or more of an image,
 /// and 38 % or more across a gap.
 ///
-/// Of images in order of their ids, then of gaps.
+/// Ways on either side of a tear look torn as well, as what lies on one side of them leads across
+/// it: of ways at fault that follow each other the one that agrees least is returned.
+///
+/// Of images in order of their ids, then of gaps, in their order.
 [[nodiscard]] std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,
                                                         std::span<const GapLength> gaps);
 

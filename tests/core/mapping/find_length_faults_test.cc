@@ -64,6 +64,17 @@ TEST(FindLengthFaults, AStreetIsTornWhereWhatLeadsAcrossIsContradicted) {
   EXPECT_DOUBLE_EQ(faults[0].agreement.Share(), 0.1);
 }
 
+TEST(FindLengthFaults, OfWaysThatFollowEachOtherTheWorstIsTorn) {
+  std::vector<GapLength> gaps = RightGaps();
+  for (const size_t torn : {2U, 3U, 4U, 9U, 10U, 12U}) gaps[torn].agreement.agreeing = 60.0;
+  gaps[3].agreement.agreeing = 20.0;
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 3U);
+  EXPECT_EQ(faults[0].image, ImageId(3));
+  EXPECT_EQ(faults[1].image, ImageId(9));
+  EXPECT_EQ(faults[2].image, ImageId(12));
+}
+
 TEST(FindLengthFaults, OnePairThatIsWrongIsNone) {
   const auto is_wrong = [](uint32_t a, uint32_t b) { return a == 9 && b == 10; };
   EXPECT_TRUE(FindLengthFaults(WrongWhere(is_wrong), RightGaps()).empty());

@@ -57,11 +57,25 @@ TEST(GapLengths, FindATearOfHalfAStep) {
   const std::vector<GapLength> gaps = MeasureGapLengths(Torn(street, 0.5 * step_m), {});
   for (size_t i = 0; i < gaps.size(); ++i) {
     if (i == 6) {
-      EXPECT_LT(gaps[i].agreement.Share(), 0.25);
-    } else {
+      EXPECT_LT(gaps[i].agreement.Share(), 0.1);
+    } else if (i + 1 < 6 || i > 7) {
       EXPECT_GT(gaps[i].agreement.Share(), 0.5) << i;
+    } else {  // what lies on the side of the tear leads across it
+      EXPECT_GT(gaps[i].agreement.Share(), gaps[6].agreement.Share()) << i;
     }
   }
+}
+
+/// What is behind the jump agrees with itself.
+TEST(GapLengths, FindWhereTheScaleJumps) {
+  const TornStreet street;
+  MappingState state = street.Right();
+  for (ImageSlot image = 7; image < kImages; ++image)
+    TornStreet::Move(image, 0.7 * (TornStreet::Centre(image) - TornStreet::Centre(6)), state);
+  const std::vector<GapLength> gaps = MeasureGapLengths(state, {});
+  EXPECT_LT(gaps[6].agreement.Share(), 0.25);
+  for (const size_t far : {0U, 1U, 2U, 3U, 10U, 11U, 12U, 13U})
+    EXPECT_GT(gaps[far].agreement.Share(), 0.5) << far;
 }
 
 TEST(GapLengths, LeadOverImagesThatAreNotInTheModel) {
