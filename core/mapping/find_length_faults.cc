@@ -21,8 +21,8 @@ struct Sum {
     agreement.Add(pair);
     pairs += pair.told > 0.0 ? 1 : 0;
   }
-  [[nodiscard]] bool IsFault() const {
-    return TellsEnough(agreement, pairs) && agreement.Share() < kMinAgreeingLengths;
+  [[nodiscard]] bool IsFault(double min_agreeing) const {
+    return TellsEnough(agreement, pairs) && agreement.Share() < min_agreeing;
   }
 };
 
@@ -31,7 +31,7 @@ std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
   std::vector<LengthFault> tears;
   std::optional<ImageId> end_of_last;
   for (const GapLength& gap : gaps) {
-    if (!Sum{gap.agreement, gap.pairs}.IsFault()) continue;
+    if (!Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross)) continue;
     const LengthFault tear{gap.between.a, gap.between.b, gap.agreement};
     const bool is_same = end_of_last == gap.between.a;
     end_of_last = gap.between.b;
@@ -59,7 +59,8 @@ std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,
   }
   std::vector<LengthFault> faults;
   for (const auto& [image, sum] : images) {
-    if (sum.IsFault()) faults.push_back({.image = image, .agreement = sum.agreement});
+    if (sum.IsFault(kMinAgreeingLengths))
+      faults.push_back({.image = image, .agreement = sum.agreement});
   }
   std::ranges::copy(FindTears(gaps), std::back_inserter(faults));
   return faults;

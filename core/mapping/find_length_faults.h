@@ -13,6 +13,8 @@ namespace orbweave {
 
 /// Fewer agree than the model can be right with.
 inline constexpr double kMinAgreeingLengths = 0.27;
+/// The same across a way, told by the side of it that agrees less.
+inline constexpr double kMinAgreeingAcross = 0.2;
 
 /// Whether so many rays of so many pairs are to be heard: 50 of three.
 [[nodiscard]] bool TellsEnough(const LengthAgreement& agreement, uint32_t pairs);
@@ -29,10 +31,11 @@ struct LengthFault {
 /// far along and contradicts its own pairs; three that do so together contradict none among them,
 /// but those that lead across.
 ///
-/// Where 50 rays and three pairs say anything and less than 27 % agree, it is a fault. In rendered
-/// streets of 24 panoramas 5 and 8 m apart without GNSS (docs/hard_cases.md) 7 to 22 % agreed where
-/// the model was wrong by 2 to 12 m; at the worst place of right models 30 % or more of an image,
-/// and 38 % or more across a gap.
+/// Where 50 rays and three pairs say anything and less than 27 % agree, of one side of a way less
+/// than 20 %, it is a fault. In rendered streets of 24 panoramas 5 and 8 m apart without GNSS
+/// (docs/hard_cases.md) 7 to 22 % agreed of an image where the model was wrong by 7 to 12 m and 5
+/// to 14 % across a step 4 m too long; at the worst place of right models 30 % or more of an image,
+/// and 26 % or more across a step.
 ///
 /// Ways on either side of a tear look torn as well, as what lies on one side of them leads across
 /// it: of ways at fault that follow each other the one that agrees least is returned.

@@ -71,6 +71,7 @@ CrossCheck CheckLengths(const JobResults& results) {
   const LengthFault& worst = *std::ranges::min_element(
       faults, {}, [](const LengthFault& fault) { return fault.agreement.Share(); });
   check.value = worst.agreement.Share();
+  check.limit = worst.next ? kMinAgreeingAcross : kMinAgreeingLengths;
   const auto images = static_cast<double>(
       std::ranges::count_if(faults, [](const LengthFault& fault) { return !fault.next; }));
   const bool is_bad =

@@ -66,7 +66,7 @@ TEST(FindLengthFaults, AStreetIsTornWhereWhatLeadsAcrossIsContradicted) {
 
 TEST(FindLengthFaults, OfWaysThatFollowEachOtherTheWorstIsTorn) {
   std::vector<GapLength> gaps = RightGaps();
-  for (const size_t torn : {2U, 3U, 4U, 9U, 10U, 12U}) gaps[torn].agreement.agreeing = 60.0;
+  for (const size_t torn : {2U, 3U, 4U, 9U, 10U, 12U}) gaps[torn].agreement.agreeing = 45.0;
   gaps[3].agreement.agreeing = 20.0;
   const auto faults = FindLengthFaults({}, gaps);
   ASSERT_EQ(faults.size(), 3U);

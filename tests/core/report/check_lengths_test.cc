@@ -69,7 +69,7 @@ TEST(CheckLengths, ManyAreBad) {
 TEST(CheckLengths, ATearIsDoubtful) {
   JobResults results = Drive();
   for (const uint32_t before : {20U, 50U, 80U})
-    results.clusters[0].gap_lengths[before].agreement.agreeing = 60.0;
+    results.clusters[0].gap_lengths[before].agreement.agreeing = 45.0;
   const CrossCheck check = CheckLengths(results);
   EXPECT_EQ(check.level, CheckLevel::kDoubtful);
   EXPECT_THAT(check.sentence, HasSubstr("between 20.jpg and 21.jpg"));
