@@ -325,10 +325,6 @@ class Bench {
       scores[static_cast<size_t>(kind)].Print(NameOf(kind));
   }
 
-  static bool IsJudged(double range_m) {
-    return range_m > kNearestJudged_m && range_m < kFarthestJudged_m;
-  }
-
   /// Level surface is road, kerbs and roofs of cars; the rest walls and what stands before them.
   void JudgeParts(const DepthMap& map, const RasterTruth& truth) const {
     const auto is_level = [&](size_t k) { return std::abs(truth.normals[k].z()) > 0.9F; };

@@ -103,22 +103,21 @@ SurfaceKind StreetTruth::KindOf(size_t i, const LightRay& ray, const SurfaceHit&
 RasterTruth StreetTruth::Of(size_t own, const std::vector<size_t>& others, int face_px) const {
   const EquiangularRaster raster{face_px};
   const StreetMoment moment = MomentOf(street_, options_, own);
+  const StreetWorld& world = street_.WorldOf(own);
   RasterTruth truth{.face_px = face_px};
   for (int face = 0; face < kCubeFaces; ++face) {
     for (int row = 0; row < face_px; ++row) {
       for (int column = 0; column < face_px; ++column) {
         const LightRay ray = RayFrom(own, raster.BearingFromPixel(face, row + 0.5, column + 0.5));
-        const SurfaceHit hit = Trace(street_.WorldOf(own), NoTraffic(), ray);
-        const SurfaceHit now = Trace(moment.world, moment.traffic, ray);
+        const SurfaceHit hit = Trace(world, NoTraffic(), ray);
+        const SurfaceHit now = Trace(moment.World(), moment.traffic, ray);
         const bool sky = hit.surface == SurfaceHit::kSky;
-        const bool moves =
-            now.moving || IsCrown(moment.world, now) != IsCrown(street_.WorldOf(own), hit);
+        const bool moves = now.moving || IsCrown(moment.World(), now) != IsCrown(world, hit);
         truth.range_m.push_back(sky ? 0.0F : static_cast<float>(hit.distance_m));
         truth.points.push_back(hit.point.cast<float>());
         truth.normals.push_back(hit.normal.cast<float>());
         truth.kinds.push_back(moves ? SurfaceKind::kMoves : KindOf(own, ray, hit));
-        const bool near =
-            !sky && hit.distance_m > kNearestJudged_m && hit.distance_m < kFarthestJudged_m;
+        const bool near = !sky && IsJudged(hit.distance_m);
         const bool chosen = row % 4 == 1 && column % 4 == 1;
         truth.counts.push_back(near && chosen && IsSeen(hit, others) ? 1 : 0);
       }
@@ -132,7 +131,7 @@ bool StreetTruth::IsSeen(const SurfaceHit& hit, const std::vector<size_t>& other
   return std::ranges::any_of(others, [&](size_t other) {
     const Vector3d in_cam = cams_from_street_[other] * hit.point;
     const double distance_m = in_cam.norm();
-    if (distance_m > kFarthestJudged_m || distance_m < kNearestJudged_m) return false;
+    if (!IsJudged(distance_m)) return false;
     const SurfaceHit seen = TraceFrom(other, in_cam / distance_m);
     return seen.surface != SurfaceHit::kSky &&
            std::abs(seen.distance_m - distance_m) < kSamePoint_m;

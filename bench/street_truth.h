@@ -24,6 +24,10 @@ inline constexpr std::array kSurfaceKinds = {
 inline constexpr double kNearestJudged_m = 2.0;
 inline constexpr double kFarthestJudged_m = 15.0;
 
+inline bool IsJudged(double range_m) {
+  return range_m > kNearestJudged_m && range_m < kFarthestJudged_m;
+}
+
 /// What the rays of an equiangular raster meet of a street without its traffic.
 struct RasterTruth {
   int face_px = 0;
@@ -34,9 +38,7 @@ struct RasterTruth {
   std::vector<uint8_t>
       counts{};  ///< of every fourth row and column: near enough, and another sees it
 
-  [[nodiscard]] bool IsNear(size_t pixel) const {
-    return range_m[pixel] > kNearestJudged_m && range_m[pixel] < kFarthestJudged_m;
-  }
+  [[nodiscard]] bool IsNear(size_t pixel) const { return IsJudged(range_m[pixel]); }
 
   /// Distance of a point from the surface around a pixel: from tangent planes of what its ray and
   /// those beside it hit.

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/quantile.h"
-#include "core/mapping/asked_pairs.h"
+#include "core/mapping/asked_rays.h"
 #include "core/mapping/find_length_faults.h"
 #include "core/mapping/ray_depths.h"
 
@@ -52,8 +52,8 @@ struct Sight {
 
 class GapCounts {
  public:
-  GapCounts(const MappingState& state, const AskedPairs& asked)
-      : state_(state), asked_(asked), sequence_(state), gaps_(sequence_.size()) {}
+  explicit GapCounts(const AskedRays& asked)
+      : state_(asked.state), asked_(asked), sequence_(asked.state), gaps_(sequence_.size()) {}
 
   /// `depths`: of one ray.
   void Add(std::span<const RayDepth> depths) {
@@ -90,7 +90,7 @@ class GapCounts {
   static GapLength SumOf(const ImagePair& between, const RaysOfPairs& rays) {
     GapLength sum{.between = between};
     for (const auto& [pair, count] : rays) {
-      const LengthAgreement agreement = SumOfSides(count, {});
+      const LengthAgreement agreement = AgreementOf({count});
       sum.pairs += agreement.told > 0.0 ? 1 : 0;
       sum.agreement.Add(agreement);
     }
@@ -134,18 +134,16 @@ class GapCounts {
   }
 
   const MappingState& state_;
-  const AskedPairs& asked_;
+  const AskedRays& asked_;
   Sequence sequence_;
   std::vector<Gap> gaps_;  ///< behind each place
 };
 
 }  // namespace
 
-std::vector<GapLength> MeasureGapLengths(const MappingState& state, const MappingOptions& options) {
-  const AskedPairs asked(state);
-  GapCounts counts(state, asked);
-  const std::vector<RayDepth> depths = asked.DepthsOf(state, options);
-  ForEachRay(depths, [&](std::span<const RayDepth> ray) { counts.Add(ray); });
+std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
+  GapCounts counts(asked);
+  ForEachRay(asked.depths, [&](std::span<const RayDepth> ray) { counts.Add(ray); });
   std::vector<GapLength> gaps;
   for (size_t place = 0; place + 1 < counts.NumPlaces(); ++place) {
     if (const std::optional<GapLength> gap = counts.Behind(place)) gaps.push_back(*gap);

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/asked_rays.h"
 #include "core/mapping/pair_length.h"
 
 namespace orbweave {
@@ -22,7 +21,6 @@ namespace orbweave {
 /// the scale jumps, what is behind agrees with itself, and what is before does not.
 ///
 /// Of drives in order, of images in order of their ids.
-[[nodiscard]] std::vector<GapLength> MeasureGapLengths(const MappingState& state,
-                                                       const MappingOptions& options);
+[[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked);
 
 }  // namespace orbweave

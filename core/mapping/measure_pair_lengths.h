@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/mapping/asked_rays.h"
 #include "core/mapping/find_length_faults.h"
 #include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
@@ -23,8 +24,7 @@ namespace orbweave {
 /// Pairs take part whose images are both registered, which have a general geometry, and with whose
 /// rotation (10 degrees) and direction (60 degrees) the model agrees: others contradict it by
 /// themselves (JudgePairs). A pair counts with 200 rays at most. In order of the graph's pairs.
-[[nodiscard]] std::vector<PairLength> MeasurePairLengths(const MappingState& state,
-                                                         const MappingOptions& options);
+[[nodiscard]] std::vector<PairLength> MeasurePairLengths(const AskedRays& asked);
 
 /// FindLengthFaults of the model: MeasurePairLengths and MeasureGapLengths.
 [[nodiscard]] std::vector<LengthFault> FindLengthFaults(const MappingState& state,

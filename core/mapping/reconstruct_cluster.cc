@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/bundle/bearing_error.h"
+#include "core/mapping/asked_rays.h"
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/join_by_bridges.h"
@@ -111,8 +112,9 @@ void TakeSubmodel(const MappingState& state,
       result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
   result.explained_pairs.insert(
       result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
-  std::ranges::copy(MeasurePairLengths(state, options), std::back_inserter(result.pair_lengths));
-  std::ranges::copy(MeasureGapLengths(state, options), std::back_inserter(result.gap_lengths));
+  const AskedRays asked(state, options);
+  std::ranges::copy(MeasurePairLengths(asked), std::back_inserter(result.pair_lengths));
+  std::ranges::copy(MeasureGapLengths(asked), std::back_inserter(result.gap_lengths));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/synthetic/camera_rays.h"
 #include "core/synthetic/random_for_street.h"
@@ -90,29 +89,27 @@ PanoramaView ViewAt(const Street& street, const StreetOptions& options, size_t i
   return view;
 }
 
-/// What stood there when panorama i was taken.
-StreetWorld WorldAt(const Street& street, const StreetOptions& options, size_t i) {
-  const StreetWorld& world = street.WorldOf(i);
-  const double wind_m = options.hardships.wind_m;
-  if (wind_m == 0.0) return world;
-  const double since_start_s = street.capture_times_s[i] - street.capture_times_s[0];
-  return InTheWind(world, wind_m, since_start_s, RandomForStreet(options, "wind", i));
-}
-
 }  // namespace
 
 StreetMoment MomentOf(const Street& street, const StreetOptions& options, size_t i) {
   Random random = RandomForStreet(options, "shot", i);
-  PanoramaView view = ViewAt(street, options, i, random);
-  Traffic traffic(MovingAt(street, options, i, random));
-  return {std::move(view), WorldAt(street, options, i), std::move(traffic)};
+  const PanoramaView view = ViewAt(street, options, i, random);
+  StreetMoment moment{.view = view,
+                      .at_rest = street.WorldOf(i),
+                      .traffic = Traffic(MovingAt(street, options, i, random))};
+  const double wind_m = options.hardships.wind_m;
+  if (wind_m == 0.0) return moment;
+  const double since_start_s = street.capture_times_s[i] - street.capture_times_s[0];
+  const Random gusts = RandomForStreet(options, "wind", i);
+  moment.in_the_wind.emplace(InTheWind(moment.at_rest, wind_m, since_start_s, gusts));
+  return moment;
 }
 
 RenderedPanorama RenderStreetPanorama(const Street& street,
                                       const StreetOptions& options,
                                       size_t i) {
   const StreetMoment moment = MomentOf(street, options, i);
-  return RenderPanorama(moment.world, moment.traffic, moment.view);
+  return RenderPanorama(moment.World(), moment.traffic, moment.view);
 }
 
 }  // namespace orbweave

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "core/synthetic/render_panorama.h"
 #include "core/synthetic/rendered_panorama.h"
 #include "core/synthetic/street.h"
@@ -10,11 +12,14 @@
 
 namespace orbweave {
 
-/// What is there to be seen when a panorama is taken, and how it is taken.
+/// What is there to be seen when a panorama is taken, and how it is taken. Refers to the street.
 struct StreetMoment {
   PanoramaView view;
-  StreetWorld world;  ///< of its day, crowns of trees where gusts have pushed them
+  const StreetWorld& at_rest;                ///< of its day
+  std::optional<StreetWorld> in_the_wind{};  ///< crowns of trees where gusts have pushed them
   Traffic traffic;
+
+  [[nodiscard]] const StreetWorld& World() const { return in_the_wind ? *in_the_wind : at_rest; }
 };
 
 /// The moment of panorama i; a pure function of the options and i.

@@ -123,3 +123,28 @@ has_task() {
   (($(count_events task_leased "$log") > $(count_events task_done "$log") + $(count_events task_not_done "$log")))
 }
 has_no_task() { ! has_task "$1"; }
+
+# ---- Workers that are held.
+
+# The worker first, which could otherwise begin another task meanwhile.
+pause_worker() {
+  kill -STOP "${pid_of[$1]}"
+  # shellcheck disable=SC2046
+  kill -STOP $(tasks_of "$1") 2>/dev/null
+}
+continue_worker() {
+  # shellcheck disable=SC2046
+  kill -CONT "${pid_of[$1]}" $(tasks_of "$1")
+}
+
+# Whether a worker that is paused was computing: what its task needs has come, and its process has not ended. It is held
+# while it is looked at, or a short task would be done meanwhile.
+was_computing() {
+  local pid state ticks
+  has_task "$1" || return 1
+  for pid in $(tasks_of "$1"); do
+    read -r _ _ state _ _ _ _ _ _ _ _ _ _ ticks _ <"/proc/$pid/stat"
+    [ "$state" != Z ] && ((ticks > 0)) && return 0
+  done
+  return 1
+}

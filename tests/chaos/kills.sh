@@ -24,22 +24,16 @@ kill_worker() {
   end_by KILL "$picked" && start_worker "$picked"
 }
 
-# A worker amid a task, so that its attempt ends without a result: its processes are held first, or a short task would be
-# done meanwhile.
+# A worker amid a task, so that its attempt ends without a result.
 kill_busy_worker() {
-  local i tasks
+  local i
   for i in "${workers[@]}"; do
-    has_task "$i" || continue
-    tasks=$(tasks_of "$i")
-    # shellcheck disable=SC2086
-    [ -n "$tasks" ] && kill -STOP $tasks 2>/dev/null || continue
-    sleep 0.1 # what was done before is logged now
-    if has_task "$i"; then
+    pause_worker "$i"
+    if was_computing "$i"; then
       end_by KILL "$i" && start_worker "$i"
       return
     fi
-    # shellcheck disable=SC2086
-    kill -CONT $tasks
+    continue_worker "$i"
   done
   return 1
 }

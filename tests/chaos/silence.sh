@@ -1,40 +1,19 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # variables are shared with run.sh
 # Workers that are not heard for longer than their lease, or a coordinator that does not listen; bad networks.
 
-# The worker first, which could otherwise begin another task meanwhile.
-pause_worker() {
-  kill -STOP "${pid_of[$1]}"
-  # shellcheck disable=SC2046
-  kill -STOP $(tasks_of "$1") 2>/dev/null
-}
-continue_worker() {
-  # shellcheck disable=SC2046
-  kill -CONT "${pid_of[$1]}" $(tasks_of "$1")
-}
 pause_coordinator() { kill -STOP "${pid_of[coordinator]}"; }
 continue_coordinator() { kill -CONT "${pid_of[coordinator]}"; }
 cut_one_way() { drop_incoming "$1"; }
 cut_other_way() { drop_incoming hub "ip saddr 10.77.0.1$1"; }
 mend_other_way() { drop_nothing hub; }
 
-# Whether a worker that is paused was computing: what its task needs has come, and its process has not ended.
-was_computing() {
-  local pid state ticks
-  has_task "$1" || return 1
-  for pid in $(tasks_of "$1"); do
-    read -r _ _ state _ _ _ _ _ _ _ _ _ _ ticks _ <"/proc/$pid/stat"
-    [ "$state" != Z ] && ((ticks > 0)) && return 0
-  done
-  return 1
-}
-
 # How many attempts ended because their worker was told so, before anything of them was refused.
 called_off() {
   comm -23 <(attempts_of "gave it up" "$fleet"/worker?.log) <(attempts_of result_refused "$fleet"/coordinator.*.log) | wc -l
 }
 
-# BEGIN END: begins in the middle of a task of a worker that is met computing, which is then $picked. The worker is held
-# while it is looked at, or a short task would be done meanwhile. Fails when the job ended before one was met.
+# BEGIN: begins in the middle of a task of a worker that is met computing, which is then $picked. Fails when the job
+# ended before one was met.
 silence_in_a_task() {
   while is_running submit; do
     any_worker
@@ -49,14 +28,14 @@ silence_in_a_task() {
   return 1
 }
 
-# BEGIN END: the same in a job of a fresh fleet, which may end before a worker is met: then another is begun.
+# BEGIN: the same in a job of a fresh fleet, which may end before a worker is met: then another is begun.
 silence_in_a_job() {
   local try
   for try in 1 2 3 4 5; do
     if ((try > 1)); then judge && stop_fleet; fi
     start_fleet && start_submit "$fleet/model"
     pause
-    silence_in_a_task "$1" "$2" && return 0
+    silence_in_a_task "$1" && return 0
   done
   return 1
 }
@@ -67,7 +46,7 @@ silence_a_worker() {
   local run refused=0 expired=0 given_up=0
   begin_row
   for ((run = 0; run < repeats; ++run)); do
-    if silence_in_a_job "$3" "$4"; then ((++times)); else spoil "five jobs ended before they were disturbed"; fi
+    if silence_in_a_job "$3"; then ((++times)); else spoil "five jobs ended before they were disturbed"; fi
     sleep "$2"
     "$4" "$picked"
     wait_until "the end of the late task" 60 has_no_task "$picked" || spoil "the late task did not end"

@@ -24,7 +24,7 @@ MappingState Torn(const TornStreet& street, double by_m) {
 
 TEST(GapLengths, AreOneForEachWayFromAnImageToTheNext) {
   const TornStreet street;
-  const std::vector<GapLength> gaps = MeasureGapLengths(street.Right(), {});
+  const std::vector<GapLength> gaps = MeasureGapLengths({street.Right(), {}});
   ASSERT_EQ(gaps.size(), kImages - 1);
   for (uint32_t i = 0; i + 1 < kImages; ++i) {
     EXPECT_EQ(gaps[i].between, (ImagePair{ImageId(i), ImageId(i + 1)}));
@@ -41,8 +41,8 @@ TEST(GapLengths, DoNotDependOnTheFrameOfTheModel) {
   MappingState moved = street.Fixture().StateWith({});
   for (const ImageSlot image : torn.Registered())
     moved.Register(image, TransformCamera(other, torn.CamFromWorld(image)));
-  const std::vector<GapLength> of_torn = MeasureGapLengths(torn, {});
-  const std::vector<GapLength> of_moved = MeasureGapLengths(moved, {});
+  const std::vector<GapLength> of_torn = MeasureGapLengths({torn, {}});
+  const std::vector<GapLength> of_moved = MeasureGapLengths({moved, {}});
   ASSERT_EQ(of_moved.size(), of_torn.size());
   for (size_t i = 0; i < of_torn.size(); ++i) {
     EXPECT_DOUBLE_EQ(of_moved[i].agreement.told, of_torn[i].agreement.told);
@@ -54,7 +54,7 @@ TEST(GapLengths, DoNotDependOnTheFrameOfTheModel) {
 TEST(GapLengths, FindATearOfHalfAStep) {
   const TornStreet street;
   const double step_m = (TornStreet::Centre(7) - TornStreet::Centre(6)).norm();
-  const std::vector<GapLength> gaps = MeasureGapLengths(Torn(street, 0.5 * step_m), {});
+  const std::vector<GapLength> gaps = MeasureGapLengths({Torn(street, 0.5 * step_m), {}});
   for (size_t i = 0; i < gaps.size(); ++i) {
     if (i == 6) {
       EXPECT_LT(gaps[i].agreement.Share(), 0.1);
@@ -72,7 +72,7 @@ TEST(GapLengths, FindWhereTheScaleJumps) {
   MappingState state = street.Right();
   for (ImageSlot image = 7; image < kImages; ++image)
     TornStreet::Move(image, 0.7 * (TornStreet::Centre(image) - TornStreet::Centre(6)), state);
-  const std::vector<GapLength> gaps = MeasureGapLengths(state, {});
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
   EXPECT_LT(gaps[6].agreement.Share(), 0.25);
   for (const size_t far : {0U, 1U, 2U, 3U, 10U, 11U, 12U, 13U})
     EXPECT_GT(gaps[far].agreement.Share(), 0.5) << far;
@@ -82,7 +82,7 @@ TEST(GapLengths, LeadOverImagesThatAreNotInTheModel) {
   const TornStreet street;
   MappingState state = street.Right();
   state.Deregister(7);
-  const std::vector<GapLength> gaps = MeasureGapLengths(state, {});
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
   ASSERT_EQ(gaps.size(), kImages - 2);
   EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(6), ImageId(8)}));
   EXPECT_GT(gaps[6].agreement.Share(), 0.8);
@@ -95,14 +95,14 @@ TEST(GapLengths, EndWithTheDrive) {
   MappingState state(problem, street.Fixture().graph);
   for (ImageSlot image = 0; image < kImages; ++image)
     state.Register(image, street.Right().CamFromWorld(image));
-  const std::vector<GapLength> gaps = MeasureGapLengths(state, {});
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
   ASSERT_EQ(gaps.size(), kImages - 2);
   EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(7), ImageId(8)}));
 }
 
 TEST(GapLengths, ThereAreNoneOfNoModel) {
   const TornStreet street;
-  EXPECT_TRUE(MeasureGapLengths(street.Fixture().StateWith({}), {}).empty());
+  EXPECT_TRUE(MeasureGapLengths({street.Fixture().StateWith({}), {}}).empty());
 }
 
 }  // namespace

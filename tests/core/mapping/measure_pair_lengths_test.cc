@@ -16,7 +16,7 @@ constexpr uint32_t kImages = TornStreet::kImages;
 /// What the pairs of each image say together.
 std::vector<LengthAgreement> Measure(const MappingState& state) {
   std::vector<LengthAgreement> of_image(kImages);
-  for (const PairLength& pair : MeasurePairLengths(state, {})) {
+  for (const PairLength& pair : MeasurePairLengths({state, {}})) {
     of_image[pair.pair.a.value].Add(pair.agreement);
     of_image[pair.pair.b.value].Add(pair.agreement);
   }
@@ -101,7 +101,7 @@ TEST(PairLengths, OfAFoldedModelIsThatOfThePairsThatAreLeft) {
 TEST(PairLengths, NothingIsToldWithoutSharedRays) {
   const TornStreet street;
   EXPECT_EQ(Measure(street.Fixture().StateWith(FirstImages(2)))[0].told, 0.0);
-  EXPECT_TRUE(MeasurePairLengths(street.Fixture().StateWith({}), {}).empty());
+  EXPECT_TRUE(MeasurePairLengths({street.Fixture().StateWith({}), {}}).empty());
 }
 
 TEST(PairLengths, ACameraThatStandsTellsNothing) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/mapping/asked_pairs.h"
+#include "core/mapping/asked_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,17 @@
 
 namespace orbweave {
 
-AskedPairs::AskedPairs(const MappingState& state) {
-  for (uint32_t p = 0; p < state.Graph().pairs.size(); ++p) {
-    const std::optional<double> log_length = LogLengthOfPair(state, state.Graph().pairs[p]);
+AskedRays::AskedRays(const MappingState& of_state, const MappingOptions& options)
+    : state(of_state) {
+  const CorrespondenceGraph& graph = state.Graph();
+  for (uint32_t p = 0; p < graph.pairs.size(); ++p) {
+    const std::optional<double> log_length = LogLengthOfPair(state, graph.pairs[p]);
     if (!log_length) continue;
     pairs.push_back(p);
     log_lengths.push_back(*log_length);
   }
-}
-
-std::vector<RayDepth> AskedPairs::DepthsOf(const MappingState& state,
-                                           const MappingOptions& options) const {
   const double min_angle_rad = options.min_angle_deg / 180.0 * std::numbers::pi;
-  return MeasureRayDepths(state.Problem(), state.Graph(), pairs, min_angle_rad);
+  depths = MeasureRayDepths(state.Problem(), graph, pairs, min_angle_rad);
 }
 
 void RayCount::Add(double told_log_length, double log_length) {
@@ -32,9 +30,9 @@ void RayCount::Add(double told_log_length, double log_length) {
   agreeing += std::abs(told_log_length - log_length) <= kLengthTolerance ? 1 : 0;
 }
 
-LengthAgreement SumOfSides(const RayCount& of_a, const RayCount& of_b) {
+LengthAgreement AgreementOf(std::initializer_list<RayCount> sides) {
   LengthAgreement sum;
-  for (const RayCount& count : {of_a, of_b}) {
+  for (const RayCount& count : sides) {
     if (count.told < kFewestRaysOfPair) continue;
     sum.told += static_cast<double>(count.told);
     sum.agreeing += static_cast<double>(count.agreeing);
