@@ -25,9 +25,9 @@ AskedRays::AskedRays(const MappingState& of_state, const MappingOptions& options
   depths = MeasureRayDepths(state.Problem(), graph, pairs, min_angle_rad);
 }
 
-void RayCount::Add(double told_log_length, double log_length) {
+void RayCount::Add(double told_log_length, double log_length, double tolerance) {
   ++told;
-  agreeing += std::abs(told_log_length - log_length) <= kLengthTolerance ? 1 : 0;
+  agreeing += std::abs(told_log_length - log_length) <= tolerance ? 1 : 0;
 }
 
 LengthAgreement AgreementOf(std::initializer_list<RayCount> sides) {

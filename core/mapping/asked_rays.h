@@ -31,7 +31,7 @@ struct RayCount {
   size_t told = 0;
   size_t agreeing = 0;
 
-  void Add(double told_log_length, double log_length);
+  void Add(double told_log_length, double log_length, double tolerance);
 };
 
 /// Of one pair, by one of its images or both: eight rays of an image at least, 200 in all at most.

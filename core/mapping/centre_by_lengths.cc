@@ -3,8 +3,6 @@
 
 #include "core/mapping/centre_by_lengths.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -12,47 +10,18 @@
 
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/ray_depths.h"
+#include "core/mapping/told_lengths.h"
 
 namespace orbweave {
 namespace {
 
 constexpr double kClearlyMore = 1.2;
-/// A pair that tracks fooled has many rays; what counts is how many pairs say the same.
-constexpr double kMaxRays = 50.0;
 constexpr size_t kFewestPairs = 3;
-constexpr size_t kModes = 2;
 
 /// How a pair leads to the image from one that is registered.
 struct ToldStep {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, in the world
-  std::vector<double> log_lengths{};                    ///< a ray each, ascending
-
-  [[nodiscard]] Eigen::Vector3d To(double log_length) const {
-    return from + std::exp(log_length) * direction;
-  }
-  /// Rays that agree with a centre, of kMaxRays at most.
-  [[nodiscard]] double CountAgreeing(const Eigen::Vector3d& centre) const {
-    const Eigen::Vector3d step = centre - from;
-    const double length = step.norm();
-    if (!(length > 0.0) || step.dot(direction) < kMinCosDirection * length) return 0.0;
-    const auto count = static_cast<double>(
-        std::ranges::upper_bound(log_lengths, std::log(length) + kLengthTolerance) -
-        std::ranges::lower_bound(log_lengths, std::log(length) - kLengthTolerance));
-    return count * std::min(1.0, kMaxRays / static_cast<double>(log_lengths.size()));
-  }
-  /// The middle of the interval of agreeing lengths that holds most of them.
-  [[nodiscard]] double Mode() const {
-    double mode = 0.0;
-    ptrdiff_t most = 0;
-    for (auto first = log_lengths.begin(); first != log_lengths.end(); ++first) {
-      const auto last = std::upper_bound(first, log_lengths.end(), *first + 2.0 * kLengthTolerance);
-      if (last - first <= most) continue;
-      most = last - first;
-      mode = 0.5 * (*first + *(last - 1));
-    }
-    return mode;
-  }
+  ToldLengths lengths;
 };
 
 /// A pair of the image, seen from the other.
@@ -93,7 +62,6 @@ std::vector<double> LengthsOf(const MappingState& state,
     if (const std::optional<double> told = ToldLogLength(ray, first, known))
       lengths.push_back(*told);
   });
-  std::ranges::sort(lengths);
   return lengths;
 }
 
@@ -103,31 +71,26 @@ std::vector<ToldStep> StepsTo(const MappingState& state, ImageSlot image, double
     const LinkedPair& pair = state.Graph().pairs[p];
     const Approach approach{p, pair.a == image ? pair.b : pair.a};
     if (!HasRotationOfModel(state, pair)) continue;
-    ToldStep step{.from = state.Centre(approach.from),
-                  .direction = DirectionOf(state, approach),
-                  .log_lengths = LengthsOf(state, image, approach, min_angle_rad)};
-    if (step.log_lengths.size() >= kFewestRaysOfPair) steps.push_back(std::move(step));
+    std::vector<double> log_lengths = LengthsOf(state, image, approach, min_angle_rad);
+    if (log_lengths.size() < kFewestRaysOfPair) continue;
+    steps.push_back({state.Centre(approach.from),
+                     ToldLengths(DirectionOf(state, approach), std::move(log_lengths))});
   }
   return steps;
 }
 
 double CountAgreeing(const std::vector<ToldStep>& steps, const Eigen::Vector3d& centre) {
   double count = 0.0;
-  for (const ToldStep& step : steps) count += step.CountAgreeing(centre);
+  for (const ToldStep& step : steps) count += step.lengths.CountAgreeing(centre - step.from);
   return count;
 }
 
 /// Where each pair leads.
 std::vector<Eigen::Vector3d> CandidatesOf(const std::vector<ToldStep>& steps) {
   std::vector<Eigen::Vector3d> candidates;
-  for (ToldStep step : steps) {
-    for (size_t i = 0; i < kModes && !step.log_lengths.empty(); ++i) {
-      const double mode = step.Mode();
-      candidates.push_back(step.To(mode));
-      std::erase_if(step.log_lengths, [mode](double log_length) {
-        return std::abs(log_length - mode) <= kLengthTolerance;
-      });
-    }
+  for (const ToldStep& step : steps) {
+    for (const double length : step.lengths.Modes())
+      candidates.emplace_back(step.from + length * step.lengths.Direction());
   }
   return candidates;
 }

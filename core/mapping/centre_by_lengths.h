@@ -14,7 +14,7 @@ namespace orbweave {
 /// part in. A pair leads to it from a registered image a in a known direction; how far, says each
 /// ray of a that another pair q of a shares (MeasurePairLengths). Candidates are where one pair
 /// leads by the length that most of its rays say, or by the one that second most do; the one that
-/// most rays of all pairs agree with (15 %, 50 of a pair at most) wins.
+/// most rays of all pairs agree with (ToldLengths::CountAgreeing) wins.
 ///
 /// nullopt unless that are a fifth more than agree with where it stands, and rays of three pairs
 /// or more.

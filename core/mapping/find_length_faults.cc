@@ -4,6 +4,7 @@
 #include "core/mapping/find_length_faults.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kFewestRays = 50.0;
 constexpr uint32_t kFewestPairs = 3;
+constexpr double kDeviations = 2.0;
 
 struct Sum {
   LengthAgreement agreement{};
@@ -26,19 +28,29 @@ struct Sum {
   }
 };
 
+/// nullopt where nothing is wrong with the way.
+std::optional<LengthFault> TearAt(const GapLength& gap) {
+  LengthFault tear{gap.between.a, gap.between.b, gap.agreement};
+  if (Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross)) return tear;
+  if (!IsToldElsewhere(gap.here, gap.elsewhere)) return std::nullopt;
+  tear.agreement = {.told = gap.here + gap.elsewhere, .agreeing = gap.here};
+  tear.is_told_elsewhere = true;
+  return tear;
+}
+
 /// Of ways at fault that follow each other the one that agrees least.
 std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
   std::vector<LengthFault> tears;
   std::optional<ImageId> end_of_last;
   for (const GapLength& gap : gaps) {
-    if (!Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross)) continue;
-    const LengthFault tear{gap.between.a, gap.between.b, gap.agreement};
+    const std::optional<LengthFault> tear = TearAt(gap);
+    if (!tear) continue;
     const bool is_same = end_of_last == gap.between.a;
     end_of_last = gap.between.b;
     if (!is_same) {
-      tears.push_back(tear);
-    } else if (tear.agreement.Share() < tears.back().agreement.Share()) {
-      tears.back() = tear;
+      tears.push_back(*tear);
+    } else if (tear->agreement.Share() < tears.back().agreement.Share()) {
+      tears.back() = *tear;
     }
   }
   return tears;
@@ -48,6 +60,15 @@ std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
 
 bool TellsEnough(const LengthAgreement& agreement, uint32_t pairs) {
   return pairs >= kFewestPairs && agreement.told >= kFewestRays;
+}
+
+double DeviationsElsewhere(double here, double elsewhere) {
+  const double sum = here + elsewhere;
+  return sum > 0.0 ? (elsewhere - here) / std::sqrt(sum) : 0.0;
+}
+
+bool IsToldElsewhere(double here, double elsewhere) {
+  return DeviationsElsewhere(here, elsewhere) > kDeviations;
 }
 
 std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,

@@ -157,11 +157,9 @@ class Growth {
 
   absl::Status Mend() {
     if (!schedule_.relaxes_registration) return absl::OkStatus();
-    ORBWEAVE_ASSIGN_OR_RETURN(const int num_moved, MendLengths(state_, options_, context_));
-    report_.num_local_adjustments += num_moved;
-    if (num_moved == 0) return absl::OkStatus();
-    ++report_.num_global_adjustments;
-    return AdjustGrowingModel(state_, options_, context_);
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_mended, MendLengths(state_, options_, context_));
+    report_.num_global_adjustments += is_mended ? 1 : 0;
+    return absl::OkStatus();
   }
 
   /// Images that kept hardly a point were registered wrongly; they may be tried again.

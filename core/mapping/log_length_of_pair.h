@@ -11,6 +11,9 @@ namespace orbweave {
 
 /// Lengths agree whose logarithms are no further apart.
 inline constexpr double kLengthTolerance = 0.15;
+/// The same where one length is weighed against another: rays of right tracks tell lengths to a few
+/// hundredths, so that a step that is a fifth too long has hardly a ray that agrees.
+inline constexpr double kCloseTolerance = 0.06;
 /// A pair's direction and the model's agree up to 60 degrees.
 inline constexpr double kMinCosDirection = 0.5;
 /// Fewer rays of one image say nothing of a pair; no pair counts with more than so many.

@@ -16,14 +16,15 @@ namespace {
 /// What the rays of each pair's two images say, [2 i] of a and [2 i + 1] of b.
 class RayCounts {
  public:
-  explicit RayCounts(const AskedRays& asked) : asked_(asked), counts_(2 * asked.pairs.size()) {}
+  RayCounts(const AskedRays& asked, double tolerance)
+      : asked_(asked), tolerance_(tolerance), counts_(2 * asked.pairs.size()) {}
 
   /// `depths`: of one ray.
   void Add(std::span<const RayDepth> depths) {
     for (const RayDepth& depth : depths) {
       const std::optional<double> told = ToldLogLength(depths, depth, asked_.log_lengths);
       if (!told) continue;
-      counts_[SideOf(depth)].Add(*told, asked_.log_lengths[depth.pair]);
+      counts_[SideOf(depth)].Add(*told, asked_.log_lengths[depth.pair], tolerance_);
     }
   }
   /// Of pair `i` of those asked.
@@ -39,13 +40,14 @@ class RayCounts {
   }
 
   const AskedRays& asked_;
+  double tolerance_;
   std::vector<RayCount> counts_;
 };
 
 }  // namespace
 
-std::vector<PairLength> MeasurePairLengths(const AskedRays& asked) {
-  RayCounts counts(asked);
+std::vector<PairLength> MeasurePairLengths(const AskedRays& asked, double tolerance) {
+  RayCounts counts(asked, tolerance);
   ForEachRay(asked.depths, [&](std::span<const RayDepth> ray) { counts.Add(ray); });
   std::vector<PairLength> lengths;
   for (size_t i = 0; i < asked.pairs.size(); ++i) {
@@ -63,7 +65,7 @@ std::vector<LengthFault> FindLengthFaults(const MappingState& state,
 
 double CountAgreeingRays(const MappingState& state, const MappingOptions& options) {
   double count = 0.0;
-  for (const PairLength& pair : MeasurePairLengths({state, options}))
+  for (const PairLength& pair : MeasurePairLengths({state, options}, kCloseTolerance))
     count += pair.agreement.agreeing;
   return count;
 }

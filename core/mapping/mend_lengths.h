@@ -8,14 +8,15 @@
 
 namespace orbweave {
 
-/// Moves images at faults of lengths (FindLengthFaults: they themselves, or both sides of a tear)
-/// to where the rays of those around them put them (CentreByLengths), unless GNSS speaks against it
-/// (StepWitness), makes their points anew and adjusts around them, one after the other in order of
-/// images, as long as more rays agree with the model after each. A few rounds of it, as a piece of
-/// several images is moved one by one. All of it stays as it was unless more speaks for the result
-/// (SpeaksMoreFor). Returns how many images were moved. Cancelled when asked to stop.
-[[nodiscard]] absl::StatusOr<int> MendLengths(MappingState& state,
-                                              const MappingOptions& options,
-                                              const StageContext& context);
+/// Where rays contradict lengths of the model (FindLengthFaults): moves images and pieces of the
+/// street (ListCandidateMoves), each time as most rays agree with (CountAgreeingRays), as long as
+/// more do than before and GNSS does not speak against it (StepWitness). Then points are made anew
+/// that images see which were moved by different amounts, and everything is adjusted. All of it
+/// stays as it was unless more speaks for the result (SpeaksMoreFor).
+///
+/// Whether anything was moved. Cancelled when asked to stop.
+[[nodiscard]] absl::StatusOr<bool> MendLengths(MappingState& state,
+                                               const MappingOptions& options,
+                                               const StageContext& context);
 
 }  // namespace orbweave

@@ -32,6 +32,8 @@ struct GapLength {
   ImagePair between{};
   uint32_t pairs = 0;  ///< that lead across and tell something
   LengthAgreement agreement{};
+  double here = 0.0;       ///< rays that say closely what the model has,
+  double elsewhere = 0.0;  ///< and those of the length that most say (GapShift)
 };
 
 }  // namespace orbweave

@@ -18,6 +18,16 @@ namespace {
 
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 
+bool AgreesLess(const PairLength& one, const PairLength& other) {
+  return one.agreement.Share() < other.agreement.Share();
+}
+
+bool AgreesLess(const GapLength& one, const GapLength& other) {
+  const bool is_elsewhere = IsToldElsewhere(one.here, one.elsewhere);
+  if (is_elsewhere != IsToldElsewhere(other.here, other.elsewhere)) return is_elsewhere;
+  return one.agreement.Share() < other.agreement.Share();
+}
+
 /// Of what lies within one model, each place once: as the cluster has it that it agrees with least.
 template <typename Length>
 std::vector<Length> LeastAgreeing(const JobResults& results,
@@ -29,8 +39,7 @@ std::vector<Length> LeastAgreeing(const JobResults& results,
     for (const Length& length : cluster.*lengths) {
       if (!AreOfOneModel(model_of_image, length.*place)) continue;
       const auto [known, is_new] = least.try_emplace(length.*place, length);
-      if (!is_new && length.agreement.Share() < known->second.agreement.Share())
-        known->second = length;
+      if (!is_new && AgreesLess(length, known->second)) known->second = length;
     }
   }
   std::vector<Length> sorted;
@@ -44,6 +53,27 @@ std::string PlaceOf(const LengthFault& fault, const ImageManifest& manifest) {
 }
 
 int Percent(double share) { return static_cast<int>(std::lround(100.0 * share)); }
+
+std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest) {
+  char text[256];
+  if (fault.is_told_elsewhere) {
+    const double here = fault.agreement.agreeing;
+    std::snprintf(text,
+                  sizeof text,
+                  "of the rays that tell how long steps are %.0f say another length than the model "
+                  "has %s, and %.0f the model's",
+                  fault.agreement.told - here,
+                  PlaceOf(fault, manifest).c_str(),
+                  here);
+  } else {
+    std::snprintf(text,
+                  sizeof text,
+                  "of the rays that tell how long steps are only %d %% agree with the model %s",
+                  Percent(fault.agreement.Share()),
+                  PlaceOf(fault, manifest).c_str());
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -71,7 +101,7 @@ CrossCheck CheckLengths(const JobResults& results) {
   const LengthFault& worst = *std::ranges::min_element(
       faults, {}, [](const LengthFault& fault) { return fault.agreement.Share(); });
   check.value = worst.agreement.Share();
-  check.limit = worst.next ? kMinAgreeingAcross : kMinAgreeingLengths;
+  check.limit = worst.MinShare();
   const auto images = static_cast<double>(
       std::ranges::count_if(faults, [](const LengthFault& fault) { return !fault.next; }));
   const bool is_bad =
@@ -80,11 +110,9 @@ CrossCheck CheckLengths(const JobResults& results) {
   std::snprintf(
       text,
       sizeof text,
-      "of the rays that tell how long steps are only %d %% agree with the model %s, where "
-      "%d %% do on the whole (%zu such places): part of it may stand a house too far along "
-      "where houses repeat; give GNSS positions, or take panoramas closer together",
-      Percent(check.value),
-      PlaceOf(worst, results.manifest).c_str(),
+      "%s, where %d %% agree on the whole (%zu such places): part of it may stand a house too far "
+      "along where houses repeat; give GNSS positions, or take panoramas closer together",
+      WhatRaysSay(worst, results.manifest).c_str(),
       Percent(all.Share()),
       faults.size());
   check.sentence = text;

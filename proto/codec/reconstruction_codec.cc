@@ -67,6 +67,8 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_pairs(length.pairs);
     out->set_told(length.agreement.told);
     out->set_agreeing(length.agreement.agreeing);
+    out->set_here(length.here);
+    out->set_elsewhere(length.elsewhere);
   }
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
   proto.set_num_local_adjustments(result.reconstruction.num_local_adjustments);
@@ -110,7 +112,12 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
     const ImagePair between{ImageId(length.image()), ImageId(length.next())};
     const LengthAgreement agreement{.told = length.told(), .agreeing = length.agreeing()};
     ORBWEAVE_RETURN_IF_ERROR(CheckLength(between, agreement));
-    result.reconstruction.gap_lengths.push_back({between, length.pairs(), agreement});
+    ORBWEAVE_RETURN_IF_ERROR(
+        codec::Expect(codec::IsAmount(length.here()) && codec::IsAmount(length.elsewhere()),
+                      "cluster reconstruction",
+                      "rays of a way"));
+    result.reconstruction.gap_lengths.push_back(
+        {between, length.pairs(), agreement, length.here(), length.elsewhere()});
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();
   result.reconstruction.num_local_adjustments = proto.num_local_adjustments();

@@ -538,7 +538,9 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                                            .agreement = {.told = 80.5, .agreeing = 20.25}}},
                          .gap_lengths = {{.between = {ImageId(4), ImageId(5)},
                                           .pairs = 7,
-                                          .agreement = {.told = 90.5, .agreeing = 30.25}}},
+                                          .agreement = {.told = 90.5, .agreeing = 30.25},
+                                          .here = 43.5,
+                                          .elsewhere = 90.0}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
                          .start_remark = "29 of 30 images stay registered"}};
@@ -558,6 +560,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].pairs, 7U);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].agreement.told, 90.5);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].agreement.agreeing, 30.25);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].here, 43.5);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].elsewhere, 90.0);
   EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);

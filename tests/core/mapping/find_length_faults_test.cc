@@ -75,6 +75,24 @@ TEST(FindLengthFaults, OfWaysThatFollowEachOtherTheWorstIsTorn) {
   EXPECT_EQ(faults[2].image, ImageId(12));
 }
 
+/// Most rays near a step that is a fifth too long agree with it, but crowd elsewhere.
+TEST(FindLengthFaults, AStreetIsTornWhereClearlyMoreRaysSayAnotherLength) {
+  std::vector<GapLength> gaps = RightGaps();
+  for (GapLength& gap : gaps) {
+    gap.here = 120.0;
+    gap.elsewhere = 130.0;  // which is chance
+  }
+  EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
+  gaps[9].here = 60.0;
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(9));
+  EXPECT_TRUE(faults[0].is_told_elsewhere);
+  EXPECT_DOUBLE_EQ(faults[0].agreement.told, 190.0);
+  EXPECT_DOUBLE_EQ(faults[0].agreement.agreeing, 60.0);
+  EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
+}
+
 TEST(FindLengthFaults, OnePairThatIsWrongIsNone) {
   const auto is_wrong = [](uint32_t a, uint32_t b) { return a == 9 && b == 10; };
   EXPECT_TRUE(FindLengthFaults(WrongWhere(is_wrong), RightGaps()).empty());

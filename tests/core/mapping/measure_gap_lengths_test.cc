@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/sim3.h"
+#include "core/mapping/find_gap_shift.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "tests/core/mapping/torn_street.h"
 
@@ -64,6 +65,45 @@ TEST(GapLengths, FindATearOfHalfAStep) {
       EXPECT_GT(gaps[i].agreement.Share(), gaps[6].agreement.Share()) << i;
     }
   }
+}
+
+/// A step that is a fifth too long still has every second ray within 15 % of it.
+TEST(GapLengths, HearWhereRaysSayAnotherLength) {
+  const TornStreet street;
+  for (const GapLength& gap : MeasureGapLengths({street.Right(), {}})) {
+    EXPECT_GT(gap.here, 50.0);
+    EXPECT_FALSE(IsToldElsewhere(gap.here, gap.elsewhere)) << gap.between.a.value;
+  }
+  for (const double by_m : {-1.4, 1.4}) {
+    const std::vector<GapLength> gaps = MeasureGapLengths({Torn(street, by_m), {}});
+    EXPECT_TRUE(IsToldElsewhere(gaps[6].here, gaps[6].elsewhere)) << by_m;
+    for (const size_t far : {0U, 1U, 2U, 10U, 11U, 12U, 13U})
+      EXPECT_FALSE(IsToldElsewhere(gaps[far].here, gaps[far].elsewhere)) << far;
+  }
+}
+
+TEST(GapShift, IsByHowMuchTheStreetIsTorn) {
+  const TornStreet street;
+  for (const double by_m : {-3.0, 1.4, 4.0}) {
+    const MappingState torn = Torn(street, by_m);
+    const AskedRays asked(torn, {});
+    const std::vector<GapVotes> gaps = CollectGapVotes(asked);
+    for (const auto* votes : {&gaps[6].before, &gaps[6].behind}) {
+      const GapShift shift = FindGapShift(asked, gaps[6], *votes);
+      EXPECT_NEAR(shift.shift, -by_m, 0.15);
+      EXPECT_GT(shift.elsewhere, 2.0 * shift.here);
+    }
+  }
+}
+
+TEST(GapShift, IsNoneWhereNobodySaysAnything) {
+  const TornStreet street;
+  const MappingState right = street.Right();
+  const AskedRays asked(right, {});
+  const GapShift shift = FindGapShift(asked, {.image = 3, .next = 4}, {});
+  EXPECT_EQ(shift.shift, 0.0);
+  EXPECT_EQ(shift.here, 0.0);
+  EXPECT_EQ(shift.elsewhere, 0.0);
 }
 
 /// What is behind the jump agrees with itself.

@@ -82,6 +82,23 @@ TEST(CheckLengths, ATearIsDoubtful) {
   EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood) << "gaps between two models";
 }
 
+TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
+  JobResults results = Drive();
+  GapLength& gap = results.clusters[0].gap_lengths[20];
+  gap.here = 60.0;
+  gap.elsewhere = 132.0;
+  results.clusters.push_back(Drive().clusters[0]);
+  for (const size_t torn : {0U, 1U}) {
+    const CrossCheck check = CheckLengths(results);
+    EXPECT_EQ(check.level, CheckLevel::kDoubtful) << torn;
+    EXPECT_LT(check.value, check.limit);
+    EXPECT_THAT(check.sentence,
+                HasSubstr("132 say another length than the model has between 20.jpg and 21.jpg, "
+                          "and 60 the model's"));
+    std::swap(results.clusters[0], results.clusters[1]);
+  }
+}
+
 TEST(CheckLengths, TheClusterThatSpeaksForAPairLessJudgesIt) {
   JobResults results = Drive();
   results.clusters.push_back(results.clusters[0]);

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/candidate_moves.h"
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "core/mapping/centre_by_lengths.h"
+#include "core/mapping/drive_places.h"
+#include "core/mapping/find_gap_shift.h"
+#include "core/mapping/log_length_of_pair.h"
+#include "core/mapping/measure_gap_lengths.h"
+#include "core/mapping/measure_pair_lengths.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A way that rays contradict, and what each of its sides says.
+struct ToldGap {
+  ImageSlot image = 0;
+  ImageSlot next = 0;
+  GapShift before{};
+  GapShift behind{};
+};
+
+bool IsClear(const GapShift& shift) { return IsToldElsewhere(shift.here, shift.elsewhere); }
+
+std::vector<ToldGap> FindToldGaps(const AskedRays& asked) {
+  std::vector<ToldGap> told;
+  for (const GapVotes& votes : CollectGapVotes(asked)) {
+    const ToldGap gap{votes.image,
+                      votes.next,
+                      FindGapShift(asked, votes, votes.before),
+                      FindGapShift(asked, votes, votes.behind)};
+    if (IsClear(gap.before) || IsClear(gap.behind)) told.push_back(gap);
+  }
+  return told;
+}
+
+/// Which images move together.
+class Pieces {
+ public:
+  explicit Pieces(const MappingState& state) : state_(state), places_(state) {}
+
+  /// From `first` to `last` of one drive, and what goes with them of others.
+  [[nodiscard]] std::vector<ImageSlot> Between(ImageSlot first, ImageSlot last) const {
+    std::vector<ImageSlot> piece;
+    for (size_t place = 0; place < places_.size(); ++place) {
+      const ImageSlot image = places_.At(place);
+      const std::optional<ImageSlot> on_drive =
+          DriveOf(image) == DriveOf(first) ? image : NearestOf(DriveOf(first), image);
+      if (!on_drive) continue;
+      const size_t stands = places_.PlaceOf(*on_drive);
+      if (places_.PlaceOf(first) <= stands && stands <= places_.PlaceOf(last))
+        piece.push_back(image);
+    }
+    return piece;
+  }
+  [[nodiscard]] std::vector<ImageSlot> From(ImageSlot first) const {
+    size_t last = places_.PlaceOf(first);
+    while (last + 1 < places_.size() && DriveOf(places_.At(last + 1)) == DriveOf(first)) ++last;
+    return Between(first, places_.At(last));
+  }
+
+ private:
+  [[nodiscard]] uint32_t DriveOf(ImageSlot image) const {
+    return state_.Problem().images[image].drive;
+  }
+  /// The image of a drive with which one of another has most matches.
+  [[nodiscard]] std::optional<ImageSlot> NearestOf(uint32_t drive, ImageSlot image) const {
+    std::optional<ImageSlot> nearest;
+    size_t most = 0;
+    for (const uint32_t p : state_.Graph().pairs_of_image[image]) {
+      const LinkedPair& pair = state_.Graph().pairs[p];
+      const ImageSlot other = pair.a == image ? pair.b : pair.a;
+      if (DriveOf(other) != drive || !LogLengthOfPair(state_, pair)) continue;
+      const size_t matches = state_.Problem().pairs[pair.index].inliers.size();
+      if (matches <= most) continue;
+      most = matches;
+      nearest = other;
+    }
+    return nearest;
+  }
+
+  const MappingState& state_;
+  DrivePlaces places_;
+};
+
+class Lister {
+ public:
+  Lister(const MappingState& state, const MappingOptions& options)
+      : state_(state), options_(options), pieces_(state) {}
+
+  std::vector<CandidateMove> Run() {
+    const std::vector<ToldGap> gaps = FindToldGaps({state_, options_});
+    for (size_t i = 0; i < gaps.size(); ++i) {
+      const std::optional<ToldGap> following =
+          i + 1 < gaps.size() ? std::optional(gaps[i + 1]) : std::nullopt;
+      for (const GapShift* shift : {&gaps[i].before, &gaps[i].behind}) {
+        if (IsClear(*shift)) AddShifts(gaps[i], shift->shift, following);
+      }
+      AddScale(gaps[i]);
+    }
+    AddSingles(gaps);
+    return std::move(moves_);
+  }
+
+ private:
+  [[nodiscard]] Vector3d WayOf(const ToldGap& gap) const {
+    return (state_.Centre(gap.next) - state_.Centre(gap.image)).normalized();
+  }
+
+  void AddShifts(const ToldGap& gap, double shift, const std::optional<ToldGap>& following) {
+    const Vector3d by = shift * WayOf(gap);
+    Add(pieces_.From(gap.next), by);
+    const bool is_of_drive = following && state_.Problem().images[following->image].drive ==
+                                              state_.Problem().images[gap.image].drive;
+    if (is_of_drive) Add(pieces_.Between(gap.next, following->image), by);
+    Add({gap.next}, by);
+    Add({gap.image}, -by);
+  }
+
+  void Add(const std::vector<ImageSlot>& images, const Vector3d& by) {
+    CandidateMove move;
+    for (const ImageSlot image : images) move[image] = state_.Centre(image) + by;
+    moves_.push_back(std::move(move));
+  }
+
+  /// Everything behind the gap on the scale of what is before it.
+  void AddScale(const ToldGap& gap) {
+    const double length = (state_.Centre(gap.next) - state_.Centre(gap.image)).norm();
+    const double before = length + gap.before.shift;
+    const double behind = length + gap.behind.shift;
+    if (!(before > 0.0) || !(behind > 0.0)) return;
+    const double scale = before / behind;
+    if (std::abs(std::log(scale)) <= kCloseTolerance) return;
+    const Vector3d pivot = state_.Centre(gap.next);
+    const Vector3d by = gap.before.shift * WayOf(gap);
+    CandidateMove move;
+    for (const ImageSlot image : pieces_.From(gap.next))
+      move[image] = pivot + scale * (state_.Centre(image) - pivot) + by;
+    moves_.push_back(std::move(move));
+  }
+
+  void AddSingles(std::span<const ToldGap> gaps) {
+    std::set<ImageSlot> images;
+    for (const ToldGap& gap : gaps) images.insert({gap.image, gap.next});
+    for (const LengthFault& fault : FindLengthFaults(state_, options_)) {
+      images.insert(SlotOf(state_.Problem(), fault.image).value());
+      if (fault.next) images.insert(SlotOf(state_.Problem(), *fault.next).value());
+    }
+    for (const ImageSlot image : images) {
+      if (!state_.IsRegistered(image)) continue;
+      if (const auto centre = CentreByLengths(state_, image, options_))
+        moves_.push_back({{image, *centre}});
+    }
+  }
+
+  const MappingState& state_;
+  const MappingOptions& options_;
+  Pieces pieces_;
+  std::vector<CandidateMove> moves_{};
+};
+
+}  // namespace
+
+std::vector<CandidateMove> ListCandidateMoves(const MappingState& state,
+                                              const MappingOptions& options) {
+  return Lister(state, options).Run();
+}
+
+}  // namespace orbweave

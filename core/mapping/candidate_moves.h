@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <vector>
+
+#include "core/mapping/mapping_options.h"
+#include "core/mapping/mapping_state.h"
+
+namespace orbweave {
+
+/// Registered images that may stand elsewhere, and where.
+using CandidateMove = std::map<ImageSlot, Eigen::Vector3d>;
+
+/// What would mend the lengths that rays contradict. At each way between neighbours of a drive of
+/// which clearly more rays say another length (FindGapShift, IsToldElsewhere), along the way and as
+/// far as they say: everything behind it; the piece from there to the next such way; the image
+/// behind it alone, and the one before it alone, backwards. Where its two sides say different
+/// lengths, everything behind it on the scale with which they say the same. Each image at such a
+/// way or at a fault (FindLengthFaults), alone, to where the rays of those around it put it
+/// (CentreByLengths). Images of other drives go with that image of the drive with which they have
+/// most matches.
+///
+/// In order of the ways, then of the images.
+[[nodiscard]] std::vector<CandidateMove> ListCandidateMoves(const MappingState& state,
+                                                            const MappingOptions& options);
+
+}  // namespace orbweave

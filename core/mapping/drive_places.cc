@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/drive_places.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orbweave {
+
+DrivePlaces::DrivePlaces(const MappingState& state) : place_(state.Graph().NumImages()) {
+  for (ImageSlot image = 0; image < state.Graph().NumImages(); ++image) {
+    if (state.IsRegistered(image)) images_.push_back(image);
+  }
+  const auto& known = state.Problem().images;
+  std::ranges::sort(
+      images_, {}, [&](ImageSlot image) { return std::pair(known[image].drive, known[image].id); });
+  for (size_t i = 0; i < images_.size(); ++i) place_[images_[i]] = i;
+}
+
+}  // namespace orbweave

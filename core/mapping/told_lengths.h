@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace orbweave {
+
+/// Rays' word for how long one pair is, and where its geometry has it lead.
+class ToldLengths {
+ public:
+  /// `direction`: unit, in the world; `log_lengths`: logarithms of lengths, a ray each, any order.
+  ToldLengths(const Eigen::Vector3d& direction, std::vector<double> log_lengths);
+
+  [[nodiscard]] const Eigen::Vector3d& Direction() const { return direction_; }
+  [[nodiscard]] size_t NumRays() const { return log_lengths_.size(); }
+  /// How many agree closely (kCloseTolerance) with a step that leads where the pair does; 50 of a
+  /// pair at most: one that tracks fooled has many rays, what counts is how many pairs say the
+  /// same.
+  [[nodiscard]] double CountAgreeing(const Eigen::Vector3d& step) const;
+  /// Lengths that most say, two at most: the middle of the closely agreeing interval that holds
+  /// most, and the same of what is left without it.
+  [[nodiscard]] std::vector<double> Modes() const;
+  /// Those that agree closely with a length.
+  [[nodiscard]] std::vector<double> Near(double length) const;
+
+ private:
+  Eigen::Vector3d direction_;
+  std::vector<double> log_lengths_;  ///< ascending
+};
+
+}  // namespace orbweave
