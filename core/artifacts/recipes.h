@@ -58,6 +58,7 @@ struct ClusterRecipe {
   uint32_t cluster = 0;
   std::vector<FeatureFile> images{};  ///< sorted
   std::vector<uint32_t> drives{};     ///< of each of the images
+  std::vector<uint32_t> ranks{};      ///< of each among those of its drive, as they were taken
   std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
   std::vector<ImageId> shared{};      ///< images that other clusters have too, sorted
   std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others

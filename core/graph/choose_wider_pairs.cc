@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/graph/disjoint_sets.h"
-#include "core/scene/sequence_of_drive.h"
+#include "core/scene/places_in_drives.h"
 
 namespace orbweave {
 namespace {
@@ -71,27 +71,6 @@ class Links {
   std::vector<Ids> of_;
 };
 
-/// How far apart the images of pairs are along their drive.
-class DriveSteps {
- public:
-  explicit DriveSteps(const ImageManifest& manifest)
-      : manifest_(manifest), position_(manifest.images.size()) {
-    for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-      for (size_t i = 0; i < sequence.size(); ++i)
-        position_[sequence[i].value] = static_cast<int64_t>(i);
-    }
-  }
-  /// 0 where they are of two drives.
-  [[nodiscard]] int64_t Between(const ImagePair& pair) const {
-    if (manifest_.At(pair.a).drive != manifest_.At(pair.b).drive) return 0;
-    return std::abs(position_[pair.a.value] - position_[pair.b.value]);
-  }
-
- private:
-  const ImageManifest& manifest_;
-  std::vector<int64_t> position_;
-};
-
 void DecideAboutSecond(const ImageManifest& manifest,
                        const Pairs& candidates,
                        std::span<const MatchedPair> matched,
@@ -102,13 +81,14 @@ void DecideAboutSecond(const ImageManifest& manifest,
     if (IsStrong(pair)) strong.Add(pair.pair);
   }
   Links dense = strong;
-  const DriveSteps steps(manifest);
-  std::vector<std::pair<int64_t, ImagePair>> by_steps;
-  for (const ImagePair& pair : candidates) by_steps.emplace_back(steps.Between(pair), pair);
+  const PlacesInDrives places(manifest);
+  const auto window = static_cast<uint32_t>(options.sequence_window);
+  std::vector<std::pair<uint32_t, ImagePair>> by_steps;
+  for (const ImagePair& pair : candidates)
+    by_steps.emplace_back(places.StepsBetween(pair).value_or(0), pair);
   std::ranges::sort(by_steps);
   for (const auto& [apart, pair] : by_steps) {
-    const bool is_of_chain =
-        apart > 0 && apart <= options.sequence_window && strong.AreChained(pair);
+    const bool is_of_chain = apart > 0 && apart <= window && strong.AreChained(pair);
     if (is_of_chain && dense.AreJoinedByTwo(pair)) {
       ++wider.num_held_back;
       continue;

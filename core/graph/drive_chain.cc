@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/geometry/rotation.h"
+#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -57,12 +58,13 @@ Eigen::Quaterniond RotationOf(const ViewEdge& edge, uint32_t to) {
 std::vector<Sequence> SequencesOf(const EdgeIndex& index, const ImageManifest& manifest) {
   std::vector<uint8_t> has_edge(manifest.images.size(), 0);
   for (const auto& [pair, edge] : index.all()) has_edge[pair.a.value] = has_edge[pair.b.value] = 1;
-  std::map<uint32_t, Sequence> sequences;
-  for (const ImageRecord& image : manifest.images) {
-    if (has_edge[image.id.value] != 0) sequences[image.drive].push_back(image.id.value);
-  }
   std::vector<Sequence> list;
-  for (auto& [drive, sequence] : sequences) list.push_back(std::move(sequence));
+  for (const auto& [drive, images] : SequenceOfDrives(manifest)) {
+    Sequence& sequence = list.emplace_back();
+    for (const ImageId image : images) {
+      if (has_edge[image.value] != 0) sequence.push_back(image.value);
+    }
+  }
   return list;
 }
 

@@ -38,9 +38,10 @@ class DriveChain {
     Eigen::Quaterniond stretch_from_first{1, 0, 0, 0};  ///< rotation
   };
 
-  /// Images of a drive follow each other in id order. A step is the strongest edge to the next
-  /// image, or one of the three after it, that closes triangles in rotation with others around and
-  /// leaves no more of them open. Elsewhere a stretch ends: what nothing confirms predicts nothing.
+  /// Images of a drive follow each other as in SequenceOfDrives. A step is the strongest edge to
+  /// the next image, or one of the three after it, that closes triangles in rotation with others
+  /// around and leaves no more of them open. Elsewhere a stretch ends: what nothing confirms
+  /// predicts nothing.
   DriveChain(const std::vector<ViewEdge>& edges, const ImageManifest& manifest);
 
   /// The way from the image that the drive comes to first, whichever it is, to the other; nullopt

@@ -13,6 +13,7 @@
 
 #include "core/base/quantile.h"
 #include "core/graph/disjoint_sets.h"
+#include "core/scene/places_in_drives.h"
 
 namespace orbweave {
 namespace {
@@ -54,18 +55,18 @@ double BaselineOverDepth(const ViewEdge& edge) {
 /// Neighbours in the sequence of one drive.
 constexpr uint32_t kSequenceSteps = 5;
 
-bool IsInSequence(const ImagePair& pair, const ImageManifest& manifest) {
-  return pair.b.value - pair.a.value <= kSequenceSteps &&
-         manifest.At(pair.a).drive == manifest.At(pair.b).drive;
+bool IsInSequence(const ImagePair& pair, const PlacesInDrives& places) {
+  const std::optional<uint32_t> steps = places.StepsBetween(pair);
+  return steps && *steps <= kSequenceSteps;
 }
 
-/// Depths of the scene that edges and positions say together.
+/// Depths of the scene that edges and positions say together, all or those `in_sequence`.
 std::vector<double> Depths(const std::vector<ViewEdge>& edges,
                            const ImageManifest& manifest,
-                           bool in_sequence) {
+                           const PlacesInDrives* in_sequence) {
   std::vector<double> depths_m;
   for (const ViewEdge& edge : edges) {
-    if (in_sequence && !IsInSequence(edge.pair, manifest)) continue;
+    if (in_sequence != nullptr && !IsInSequence(edge.pair, *in_sequence)) continue;
     const std::optional<Separation> separation = SeparationOf(edge, manifest);
     const double ratio = BaselineOverDepth(edge);
     if (!separation || !(ratio > 0.0) || ratio >= kNear.max_ratio) continue;
@@ -77,10 +78,11 @@ std::vector<double> Depths(const std::vector<ViewEdge>& edges,
 
 /// By neighbours in the sequence, where enough of them tell; nullopt where no edge does.
 std::optional<double> MedianDepth(const std::vector<ViewEdge>& edges,
-                                  const ImageManifest& manifest) {
+                                  const ImageManifest& manifest,
+                                  const PlacesInDrives& places) {
   constexpr size_t kEnough = 10;
-  std::vector<double> depths_m = Depths(edges, manifest, true);
-  if (depths_m.size() < kEnough) depths_m = Depths(edges, manifest, false);
+  std::vector<double> depths_m = Depths(edges, manifest, &places);
+  if (depths_m.size() < kEnough) depths_m = Depths(edges, manifest, nullptr);
   if (depths_m.empty()) return std::nullopt;
   return UpperMedian(std::move(depths_m));
 }
@@ -98,9 +100,10 @@ enum class Agreement : uint8_t { kNone, kAgrees, kDoubts, kDisagrees };
 
 /// What GNSS thinks of each edge.
 std::vector<Agreement> FindAgreements(const std::vector<ViewEdge>& edges,
-                                      const ImageManifest& manifest) {
+                                      const ImageManifest& manifest,
+                                      const PlacesInDrives& places) {
   std::vector<Agreement> agreements(edges.size(), Agreement::kNone);
-  const std::optional<double> depth_m = MedianDepth(edges, manifest);
+  const std::optional<double> depth_m = MedianDepth(edges, manifest, places);
   if (!depth_m) return agreements;
   for (size_t e = 0; e < edges.size(); ++e) {
     const std::optional<Separation> separation = SeparationOf(edges[e], manifest);
@@ -133,18 +136,19 @@ enum class Trust : uint8_t { kNone, kUsual, kSmooth };
 /// such neighbour. Look-alikes may be many; neighbours they are not.
 std::vector<Trust> FindTrust(const std::vector<ViewEdge>& edges,
                              const std::vector<Agreement>& agreements,
-                             const ImageManifest& manifest) {
-  std::vector<Votes> all(manifest.images.size());
-  std::vector<Votes> in_sequence(manifest.images.size());
+                             const PlacesInDrives& places,
+                             size_t num_images) {
+  std::vector<Votes> all(num_images);
+  std::vector<Votes> in_sequence(num_images);
   for (size_t e = 0; e < edges.size(); ++e) {
     if (edges[e].kind == TwoViewKind::kNone) continue;
-    const bool is_in_sequence = IsInSequence(edges[e].pair, manifest);
+    const bool is_in_sequence = IsInSequence(edges[e].pair, places);
     for (const ImageId image : {edges[e].pair.a, edges[e].pair.b}) {
       all[image.value].Add(agreements[e]);
       if (is_in_sequence) in_sequence[image.value].Add(agreements[e]);
     }
   }
-  std::vector<Trust> trust(manifest.images.size(), Trust::kNone);
+  std::vector<Trust> trust(num_images, Trust::kNone);
   for (size_t i = 0; i < trust.size(); ++i) {
     const bool has_neighbours = in_sequence[i].all >= 2;
     const Votes& votes = has_neighbours ? in_sequence[i] : all[i];
@@ -203,8 +207,9 @@ class Crossings {
 
 EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest) {
-  const std::vector<Agreement> agreements = FindAgreements(edges, manifest);
-  const std::vector<Trust> trust = FindTrust(edges, agreements, manifest);
+  const PlacesInDrives places(manifest);
+  const std::vector<Agreement> agreements = FindAgreements(edges, manifest, places);
+  const std::vector<Trust> trust = FindTrust(edges, agreements, places, manifest.images.size());
   Crossings crossings(edges, agreements, static_cast<uint32_t>(manifest.images.size()));
   EdgesByGnss result;
   for (size_t e = 0; e < edges.size(); ++e) {

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/graph/azimuth.h"
+#include "core/scene/places_in_drives.h"
 
 namespace orbweave {
 namespace {
@@ -97,14 +98,15 @@ std::optional<double> HeadingOf(uint32_t image, const Links& links) {
   return best;
 }
 
-/// Whether the position lies halfway between those of the images before and after, as far as they
-/// are exact.
-bool IsSmooth(uint32_t image, const ImageManifest& manifest) {
-  if (image == 0 || image + 1 >= manifest.images.size()) return false;
+/// Whether the position lies halfway between those of the images before and after it in its drive,
+/// as far as they are exact.
+bool IsSmooth(uint32_t image, const ImageManifest& manifest, const PlacesInDrives& places) {
   const ImageRecord& here = manifest.images[image];
-  const ImageRecord& before = manifest.images[image - 1];
-  const ImageRecord& after = manifest.images[image + 1];
-  if (before.drive != here.drive || after.drive != here.drive) return false;
+  const std::optional<ImageId> id_before = places.Before(here.id);
+  const std::optional<ImageId> id_after = places.After(here.id);
+  if (!id_before || !id_after) return false;
+  const ImageRecord& before = manifest.At(*id_before);
+  const ImageRecord& after = manifest.At(*id_after);
   const auto& [p, g, n] = std::tie(
       before.prior.position_in_enu, here.prior.position_in_enu, after.prior.position_in_enu);
   if (!p || !g || !n) return false;
@@ -117,7 +119,8 @@ bool IsSmooth(uint32_t image, const ImageManifest& manifest) {
 bool IsTrusted(uint32_t image,
                const Links& links,
                const std::vector<std::optional<double>>& headings,
-               const ImageManifest& manifest) {
+               const ImageManifest& manifest,
+               const PlacesInDrives& places) {
   size_t all = 0;
   size_t agreeing = 0;
   for (const Link& link : links[image]) {
@@ -126,7 +129,7 @@ bool IsTrusted(uint32_t image,
     const double there = *link.heading - link.turn_rad;
     agreeing += AngleBetweenAzimuths(there, *headings[link.other]) < kAgree_rad ? 1U : 0U;
   }
-  const double share = IsSmooth(image, manifest) ? kTrustedIfSmooth : kTrusted;
+  const double share = IsSmooth(image, manifest, places) ? kTrustedIfSmooth : kTrusted;
   return all > 0 && static_cast<double>(agreeing) >= share * static_cast<double>(all);
 }
 
@@ -135,12 +138,13 @@ bool IsTrusted(uint32_t image,
 EdgesByGnss DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
                                      const ImageManifest& manifest) {
   const Links links = LinksOf(edges, manifest);
+  const PlacesInDrives places(manifest);
   std::vector<std::optional<double>> headings;
   for (uint32_t image = 0; image < links.size(); ++image)
     headings.push_back(HeadingOf(image, links));
   std::vector<int> against(edges.size(), 0);
   for (uint32_t image = 0; image < links.size(); ++image) {
-    if (!headings[image] || !IsTrusted(image, links, headings, manifest)) continue;
+    if (!headings[image] || !IsTrusted(image, links, headings, manifest, places)) continue;
     for (const Link& link : links[image]) {
       if (link.heading && AngleBetweenAzimuths(*link.heading, *headings[image]) > kAgainst_rad)
         ++against[link.edge];

@@ -4,7 +4,7 @@
 #include "core/mapping/drive_places.h"
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 namespace orbweave {
 
@@ -13,8 +13,9 @@ DrivePlaces::DrivePlaces(const MappingState& state) : place_(state.Graph().NumIm
     if (state.IsRegistered(image)) images_.push_back(image);
   }
   const auto& known = state.Problem().images;
-  std::ranges::sort(
-      images_, {}, [&](ImageSlot image) { return std::pair(known[image].drive, known[image].id); });
+  std::ranges::sort(images_, {}, [&](ImageSlot image) {
+    return std::tuple(known[image].drive, known[image].rank_in_drive, known[image].id);
+  });
   for (size_t i = 0; i < images_.size(); ++i) place_[images_[i]] = i;
 }
 

@@ -9,7 +9,8 @@
 
 namespace orbweave {
 
-/// Registered images, drive by drive, in order of their ids, and where in this order each is.
+/// Registered images, drive by drive, as they were taken (ClusterImage::rank_in_drive; where that
+/// is one, in order of their ids), and where in this order each is.
 class DrivePlaces {
  public:
   explicit DrivePlaces(const MappingState& state);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace orbweave {
 namespace {
@@ -38,22 +39,36 @@ std::optional<LengthFault> TearAt(const GapLength& gap) {
   return tear;
 }
 
-/// Of ways at fault that follow each other the one that agrees least.
+/// Of ways at fault that follow each other, from `start` on, the one that agrees least. It takes
+/// them: ways that lead in a ring, which no drive does, end.
+LengthFault LeastFrom(ImageId start, std::map<ImageId, LengthFault>& tears) {
+  std::optional<LengthFault> least;
+  for (auto tear = tears.find(start); tear != tears.end();) {
+    const LengthFault here = tear->second;
+    tears.erase(tear);
+    if (!least || here.agreement.Share() < least->agreement.Share()) least = here;
+    tear = tears.find(*here.next);
+  }
+  return *least;
+}
+
 std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
-  std::vector<LengthFault> tears;
-  std::optional<ImageId> end_of_last;
+  std::map<ImageId, LengthFault> tears;  // by the image before
+  std::set<ImageId> ends;
   for (const GapLength& gap : gaps) {
     const std::optional<LengthFault> tear = TearAt(gap);
     if (!tear) continue;
-    const bool is_same = end_of_last == gap.between.a;
-    end_of_last = gap.between.b;
-    if (!is_same) {
-      tears.push_back(*tear);
-    } else if (tear->agreement.Share() < tears.back().agreement.Share()) {
-      tears.back() = *tear;
-    }
+    tears.emplace(gap.between.a, *tear);
+    ends.insert(gap.between.b);
   }
-  return tears;
+  std::vector<ImageId> starts;
+  for (const auto& [start, tear] : tears) {
+    if (!ends.contains(start)) starts.push_back(start);
+  }
+  std::vector<LengthFault> worst;
+  for (const ImageId start : starts) worst.push_back(LeastFrom(start, tears));
+  while (!tears.empty()) worst.push_back(LeastFrom(tears.begin()->first, tears));
+  return worst;
 }
 
 }  // namespace

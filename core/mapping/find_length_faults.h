@@ -62,7 +62,8 @@ struct LengthFault {
 /// Ways on either side of a tear look torn as well, as what lies on one side of them leads across
 /// it: of ways at fault that follow each other the one that agrees least is returned.
 ///
-/// Of images in order of their ids, then of gaps, in their order.
+/// Of images in order of their ids, then of ways, in order of the first image of those that follow
+/// each other.
 [[nodiscard]] std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,
                                                         std::span<const GapLength> gaps);
 

@@ -31,7 +31,7 @@ struct GapVotes {
 /// side, the median of them, which a tear leaves as they are. Pairs lead across that have no more
 /// than two images of the drive between theirs: longer ones hide a step.
 ///
-/// Of drives in order, of images in order of their ids; votes in order of rays.
+/// Of drives in order, of images as they were taken (DrivePlaces); votes in order of rays.
 [[nodiscard]] std::vector<GapVotes> CollectGapVotes(const AskedRays& asked);
 
 }  // namespace orbweave

@@ -16,7 +16,7 @@ namespace orbweave {
 /// (TellsEnough): where the scale jumps, what is behind agrees with itself, and what is before does
 /// not. Another length is that of the side which more clearly wants one (FindGapShift).
 ///
-/// Of drives in order, of images in order of their ids.
+/// Of drives in order, of images as they were taken (DrivePlaces).
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked);
 
 }  // namespace orbweave

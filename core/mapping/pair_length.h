@@ -27,7 +27,7 @@ struct PairLength {
   LengthAgreement agreement{};
 };
 
-/// That of the way between two images that follow each other in a drive (MeasureGapLengths).
+/// That of the way from an image to the next of its drive (MeasureGapLengths); ids may fall.
 struct GapLength {
   ImagePair between{};
   uint32_t pairs = 0;  ///< that lead across and tell something

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "core/scene/places_in_drives.h"
 
 namespace orbweave {
 namespace {
@@ -17,24 +19,9 @@ constexpr uint32_t kNeighbours = 2;  // places apart in a drive
 constexpr size_t kRun = 3;
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 
-/// Where each image is in its drive.
-struct Place {
-  uint32_t drive = 0;
-  uint32_t position = 0;
-};
-
-std::vector<Place> PlacesOf(const ImageManifest& manifest) {
-  std::map<uint32_t, uint32_t> next;
-  std::vector<Place> places;
-  for (const ImageRecord& image : manifest.images)
-    places.push_back({image.drive, next[image.drive]++});
-  return places;
-}
-
-bool FollowOneAnother(const std::vector<Place>& places, const ImagePair& pair) {
-  const Place& a = places[pair.a.value];
-  const Place& b = places[pair.b.value];
-  return a.drive == b.drive && b.position - a.position <= kNeighbours;
+bool FollowOneAnother(const PlacesInDrives& places, const ImagePair& pair) {
+  const std::optional<uint32_t> steps = places.StepsBetween(pair);
+  return steps && *steps <= kNeighbours;
 }
 
 /// Sets of judged pairs. A pair of two clusters that one of them contradicts is contradicted.
@@ -71,34 +58,51 @@ bool ArePutApart(const ImageManifest& manifest, const ImagePair& pair) {
   return distance_m > reach_m + kSigmas * (a.horizontal_sigma_m + b.horizontal_sigma_m);
 }
 
-/// How many pairs from `first` on follow one another on both sides.
-size_t RunFrom(const std::set<ImagePair>& pairs, const ImagePair& first, bool same_way) {
-  size_t length = 1;
-  ImagePair next = first;
-  while (true) {
-    next.a = ImageId(next.a.value + 1);
-    if (!same_way && next.b.value == 0) break;
-    next.b = ImageId(same_way ? next.b.value + 1 : next.b.value - 1);
-    if (!(next.a < next.b) || !pairs.contains(next)) break;
-    ++length;
-  }
-  return length;
-}
+/// Pairs in rows: those of the images after theirs, or of the one after and the one before.
+class Rows {
+ public:
+  Rows(const std::set<ImagePair>& pairs, const PlacesInDrives& places)
+      : pairs_(pairs), places_(places) {}
 
-size_t LongestRun(const std::set<ImagePair>& pairs) {
-  size_t longest = 0;
-  for (const ImagePair& pair : pairs) {
-    for (const bool same_way : {true, false}) {
-      const uint32_t back = same_way ? 1U : 0U;
-      const bool has_before =
-          pair.a.value > 0 &&
-          pairs.contains({ImageId(pair.a.value - 1),
-                          ImageId(back != 0 ? pair.b.value - 1 : pair.b.value + 1)});
-      if (!has_before) longest = std::max(longest, RunFrom(pairs, pair, same_way));
+  [[nodiscard]] size_t Longest() const {
+    size_t longest = 0;
+    for (const ImagePair& pair : pairs_) {
+      for (const bool same_way : {true, false}) {
+        const ImagePair first = InOrder(pair);
+        if (!HasBefore(first, same_way)) longest = std::max(longest, LengthFrom(first, same_way));
+      }
+    }
+    return longest;
+  }
+
+ private:
+  /// Of one drive: the earlier image first.
+  [[nodiscard]] ImagePair InOrder(const ImagePair& pair) const {
+    const bool is_late =
+        places_.AreOfOneDrive(pair) && places_.PlaceOf(pair.b) < places_.PlaceOf(pair.a);
+    return is_late ? ImagePair{pair.b, pair.a} : pair;
+  }
+  /// Not where the two ends of a row have met.
+  [[nodiscard]] bool Contains(std::optional<ImageId> a, std::optional<ImageId> b) const {
+    if (!a || !b || *a == *b || InOrder({*a, *b}) != ImagePair{*a, *b}) return false;
+    return pairs_.contains({std::min(*a, *b), std::max(*a, *b)});
+  }
+  [[nodiscard]] bool HasBefore(const ImagePair& pair, bool same_way) const {
+    return Contains(places_.Before(pair.a),
+                    same_way ? places_.Before(pair.b) : places_.After(pair.b));
+  }
+  [[nodiscard]] size_t LengthFrom(ImagePair pair, bool same_way) const {
+    for (size_t length = 1;; ++length) {
+      const std::optional<ImageId> a = places_.After(pair.a);
+      const std::optional<ImageId> b = same_way ? places_.After(pair.b) : places_.Before(pair.b);
+      if (!Contains(a, b)) return length;
+      pair = {*a, *b};
     }
   }
-  return longest;
-}
+
+  const std::set<ImagePair>& pairs_;
+  const PlacesInDrives& places_;
+};
 
 std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
   return manifest.At(pair.a).name + " and " + manifest.At(pair.b).name;
@@ -107,7 +111,7 @@ std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
 }  // namespace
 
 CrossCheck CheckPairs(const JobResults& results) {
-  const std::vector<Place> places = PlacesOf(results.manifest);
+  const PlacesInDrives places(results.manifest);
   const Judged judged = JudgedPairsOf(results);
   const auto follow = [&](const ImagePair& pair) { return FollowOneAnother(places, pair); };
   const auto explained = static_cast<size_t>(std::ranges::count_if(judged.explained, follow));
@@ -139,7 +143,7 @@ CrossCheck CheckPairs(const JobResults& results) {
     check.sentence = text;
     return check;
   }
-  const size_t run = LongestRun(far);
+  const size_t run = Rows(far, places).Longest();
   if (run >= kRun) {
     check.level = CheckLevel::kDoubtful;
     std::snprintf(

@@ -34,8 +34,10 @@ absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
       ORBWEAVE_RETURN_IF_ERROR(CheckImages({&missing.image, 1}, manifest, whose));
     for (const PairLength& length : cluster.pair_lengths)
       ORBWEAVE_RETURN_IF_ERROR(CheckImages({&length.pair.b, 1}, manifest, whose));
-    for (const GapLength& length : cluster.gap_lengths)
-      ORBWEAVE_RETURN_IF_ERROR(CheckImages({&length.between.b, 1}, manifest, whose));
+    for (const GapLength& length : cluster.gap_lengths) {
+      for (const ImageId& image : {length.between.a, length.between.b})
+        ORBWEAVE_RETURN_IF_ERROR(CheckImages({&image, 1}, manifest, whose));
+    }
     for (const auto* pairs : {&cluster.contradicted_pairs, &cluster.explained_pairs}) {
       for (const ImagePair& pair : *pairs) {
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.a, 1}, manifest, whose));

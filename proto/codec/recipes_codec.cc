@@ -134,6 +134,7 @@ absl::StatusOr<std::string> EncodeClusterRecipe(const ClusterRecipe& recipe) {
   v1::ClusterRecipe proto;
   FilesToProto(recipe.images, proto.mutable_images());
   proto.set_drives(codec::Pack(recipe.drives));
+  proto.set_ranks(codec::Pack(recipe.ranks));
   proto.set_pairs(codec::Pack(recipe.pairs));
   for (const Digest& blob : recipe.matches) proto.add_matches(codec::PackDigest(blob));
   proto.set_cluster(recipe.cluster);
@@ -148,9 +149,11 @@ absl::StatusOr<ClusterRecipe> DecodeClusterRecipe(std::string_view bytes) {
   ClusterRecipe recipe{.cluster = proto.cluster()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.images, FilesFromProto(proto.images()));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.drives, codec::Unpack<uint32_t>(proto.drives(), "drives"));
-  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(recipe.drives.size() == recipe.images.size(),
-                                         "cluster recipe",
-                                         "not one drive for each image"));
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.ranks, codec::Unpack<uint32_t>(proto.ranks(), "ranks"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      recipe.drives.size() == recipe.images.size() && recipe.ranks.size() == recipe.images.size(),
+      "cluster recipe",
+      "not one drive and rank for each image"));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.pairs, codec::Unpack<ImagePair>(proto.pairs(), "pairs"));
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.shared, codec::Unpack<ImageId>(proto.shared(), "shared images"));
   const auto lists_pair = [&](const ImagePair& pair) { return ListsPair(recipe.images, pair); };

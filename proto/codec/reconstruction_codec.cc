@@ -14,12 +14,26 @@ static_assert(sizeof(SubmodelExtent) == 8, "packed as written");
 
 namespace {
 
-absl::Status CheckLength(const ImagePair& pair, const LengthAgreement& agreement) {
-  return codec::Expect(pair.a < pair.b && codec::IsAmount(agreement.told) &&
-                           codec::IsAmount(agreement.agreeing) &&
+absl::Status CheckAgreement(const LengthAgreement& agreement) {
+  return codec::Expect(codec::IsAmount(agreement.told) && codec::IsAmount(agreement.agreeing) &&
                            agreement.agreeing <= agreement.told,
                        "cluster reconstruction",
-                       "images of a length are out of order, or more rays agree than tell it");
+                       "more rays agree with a length than tell it");
+}
+
+absl::Status CheckLength(const PairLength& length) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.agreement));
+  return codec::Expect(length.pair.a < length.pair.b,
+                       "cluster reconstruction",
+                       "images of a length are out of order");
+}
+
+absl::Status CheckLength(const GapLength& length) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.agreement));
+  return codec::Expect(length.between.a != length.between.b && codec::IsAmount(length.here) &&
+                           codec::IsAmount(length.elsewhere),
+                       "cluster reconstruction",
+                       "a way leads nowhere, or its rays are no number");
 }
 
 }  // namespace
@@ -103,21 +117,19 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
       return absl::DataLossError("cluster reconstruction: images of a pair out of order");
   }
   for (const v1::PairLength& length : proto.pair_lengths()) {
-    const ImagePair pair{ImageId(length.image_a()), ImageId(length.image_b())};
-    const LengthAgreement agreement{.told = length.told(), .agreeing = length.agreeing()};
-    ORBWEAVE_RETURN_IF_ERROR(CheckLength(pair, agreement));
-    result.reconstruction.pair_lengths.push_back({pair, agreement});
+    result.reconstruction.pair_lengths.push_back(
+        {.pair = {ImageId(length.image_a()), ImageId(length.image_b())},
+         .agreement = {.told = length.told(), .agreeing = length.agreeing()}});
+    ORBWEAVE_RETURN_IF_ERROR(CheckLength(result.reconstruction.pair_lengths.back()));
   }
   for (const v1::GapLength& length : proto.gap_lengths()) {
-    const ImagePair between{ImageId(length.image()), ImageId(length.next())};
-    const LengthAgreement agreement{.told = length.told(), .agreeing = length.agreeing()};
-    ORBWEAVE_RETURN_IF_ERROR(CheckLength(between, agreement));
-    ORBWEAVE_RETURN_IF_ERROR(
-        codec::Expect(codec::IsAmount(length.here()) && codec::IsAmount(length.elsewhere()),
-                      "cluster reconstruction",
-                      "rays of a way"));
     result.reconstruction.gap_lengths.push_back(
-        {between, length.pairs(), agreement, length.here(), length.elsewhere()});
+        {.between = {ImageId(length.image()), ImageId(length.next())},
+         .pairs = length.pairs(),
+         .agreement = {.told = length.told(), .agreeing = length.agreeing()},
+         .here = length.here(),
+         .elsewhere = length.elsewhere()});
+    ORBWEAVE_RETURN_IF_ERROR(CheckLength(result.reconstruction.gap_lengths.back()));
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();
   result.reconstruction.num_local_adjustments = proto.num_local_adjustments();

@@ -15,7 +15,7 @@
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
-#include "core/scene/sequence_of_drive.h"
+#include "core/scene/places_in_drives.h"
 
 namespace orbweave {
 namespace {
@@ -62,13 +62,6 @@ void MeasureInliers(const PairSide& a, const PairSide& b, PairInspection& inspec
   }
   inspection.residual_px_median = UpperMedian(std::move(residuals_px));
   inspection.spread_in_b = SphereSpread(in_b);
-}
-
-/// How far apart in the sequence of their drive.
-int64_t StepsBetween(const ImageManifest& manifest, const ImagePair& pair) {
-  const auto drives = SequenceOfDrives(manifest);
-  const std::vector<ImageId>& sequence = drives.at(manifest.At(pair.a).drive);
-  return std::abs(std::ranges::find(sequence, pair.a) - std::ranges::find(sequence, pair.b));
 }
 
 /// Whether candidates are matched in rounds, some perhaps not at all.
@@ -132,13 +125,14 @@ std::string WhyNotSelected(const ImageManifest& manifest,
   const ImageRecord& a = manifest.At(pair.a);
   const ImageRecord& b = manifest.At(pair.b);
   std::string why = "of two drives, which no sequence joins";
-  const int64_t steps = a.drive == b.drive ? StepsBetween(manifest, pair) : 0;
-  if (steps > 0 && steps <= options.sequence_window && AreHeldBack(manifest, options)) {
+  const std::optional<uint32_t> steps = PlacesInDrives(manifest).StepsBetween(pair);
+  if (steps && *steps <= static_cast<uint32_t>(options.sequence_window) &&
+      AreHeldBack(manifest, options)) {
     return "held back, as pairs with evidence beyond doubt join its images already "
            "(pairs.first_neighbours)";
   }
-  if (a.drive == b.drive) {
-    why = std::to_string(steps) + " apart in the sequence (pairs.sequence_window is " +
+  if (steps) {
+    why = std::to_string(*steps) + " apart in the sequence (pairs.sequence_window is " +
           std::to_string(options.sequence_window) + ")";
   }
   if (a.prior.position_in_enu && b.prior.position_in_enu) {

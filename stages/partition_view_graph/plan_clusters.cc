@@ -3,12 +3,34 @@
 #include "stages/partition_view_graph/plan_clusters.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "core/graph/positions_by_motion.h"
 #include "core/graph/shared_images.h"
+#include "core/scene/places_in_drives.h"
 
 namespace orbweave {
+
+namespace {
+
+/// Ranks, not places: an image that is added elsewhere leaves the recipe as it is.
+std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe, const PlacesInDrives& places) {
+  std::vector<size_t> order(recipe.images.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::sort(order, {}, [&](size_t i) {
+    return std::pair(recipe.drives[i], places.PlaceOf(recipe.images[i].image));
+  });
+  std::vector<uint32_t> ranks(order.size(), 0);
+  for (size_t i = 1; i < order.size(); ++i) {
+    const bool is_same = recipe.drives[order[i]] == recipe.drives[order[i - 1]];
+    ranks[order[i]] = is_same ? ranks[order[i - 1]] + 1 : 0;
+  }
+  return ranks;
+}
+
+}  // namespace
 
 std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
                                         const ViewGraph& graph,
@@ -34,6 +56,8 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
       clusters_of_image[id.value].push_back(c);
     }
   }
+  const PlacesInDrives places(manifest);
+  for (ClusterRecipe& recipe : recipes) recipe.ranks = RanksOf(recipe, places);
   for (ClusterRecipe& recipe : recipes) recipe.shared = SharedImages(partition, recipe.cluster);
   std::vector<std::set<Digest>> blobs(recipes.size());
   for (const ViewEdge& edge : graph.edges) {

@@ -21,6 +21,7 @@ absl::StatusOr<ClusterProblem> FetchProblem(const ClusterRecipe& recipe,
     ORBWEAVE_ASSIGN_OR_RETURN(const Features features, task.Fetch<Features>(file.features));
     problem.images.push_back(ToClusterImage(file.image, features));
     problem.images.back().drive = recipe.drives[i];
+    problem.images.back().rank_in_drive = recipe.ranks[i];
   }
   for (const Digest& digest : recipe.matches) {
     ORBWEAVE_ASSIGN_OR_RETURN(auto geometries, task.Fetch<std::vector<TwoViewGeometry>>(digest));

@@ -88,6 +88,7 @@ void AddRecipes(Seeds& seeds) {
   seeds["cluster_recipe"] = {EncodeClusterRecipe({.cluster = 3,
                                                   .images = images,
                                                   .drives = {0, 7},
+                                                  .ranks = {3, 0},
                                                   .pairs = {{ImageId(1), ImageId(4)}},
                                                   .shared = {ImageId(4)},
                                                   .matches = {digest}})

@@ -185,6 +185,7 @@ TEST(RecipesCodec, RoundTrip) {
   const ClusterRecipe cluster{.cluster = 3,
                               .images = match.images,
                               .drives = {0, 7},
+                              .ranks = {3, 0},
                               .pairs = {{ImageId(1), ImageId(4)}},
                               .matches = {digest},
                               .fixes = {{ImageId(4), {1.5, -2.0, 0.25}, 3.0, 6.0, true}}};
@@ -195,6 +196,7 @@ TEST(RecipesCodec, RoundTrip) {
   EXPECT_EQ(cluster_out->matches, cluster.matches);
   EXPECT_EQ(cluster_out->fixes, cluster.fixes);
   EXPECT_EQ(cluster_out->drives, cluster.drives);
+  EXPECT_EQ(cluster_out->ranks, cluster.ranks);
 
   const ExtractRecipe extract{.image = digest, .mask = {}, .mask_ignores_white = false};
   const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract).value());
@@ -207,6 +209,7 @@ TEST(RecipesCodec, RoundTrip) {
 TEST(RecipesCodec, RefusesAPositionThatIsNoneOrOfNoImage) {
   ClusterRecipe cluster{.images = {{ImageId(1), DigestOf("a")}},
                         .drives = {0},
+                        .ranks = {0},
                         .fixes = {{ImageId(1), {1.0, 2.0, 3.0}, 3.0, 6.0}}};
   ASSERT_TRUE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
   cluster.fixes[0].horizontal_sigma_m = 0.0;
@@ -218,7 +221,12 @@ TEST(RecipesCodec, RefusesAPositionThatIsNoneOrOfNoImage) {
 TEST(RecipesCodec, RefusesOtherThanOneDriveForEachImage) {
   ClusterRecipe cluster{.images = {{ImageId(1), DigestOf("a")}}};
   EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
+  cluster.drives = {2};
+  EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok()) << "no rank";
+  cluster.ranks = {0};
+  EXPECT_TRUE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
   cluster.drives = {2, 2};
+  cluster.ranks = {0, 1};
   EXPECT_FALSE(DecodeClusterRecipe(EncodeClusterRecipe(cluster).value()).ok());
 }
 
@@ -440,6 +448,7 @@ TEST(RecipesCodec, RefuseImagesOutOfOrderAndPairsOfOthers) {
   const Digest digest = DigestOf("features");
   const ClusterRecipe recipe{.images = {{ImageId(1), digest}, {ImageId(4), digest}},
                              .drives = {0, 0},
+                             .ranks = {0, 1},
                              .pairs = {{ImageId(1), ImageId(4)}},
                              .shared = {ImageId(4)}};
   const auto is_taken = [](const ClusterRecipe& in) {

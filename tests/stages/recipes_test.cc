@@ -53,6 +53,21 @@ TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
   ASSERT_EQ(recipes[1].fixes.size(), 1U);
   EXPECT_EQ(recipes[1].fixes[0].image, ImageId(2));
   EXPECT_EQ(recipes[1].drives, (std::vector<uint32_t>{0, 1, 1}));
+  EXPECT_EQ(recipes[1].ranks, (std::vector<uint32_t>{0, 0, 1}));
+}
+
+TEST(PlanClusters, RanksImagesByTimeAmongThoseOfTheirDriveInTheCluster) {
+  const Partition partition{
+      .clusters = {{.images = {ImageId(1), ImageId(2), ImageId(3)}, .interior = {}}}};
+  ImageManifest manifest;
+  for (uint32_t i = 0; i < 5; ++i)
+    manifest.images.push_back({.id = ImageId(i), .capture_time_s = 50.0 - i});
+  const auto ranks = [&] {
+    return PlanClusters(partition, {.num_images = 5}, manifest, SomeDigests(5), {})[0].ranks;
+  };
+  EXPECT_EQ(ranks(), (std::vector<uint32_t>{2, 1, 0}));
+  manifest.images[4].capture_time_s = 1.0;  // elsewhere in the drive
+  EXPECT_EQ(ranks(), (std::vector<uint32_t>{2, 1, 0}));
 }
 
 TileRuns PointsIn(const std::string& panorama, std::vector<std::pair<TileCell, uint64_t>> counts) {

@@ -71,7 +71,7 @@ TEST(GapLengths, FindATearOfHalfAStep) {
 TEST(GapLengths, HearWhereRaysSayAnotherLength) {
   const TornStreet street;
   for (const GapLength& gap : MeasureGapLengths({street.Right(), {}})) {
-    EXPECT_GT(gap.here, 50.0);
+    EXPECT_GT(gap.here, 20.0);
     EXPECT_FALSE(IsToldElsewhere(gap.here, gap.elsewhere)) << gap.between.a.value;
   }
   for (const double by_m : {-1.4, 1.4}) {
@@ -126,6 +126,24 @@ TEST(GapLengths, LeadOverImagesThatAreNotInTheModel) {
   ASSERT_EQ(gaps.size(), kImages - 2);
   EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(6), ImageId(8)}));
   EXPECT_GT(gaps[6].agreement.Share(), 0.8);
+}
+
+/// Taken against the order of their names.
+TEST(GapLengths, FollowTheDriveWhateverItsImagesAreCalled) {
+  const TornStreet street;
+  const MappingState torn = Torn(street, 3.0);
+  ClusterProblem problem = street.Fixture().world.problem;
+  for (ClusterImage& image : problem.images) image.rank_in_drive = kImages - image.id.value;
+  MappingState state(problem, street.Fixture().graph);
+  for (ImageSlot image = 0; image < kImages; ++image)
+    state.Register(image, torn.CamFromWorld(image));
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
+  ASSERT_EQ(gaps.size(), kImages - 1);
+  EXPECT_EQ(gaps.front().between, (ImagePair{ImageId(kImages - 1), ImageId(kImages - 2)}));
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(7));
+  EXPECT_EQ(faults[0].next, ImageId(6));
 }
 
 TEST(GapLengths, EndWithTheDrive) {

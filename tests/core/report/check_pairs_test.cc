@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace orbweave {
 namespace {
 
@@ -54,6 +56,21 @@ TEST(CheckPairs, RunsOfContradictedPairsAreDoubtfulInBothDirections) {
     EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
     EXPECT_THAT(CheckPairs(results).sentence, HasSubstr("up to 5 in a row"));
   }
+}
+
+/// Images are called as they like; times tell how they follow one another.
+TEST(CheckPairs, RunsFollowTheDriveAndNotTheNames) {
+  JobResults results = Drive();
+  for (ImageRecord& image : results.manifest.images)
+    image.capture_time_s = (37 * image.id.value) % 100;
+  const auto taken_as = [](uint32_t place) {
+    return (73 * place) % 100;
+  };  // 37 x 73 = 27 x 100 + 1
+  for (uint32_t i = 0; i < 5; ++i) {
+    const auto [a, b] = std::minmax({taken_as(10 + i), taken_as(60 - i)});
+    Contradict(a, b, results);
+  }
+  EXPECT_THAT(CheckPairs(results).sentence, HasSubstr("up to 5 in a row"));
 }
 
 TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/scene/places_in_drives.h"
+
+#include <algorithm>
+
+#include "core/scene/sequence_of_drive.h"
+
+namespace orbweave {
+
+PlacesInDrives::PlacesInDrives(const ImageManifest& manifest)
+    : sequences_(SequenceOfDrives(manifest)),
+      drive_(manifest.images.size()),
+      place_(manifest.images.size()) {
+  for (const auto& [drive, sequence] : sequences_) {
+    for (uint32_t place = 0; place < sequence.size(); ++place) {
+      drive_[sequence[place].value] = drive;
+      place_[sequence[place].value] = place;
+    }
+  }
+}
+
+const std::vector<ImageId>& PlacesInDrives::SequenceOf(ImageId image) const {
+  return sequences_.at(drive_[image.value]);
+}
+
+bool PlacesInDrives::AreOfOneDrive(const ImagePair& pair) const {
+  return drive_[pair.a.value] == drive_[pair.b.value];
+}
+
+std::optional<uint32_t> PlacesInDrives::StepsBetween(const ImagePair& pair) const {
+  if (!AreOfOneDrive(pair)) return std::nullopt;
+  const auto [first, last] = std::minmax({PlaceOf(pair.a), PlaceOf(pair.b)});
+  return last - first;
+}
+
+std::optional<ImageId> PlacesInDrives::Before(ImageId image) const {
+  const uint32_t place = PlaceOf(image);
+  if (place == 0) return std::nullopt;
+  return SequenceOf(image)[place - 1];
+}
+
+std::optional<ImageId> PlacesInDrives::After(ImageId image) const {
+  const uint32_t place = PlaceOf(image) + 1;
+  if (place == SequenceOf(image).size()) return std::nullopt;
+  return SequenceOf(image)[place];
+}
+
+}  // namespace orbweave

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/scene/places_in_drives.h"
+
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+/// Two drives, 0 2 4 and 1 3; the second was taken backwards.
+ImageManifest TwoDrives() {
+  ImageManifest manifest;
+  for (uint32_t i = 0; i < 5; ++i) {
+    ImageRecord image{.id = ImageId(i), .drive = i % 2};
+    if (i % 2 == 1) image.capture_time_s = 100.0 - i;
+    manifest.images.push_back(image);
+  }
+  return manifest;
+}
+
+TEST(PlacesInDrives, AreThoseOfTheSequence) {
+  const PlacesInDrives places(TwoDrives());
+  EXPECT_EQ(places.PlaceOf(ImageId(4)), 2U);
+  EXPECT_EQ(places.PlaceOf(ImageId(1)), 1U);
+  EXPECT_EQ(places.PlaceOf(ImageId(3)), 0U);
+}
+
+TEST(PlacesInDrives, LeadFromOneToTheNextAndEndWithTheDrive) {
+  const PlacesInDrives places(TwoDrives());
+  EXPECT_EQ(places.After(ImageId(0)), ImageId(2));
+  EXPECT_EQ(places.After(ImageId(3)), ImageId(1));
+  EXPECT_EQ(places.After(ImageId(1)), std::nullopt);
+  EXPECT_EQ(places.Before(ImageId(1)), ImageId(3));
+  EXPECT_EQ(places.Before(ImageId(0)), std::nullopt);
+}
+
+TEST(PlacesInDrives, CountStepsWithinADriveAlone) {
+  const PlacesInDrives places(TwoDrives());
+  EXPECT_EQ(places.StepsBetween({ImageId(0), ImageId(4)}), 2U);
+  EXPECT_EQ(places.StepsBetween({ImageId(1), ImageId(3)}), 1U);
+  EXPECT_EQ(places.StepsBetween({ImageId(0), ImageId(1)}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace orbweave
