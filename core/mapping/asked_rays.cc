@@ -13,7 +13,7 @@
 namespace orbweave {
 
 AskedRays::AskedRays(const MappingState& of_state, const MappingOptions& options)
-    : state(of_state) {
+    : state(of_state), max_error_px(options.max_error_px) {
   const CorrespondenceGraph& graph = state.Graph();
   for (uint32_t p = 0; p < graph.pairs.size(); ++p) {
     const std::optional<double> log_length = LogLengthOfPair(state, graph.pairs[p]);

@@ -22,6 +22,7 @@ struct AskedRays {
   std::vector<uint32_t> pairs{};
   std::vector<double> log_lengths{};
   std::vector<RayDepth> depths{};  ///< their pairs are positions in `pairs`
+  double max_error_px = 4.0;
 
   AskedRays(const MappingState& of_state, const MappingOptions& options);
 };

@@ -3,7 +3,9 @@
 
 #include "core/mapping/candidate_moves.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <span>
@@ -19,6 +21,8 @@ namespace orbweave {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr size_t kMaxPairs = 2;
 
 /// A way that rays contradict, and what each of its sides says.
 struct ToldGap {
@@ -91,16 +95,15 @@ class Pieces {
   DrivePlaces places_;
 };
 
-class Lister {
+class ShiftLister {
  public:
-  Lister(const MappingState& state, const MappingOptions& options)
+  ShiftLister(const MappingState& state, const MappingOptions& options)
       : state_(state), options_(options), pieces_(state) {}
 
   std::vector<CandidateMove> Run() {
     const std::vector<ToldGap> gaps = FindToldGaps({state_, options_});
     for (size_t i = 0; i < gaps.size(); ++i) {
-      const std::optional<ToldGap> following =
-          i + 1 < gaps.size() ? std::optional(gaps[i + 1]) : std::nullopt;
+      const ToldGap* const following = i + 1 < gaps.size() ? &gaps[i + 1] : nullptr;
       for (const GapShift* shift : {&gaps[i].before, &gaps[i].behind}) {
         if (IsClear(*shift)) AddShifts(gaps[i], shift->shift, following);
       }
@@ -115,11 +118,12 @@ class Lister {
     return (state_.Centre(gap.next) - state_.Centre(gap.image)).normalized();
   }
 
-  void AddShifts(const ToldGap& gap, double shift, const std::optional<ToldGap>& following) {
+  void AddShifts(const ToldGap& gap, double shift, const ToldGap* following) {
     const Vector3d by = shift * WayOf(gap);
     Add(pieces_.From(gap.next), by);
-    const bool is_of_drive = following && state_.Problem().images[following->image].drive ==
-                                              state_.Problem().images[gap.image].drive;
+    const bool is_of_drive =
+        following != nullptr &&
+        state_.Problem().images[following->image].drive == state_.Problem().images[gap.image].drive;
     if (is_of_drive) Add(pieces_.Between(gap.next, following->image), by);
     Add({gap.next}, by);
     Add({gap.image}, -by);
@@ -127,8 +131,12 @@ class Lister {
 
   void Add(const std::vector<ImageSlot>& images, const Vector3d& by) {
     CandidateMove move;
-    for (const ImageSlot image : images) move[image] = state_.Centre(image) + by;
+    for (const ImageSlot image : images) move[image] = At(image, state_.Centre(image) + by);
     moves_.push_back(std::move(move));
+  }
+
+  [[nodiscard]] Rigid3 At(ImageSlot image, const Vector3d& centre) const {
+    return Rigid3::FromCentre(state_.CamFromWorld(image).rotation, centre);
   }
 
   /// Everything behind the gap on the scale of what is before it.
@@ -143,7 +151,7 @@ class Lister {
     const Vector3d by = gap.before.shift * WayOf(gap);
     CandidateMove move;
     for (const ImageSlot image : pieces_.From(gap.next))
-      move[image] = pivot + scale * (state_.Centre(image) - pivot) + by;
+      move[image] = At(image, pivot + scale * (state_.Centre(image) - pivot) + by);
     moves_.push_back(std::move(move));
   }
 
@@ -157,7 +165,7 @@ class Lister {
     for (const ImageSlot image : images) {
       if (!state_.IsRegistered(image)) continue;
       if (const auto centre = CentreByLengths(state_, image, options_))
-        moves_.push_back({{image, *centre}});
+        moves_.push_back({{image, At(image, *centre)}});
     }
   }
 
@@ -167,11 +175,57 @@ class Lister {
   std::vector<CandidateMove> moves_{};
 };
 
+/// The general ones of most matches, kMaxPairs at most.
+std::vector<uint32_t> StrongestOf(const MappingState& state, std::vector<uint32_t> pairs) {
+  const auto geometry = [&](uint32_t p) -> const TwoViewGeometry& {
+    return state.Problem().pairs[state.Graph().pairs[p].index];
+  };
+  std::erase_if(pairs, [&](uint32_t p) { return geometry(p).kind != TwoViewKind::kGeneral; });
+  std::ranges::stable_sort(
+      pairs, std::greater<>(), [&](uint32_t p) { return geometry(p).inliers.size(); });
+  pairs.resize(std::min(pairs.size(), kMaxPairs));
+  return pairs;
+}
+
+/// The piece as the pair has one of its images stand to one that is not of it; none where it has
+/// both or neither.
+CandidateMove TurnedBy(const MappingState& state,
+                       const LinkedPair& pair,
+                       const std::vector<ImageSlot>& piece) {
+  const bool a_moves = std::ranges::find(piece, pair.a) != piece.end();
+  const bool b_moves = std::ranges::find(piece, pair.b) != piece.end();
+  if (a_moves == b_moves) return {};
+  const Rigid3& b_from_a = state.Problem().pairs[pair.index].b_from_a;
+  const ImageSlot stays = b_moves ? pair.a : pair.b;
+  const ImageSlot moves = b_moves ? pair.b : pair.a;
+  Rigid3 moving_from_staying = b_moves ? b_from_a : b_from_a.Inverse();
+  moving_from_staying.translation *=
+      (state.Centre(moves) - state.Centre(stays)).norm() / moving_from_staying.translation.norm();
+  const Rigid3 before_from_after =
+      state.CamFromWorld(moves).Inverse() * moving_from_staying * state.CamFromWorld(stays);
+  CandidateMove move;
+  for (const ImageSlot image : piece) move[image] = state.CamFromWorld(image) * before_from_after;
+  return move;
+}
+
 }  // namespace
 
-std::vector<CandidateMove> ListCandidateMoves(const MappingState& state,
-                                              const MappingOptions& options) {
-  return Lister(state, options).Run();
+std::vector<CandidateMove> ListShifts(const MappingState& state, const MappingOptions& options) {
+  return ShiftLister(state, options).Run();
+}
+
+std::vector<CandidateMove> ListTurns(const MappingState& state, const MappingOptions& options) {
+  const AskedRays asked(state, options);
+  const Pieces pieces(state);
+  std::vector<CandidateMove> turns;
+  for (const GapVotes& gap : CollectGapVotes(asked)) {
+    if (!IsAskew(MatchesAcross(asked, gap))) continue;
+    for (const uint32_t pair : StrongestOf(state, gap.pairs)) {
+      CandidateMove turn = TurnedBy(state, state.Graph().pairs[pair], pieces.From(gap.next));
+      if (!turn.empty()) turns.push_back(std::move(turn));
+    }
+  }
+  return turns;
 }
 
 }  // namespace orbweave

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <vector>
 
@@ -12,7 +11,7 @@
 namespace orbweave {
 
 /// Registered images that may stand elsewhere, and where.
-using CandidateMove = std::map<ImageSlot, Eigen::Vector3d>;
+using CandidateMove = std::map<ImageSlot, Rigid3>;  ///< cam_from_world
 
 /// What would mend the lengths that rays contradict. At each way between neighbours of a drive of
 /// which clearly more rays say another length (FindGapShift, IsToldElsewhere), along the way and as
@@ -24,7 +23,13 @@ using CandidateMove = std::map<ImageSlot, Eigen::Vector3d>;
 /// most matches.
 ///
 /// In order of the ways, then of the images.
-[[nodiscard]] std::vector<CandidateMove> ListCandidateMoves(const MappingState& state,
-                                                            const MappingOptions& options);
+[[nodiscard]] std::vector<CandidateMove> ListShifts(const MappingState& state,
+                                                    const MappingOptions& options);
+
+/// What would mend ways whose two sides stand askew (IsAskew): everything behind one, with what
+/// goes with it of other drives, turned and set as each of the two pairs of most matches that lead
+/// across has it, at the distance that its images have. In order of the ways.
+[[nodiscard]] std::vector<CandidateMove> ListTurns(const MappingState& state,
+                                                   const MappingOptions& options);
 
 }  // namespace orbweave

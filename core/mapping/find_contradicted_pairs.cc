@@ -6,13 +6,12 @@
 #include <bitset>
 #include <cmath>
 
-#include "core/geometry/epipolar.h"
 #include "core/geometry/sphere_cells.h"
+#include "core/mapping/matches_in_planes.h"
 
 namespace orbweave {
 namespace {
 
-constexpr double kToleranceFactor = 2.0;  // both the point and the feature may be off by one
 // A wrong match falls within a few pixels of where the model wants it in fewer cases than this,
 // even where everything lies along one street.
 constexpr double kChance = 0.05;
@@ -68,18 +67,10 @@ PairEvidence EvidenceOfPoints(const MappingState& state,
 PairEvidence EvidenceOfPlanes(const MappingState& state,
                               const LinkedPair& pair,
                               double tolerance_px) {
-  const CorrespondenceGraph& graph = state.Graph();
-  Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
-  b_from_a.translation.normalize();
   PairEvidence evidence;
-  for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
-    const Node a = graph.node_of_feature[pair.a][match.a];
-    const Eigen::Vector3d& p_a = graph.bearing_of_node[a];
-    const Eigen::Vector3d& p_b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
-    const bool is_in_plane =
-        SymmetricEpipolarAngle(b_from_a, p_a, p_b) <= AngleFromPixels(state, a, tolerance_px);
-    evidence.Count(is_in_plane && IsInFrontOfBoth(b_from_a, p_a, p_b), p_a, p_b);
-  }
+  VisitMatches(state, pair, tolerance_px, [&](bool agrees, const auto& p_a, const auto& p_b) {
+    evidence.Count(agrees, p_a, p_b);
+  });
   return evidence;
 }
 
@@ -100,7 +91,7 @@ bool IsAgainst(const PairEvidence& evidence, int min_matches) {
 }  // namespace
 
 JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options) {
-  const double tolerance_px = kToleranceFactor * options.max_error_px;
+  const double tolerance_px = kMatchTolerance * options.max_error_px;
   JudgedPairs judged;
   for (const LinkedPair& pair : state.Graph().pairs) {
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;

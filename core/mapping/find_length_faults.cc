@@ -31,12 +31,15 @@ struct Sum {
 
 /// nullopt where nothing is wrong with the way.
 std::optional<LengthFault> TearAt(const GapLength& gap) {
-  LengthFault tear{gap.between.a, gap.between.b, gap.agreement};
-  if (Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross)) return tear;
+  const auto tear = [&](const LengthAgreement& agreement, LengthFaultKind kind) {
+    return LengthFault{gap.between.a, gap.between.b, agreement, kind};
+  };
+  if (IsAskew(gap.matches)) return tear(gap.matches, LengthFaultKind::kHinge);
+  if (Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross))
+    return tear(gap.agreement, LengthFaultKind::kWay);
   if (!IsToldElsewhere(gap.here, gap.elsewhere)) return std::nullopt;
-  tear.agreement = {.told = gap.here + gap.elsewhere, .agreeing = gap.here};
-  tear.is_told_elsewhere = true;
-  return tear;
+  return tear({.told = gap.here + gap.elsewhere, .agreeing = gap.here},
+              LengthFaultKind::kElsewhere);
 }
 
 /// Of ways at fault that follow each other, from `start` on, the one that agrees least. It takes
@@ -73,8 +76,26 @@ std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
 
 }  // namespace
 
+double LengthFault::MinShare() const {
+  switch (kind) {
+    case LengthFaultKind::kImage:
+      return kMinAgreeingLengths;
+    case LengthFaultKind::kWay:
+      return kMinAgreeingAcross;
+    case LengthFaultKind::kElsewhere:
+      return kMinAgreeingOfTwo;
+    case LengthFaultKind::kHinge:
+      return kMinAgreeingMatches;
+  }
+  return kMinAgreeingLengths;
+}
+
 bool TellsEnough(const LengthAgreement& agreement, uint32_t pairs) {
   return pairs >= kFewestPairs && agreement.told >= kFewestRays;
+}
+
+bool IsAskew(const LengthAgreement& matches) {
+  return matches.told >= kFewestRays && matches.Share() < kMinAgreeingMatches;
 }
 
 double DeviationsElsewhere(double here, double elsewhere) {

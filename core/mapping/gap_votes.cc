@@ -26,7 +26,10 @@ struct Sight {
 class Collector {
  public:
   explicit Collector(const AskedRays& asked)
-      : asked_(asked), places_(asked.state), votes_(places_.size()) {}
+      : asked_(asked), places_(asked.state), votes_(places_.size()) {
+    const std::vector<LinkedPair>& pairs = asked.state.Graph().pairs;
+    for (uint32_t p = 0; p < pairs.size(); ++p) AddPair(p, pairs[p]);
+  }
 
   /// `depths`: of one ray.
   void Add(std::span<const RayDepth> depths) {
@@ -53,6 +56,15 @@ class Collector {
   }
 
  private:
+  void AddPair(uint32_t index, const LinkedPair& pair) {
+    const MappingState& state = asked_.state;
+    if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) return;
+    if (DriveOf(pair.a) != DriveOf(pair.b)) return;
+    const auto [first, last] = std::minmax({places_.PlaceOf(pair.a), places_.PlaceOf(pair.b)});
+    if (last - first > kReach) return;
+    for (size_t gap = first; gap < last; ++gap) votes_[gap].pairs.push_back(index);
+  }
+
   [[nodiscard]] uint32_t DriveOf(ImageSlot image) const {
     return asked_.state.Problem().images[image].drive;
   }

@@ -20,6 +20,7 @@ struct LengthVote {
 struct GapVotes {
   ImageSlot image = 0;
   ImageSlot next = 0;
+  std::vector<uint32_t> pairs{};     ///< of the graph's: those that lead across
   std::vector<LengthVote> before{};  ///< of rays of images before it
   std::vector<LengthVote> behind{};
 };
@@ -31,7 +32,8 @@ struct GapVotes {
 /// side, the median of them, which a tear leaves as they are. Pairs lead across that have no more
 /// than two images of the drive between theirs: longer ones hide a step.
 ///
-/// Of drives in order, of images as they were taken (DrivePlaces); votes in order of rays.
+/// Pairs and votes may be none. Of drives in order, of images as they were taken (DrivePlaces);
+/// votes in order of rays.
 [[nodiscard]] std::vector<GapVotes> CollectGapVotes(const AskedRays& asked);
 
 }  // namespace orbweave

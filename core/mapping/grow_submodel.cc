@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kMaxAttempts = 6;
 constexpr int kFewestInliers = 8;
+constexpr int kMaxMends = 3;
 /// An image that failed is tried again when it sees this many times the points.
 constexpr double kRetryGrowth = 1.25;
 
@@ -157,8 +158,11 @@ class Growth {
 
   absl::Status Mend() {
     if (!schedule_.relaxes_registration) return absl::OkStatus();
-    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_mended, MendLengths(state_, options_, context_));
-    report_.num_global_adjustments += is_mended ? 1 : 0;
+    for (int i = 0; i < kMaxMends; ++i) {
+      ORBWEAVE_ASSIGN_OR_RETURN(const bool is_mended, MendLengths(state_, options_, context_));
+      if (!is_mended) break;
+      ++report_.num_global_adjustments;
+    }
     return absl::OkStatus();
   }
 

@@ -11,6 +11,7 @@
 #include "core/mapping/find_length_faults.h"
 #include "core/mapping/gap_votes.h"
 #include "core/mapping/log_length_of_pair.h"
+#include "core/mapping/matches_in_planes.h"
 
 namespace orbweave {
 namespace {
@@ -50,6 +51,15 @@ bool WantsAnotherMore(const GapLength& one, const GapLength& other) {
 
 }  // namespace
 
+LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
+  LengthAgreement matches;
+  for (const uint32_t pair : gap.pairs) {
+    matches.Add(AgreementOfMatches(
+        asked.state, asked.state.Graph().pairs[pair], kMatchTolerance * asked.max_error_px));
+  }
+  return matches;
+}
+
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
   std::vector<GapLength> gaps;
   for (const GapVotes& votes : CollectGapVotes(asked)) {
@@ -59,6 +69,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
     gaps.push_back(TellsLess(before, behind) ? behind : before);
     gaps.back().here = wants_another.here;
     gaps.back().elsewhere = wants_another.elsewhere;
+    gaps.back().matches = MatchesAcross(asked, votes);
   }
   return gaps;
 }

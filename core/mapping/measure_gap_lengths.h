@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mapping/asked_rays.h"
+#include "core/mapping/gap_votes.h"
 #include "core/mapping/pair_length.h"
 
 namespace orbweave {
@@ -18,5 +19,8 @@ namespace orbweave {
 ///
 /// Of drives in order, of images as they were taken (DrivePlaces).
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked);
+
+/// Matches of the pairs that lead across, and those that agree (GapLength::matches).
+[[nodiscard]] LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap);
 
 }  // namespace orbweave

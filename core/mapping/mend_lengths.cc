@@ -4,6 +4,7 @@
 #include "core/mapping/mend_lengths.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "core/mapping/compare_models.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/step_witness.h"
 #include "core/mapping/triangulate_tracks.h"
@@ -26,14 +28,13 @@ constexpr int kMaxMoves = 12;
 constexpr double kSlack = 3.0;
 
 void PutAt(MappingState& state, const CandidateMove& move) {
-  for (const auto& [image, centre] : move)
-    state.SetPose(image, Rigid3::FromCentre(state.CamFromWorld(image).rotation, centre));
+  for (const auto& [image, cam_from_world] : move) state.SetPose(image, cam_from_world);
 }
 
-CandidateMove CentresNow(const MappingState& state, const CandidateMove& of) {
-  CandidateMove centres;
-  for (const auto& [image, centre] : of) centres[image] = state.Centre(image);
-  return centres;
+CandidateMove PosesNow(const MappingState& state, const CandidateMove& of) {
+  CandidateMove poses;
+  for (const auto& [image, pose] : of) poses[image] = state.CamFromWorld(image);
+  return poses;
 }
 
 /// Whether GNSS speaks against where an image would stand that has others beside it that stay.
@@ -43,18 +44,32 @@ bool IsAgainstGnss(const MappingState& state, const CandidateMove& move) {
     const std::vector<ImageSlot> witnesses = witness.Witnesses();
     const bool is_at_edge =
         std::ranges::any_of(witnesses, [&](ImageSlot other) { return !move.contains(other); });
-    return is_at_edge && witness.Contradicts(entry.second);
+    return is_at_edge && witness.Contradicts(entry.second.Centre());
   });
 }
 
-/// Makes the one move with which most rays agree, if more do than now. Poses alone are moved.
-bool MakeBestMove(MappingState& state, const MappingOptions& options) {
-  double most = CountAgreeingRays(state, options);
+/// A kind of moves, and what is to become more.
+struct Remedy {
+  std::vector<CandidateMove> (*list)(const MappingState&, const MappingOptions&);
+  double (*count)(const MappingState&, const MappingOptions&);
+};
+
+/// First the sides of ways are turned to each other as matches have it, then lengths are mended.
+constexpr std::array<Remedy, 2> kRemedies = {
+    {{ListTurns,
+      [](const MappingState& state, const MappingOptions& options) {
+        return CountMatchesInPlanes(state, kMatchTolerance * options.max_error_px);
+      }},
+     {ListShifts, CountAgreeingRays}}};
+
+/// Makes the one move with which most agrees, if more does than now. Poses alone are moved.
+bool MakeBestMove(const Remedy& remedy, const MappingOptions& options, MappingState& state) {
+  double most = remedy.count(state, options);
   std::optional<CandidateMove> best;
-  for (const CandidateMove& move : ListCandidateMoves(state, options)) {
-    const CandidateMove back = CentresNow(state, move);
+  for (const CandidateMove& move : remedy.list(state, options)) {
+    const CandidateMove back = PosesNow(state, move);
     PutAt(state, move);
-    const double agreeing = CountAgreeingRays(state, options);
+    const double agreeing = remedy.count(state, options);
     PutAt(state, back);
     if (agreeing <= most || IsAgainstGnss(state, move)) continue;
     most = agreeing;
@@ -64,35 +79,55 @@ bool MakeBestMove(MappingState& state, const MappingOptions& options) {
   return best.has_value();
 }
 
-/// How far each registered image was moved, by slot.
-using Displacements = std::map<ImageSlot, Eigen::Vector3d>;
+/// How many moves were made.
+absl::StatusOr<int> MakeMoves(const MappingOptions& options,
+                              const StageContext& context,
+                              MappingState& state) {
+  int num_moves = 0;
+  for (const Remedy& remedy : kRemedies) {
+    for (int i = 0; i < kMaxMoves && MakeBestMove(remedy, options, state); ++i) {
+      ++num_moves;
+      ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+    }
+  }
+  return num_moves;
+}
+
+/// How each registered image was moved along with the world around it, by slot.
+using Displacements = std::map<ImageSlot, Rigid3>;
+
+bool AreAlike(const Rigid3& x, const Rigid3& y) {
+  constexpr double kRounding = 1e-9;
+  return x.rotation.angularDistance(y.rotation) <= kRounding &&
+         (x.translation - y.translation).norm() <= kRounding * (1.0 + x.translation.norm());
+}
 
 /// What all who see a point were moved by, if it was the same.
-std::optional<Eigen::Vector3d> CommonDisplacement(const MappingState& state,
-                                                  const MappedPoint& point,
-                                                  const Displacements& moved) {
-  const auto of = [&](Node node) -> const Eigen::Vector3d& {
+std::optional<Rigid3> CommonDisplacement(const MappingState& state,
+                                         const MappedPoint& point,
+                                         const Displacements& moved) {
+  const auto of = [&](Node node) -> const Rigid3& {
     return moved.at(state.Graph().image_of_node[node]);
   };
-  const Eigen::Vector3d first = of(point.nodes.front());
-  const bool is_same = std::ranges::all_of(
-      point.nodes, [&](Node node) { return (of(node) - first).norm() <= 1e-9 * first.norm(); });
+  const Rigid3& first = of(point.nodes.front());
+  const bool is_same =
+      std::ranges::all_of(point.nodes, [&](Node node) { return AreAlike(of(node), first); });
   return is_same ? std::optional(first) : std::nullopt;
 }
 
-/// Points go along with the images that see them; those seen by images that were moved by different
-/// amounts are made anew.
+/// Points go along with the images that see them; those seen by images that were moved differently
+/// are made anew.
 void RemakePoints(MappingState& state, const Displacements& moved, TrackLimits limits) {
   for (const PointIndex point : AllPoints(state)) {
     const MappedPoint& mapped = state.Point(point);
-    if (const auto by = CommonDisplacement(state, mapped, moved)) {
-      state.SetPosition(point, mapped.position + *by);
+    if (const auto after_from_before = CommonDisplacement(state, mapped, moved)) {
+      state.SetPosition(point, *after_from_before * mapped.position);
     } else {
       state.RemovePoint(point);
     }
   }
   limits.max_error_px *= kSlack;
-  for (const auto& [image, by] : moved) TriangulateImage(state, image, limits);
+  for (const auto& [image, after_from_before] : moved) TriangulateImage(state, image, limits);
 }
 
 }  // namespace
@@ -102,15 +137,11 @@ absl::StatusOr<bool> MendLengths(MappingState& state,
                                  const StageContext& context) {
   if (FindLengthFaults(state, options).empty()) return false;
   MappingState mended = state;
-  int num_moves = 0;
-  while (num_moves < kMaxMoves && MakeBestMove(mended, options)) {
-    ++num_moves;
-    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const int num_moves, MakeMoves(options, context, mended));
   if (num_moves == 0) return false;
   Displacements moved;
   for (const ImageSlot image : state.Registered())
-    moved[image] = mended.Centre(image) - state.Centre(image);
+    moved[image] = mended.CamFromWorld(image).Inverse() * state.CamFromWorld(image);
   RemakePoints(mended, moved, LimitsOf(options));
   ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(mended, options, context));
   if (!SpeaksMoreFor(mended, state, options)) return false;

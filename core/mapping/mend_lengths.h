@@ -8,11 +8,12 @@
 
 namespace orbweave {
 
-/// Where rays contradict lengths of the model (FindLengthFaults): moves images and pieces of the
-/// street (ListCandidateMoves), each time as most rays agree with (CountAgreeingRays), as long as
-/// more do than before and GNSS does not speak against it (StepWitness). Then points are made anew
-/// that images see which were moved by different amounts, and everything is adjusted. All of it
-/// stays as it was unless more speaks for the result (SpeaksMoreFor).
+/// Where rays and matches contradict the model (FindLengthFaults): turns and moves pieces of the
+/// street and single images, first as most matches agree with (ListTurns, CountMatchesInPlanes),
+/// then as most rays do (ListShifts, CountAgreeingRays), move by move, as long as more agree than
+/// before and GNSS does not speak against it (StepWitness). Then points are made anew that images
+/// see which were moved differently, and everything is adjusted. All of it stays as it was unless
+/// more speaks for the result (SpeaksMoreFor).
 ///
 /// Whether anything was moved. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<bool> MendLengths(MappingState& state,

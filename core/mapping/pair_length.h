@@ -34,6 +34,9 @@ struct GapLength {
   LengthAgreement agreement{};
   double here = 0.0;       ///< rays that say closely what the model has,
   double elsewhere = 0.0;  ///< and those of the length that most say (GapShift)
+  /// Matches of the pairs that lead across, and those that agree with how the model has its two
+  /// sides stand and turn to each other (AgreementOfMatches).
+  LengthAgreement matches{};
 };
 
 }  // namespace orbweave

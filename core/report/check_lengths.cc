@@ -22,9 +22,10 @@ bool AgreesLess(const PairLength& one, const PairLength& other) {
   return one.agreement.Share() < other.agreement.Share();
 }
 
+/// Whether more is wrong with it, or as little and fewer rays agree.
 bool AgreesLess(const GapLength& one, const GapLength& other) {
-  const bool is_elsewhere = IsToldElsewhere(one.here, one.elsewhere);
-  if (is_elsewhere != IsToldElsewhere(other.here, other.elsewhere)) return is_elsewhere;
+  const auto faults = [](const GapLength& gap) { return FindLengthFaults({}, {&gap, 1}).size(); };
+  if (faults(one) != faults(other)) return faults(one) > faults(other);
   return one.agreement.Share() < other.agreement.Share();
 }
 
@@ -56,7 +57,7 @@ int Percent(double share) { return static_cast<int>(std::lround(100.0 * share));
 
 std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest) {
   char text[256];
-  if (fault.is_told_elsewhere) {
+  if (fault.kind == LengthFaultKind::kElsewhere) {
     const double here = fault.agreement.agreeing;
     std::snprintf(text,
                   sizeof text,
@@ -65,6 +66,14 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
                   fault.agreement.told - here,
                   PlaceOf(fault, manifest).c_str(),
                   here);
+  } else if (fault.kind == LengthFaultKind::kHinge) {
+    std::snprintf(
+        text,
+        sizeof text,
+        "of the matches of neighbouring panoramas only %d %% agree with the model %s, whose "
+        "two sides stand askew to each other",
+        Percent(fault.agreement.Share()),
+        PlaceOf(fault, manifest).c_str());
   } else {
     std::snprintf(text,
                   sizeof text,
@@ -107,14 +116,14 @@ CrossCheck CheckLengths(const JobResults& results) {
   const bool is_bad =
       images > 1.0 && images > kBadShare * static_cast<double>(results.manifest.images.size());
   check.level = is_bad ? CheckLevel::kBad : CheckLevel::kDoubtful;
-  std::snprintf(
-      text,
-      sizeof text,
-      "%s, where %d %% agree on the whole (%zu such places): part of it may stand a house too far "
-      "along where houses repeat; give GNSS positions, or take panoramas closer together",
-      WhatRaysSay(worst, results.manifest).c_str(),
-      Percent(all.Share()),
-      faults.size());
+  std::snprintf(text,
+                sizeof text,
+                "%s; %d %% of the rays agree on the whole (%zu such places): part of it may stand "
+                "a house too far "
+                "along where houses repeat; give GNSS positions, or take panoramas closer together",
+                WhatRaysSay(worst, results.manifest).c_str(),
+                Percent(all.Share()),
+                faults.size());
   check.sentence = text;
   return check;
 }

@@ -30,6 +30,7 @@ absl::Status CheckLength(const PairLength& length) {
 
 absl::Status CheckLength(const GapLength& length) {
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.agreement));
+  ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.matches));
   return codec::Expect(length.between.a != length.between.b && codec::IsAmount(length.here) &&
                            codec::IsAmount(length.elsewhere),
                        "cluster reconstruction",
@@ -83,6 +84,8 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_agreeing(length.agreement.agreeing);
     out->set_here(length.here);
     out->set_elsewhere(length.elsewhere);
+    out->set_matches(length.matches.told);
+    out->set_agreeing_matches(length.matches.agreeing);
   }
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
   proto.set_num_local_adjustments(result.reconstruction.num_local_adjustments);
@@ -128,7 +131,8 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
          .pairs = length.pairs(),
          .agreement = {.told = length.told(), .agreeing = length.agreeing()},
          .here = length.here(),
-         .elsewhere = length.elsewhere()});
+         .elsewhere = length.elsewhere(),
+         .matches = {.told = length.matches(), .agreeing = length.agreeing_matches()}});
     ORBWEAVE_RETURN_IF_ERROR(CheckLength(result.reconstruction.gap_lengths.back()));
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace orbweave {
 namespace {
@@ -87,10 +88,35 @@ TEST(FindLengthFaults, AStreetIsTornWhereClearlyMoreRaysSayAnotherLength) {
   const auto faults = FindLengthFaults({}, gaps);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].image, ImageId(9));
-  EXPECT_TRUE(faults[0].is_told_elsewhere);
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kElsewhere);
   EXPECT_DOUBLE_EQ(faults[0].agreement.told, 190.0);
   EXPECT_DOUBLE_EQ(faults[0].agreement.agreeing, 60.0);
   EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
+}
+
+TEST(FindLengthFaults, AWayWhoseMatchesDisagreeIsAHinge) {
+  std::vector<GapLength> gaps = RightGaps();
+  for (GapLength& gap : gaps) gap.matches = {.told = 600.0, .agreeing = 400.0};
+  EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
+  gaps[9].matches.agreeing = 60.0;
+  gaps[12].matches = {.told = 30.0, .agreeing = 0.0};  // too few to be heard
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kHinge);
+  EXPECT_DOUBLE_EQ(faults[0].agreement.Share(), 0.1);
+  EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
+}
+
+/// What no drive does, and no drive of a hostile worker may keep anybody busy with.
+TEST(FindLengthFaults, WaysThatLeadInARingAreOnePlace) {
+  std::vector<GapLength> ring;
+  for (const auto& [from, to] : {std::pair(1U, 2U), {2U, 3U}, {3U, 1U}, {0U, 1U}}) {
+    ring.push_back(
+        {.between = {ImageId(from), ImageId(to)}, .matches = {.told = 100.0, .agreeing = 1.0}});
+  }
+  EXPECT_EQ(FindLengthFaults({}, ring).size(), 1U);
+  ring.pop_back();
+  EXPECT_EQ(FindLengthFaults({}, ring).size(), 1U);
 }
 
 TEST(FindLengthFaults, OnePairThatIsWrongIsNone) {

@@ -82,6 +82,23 @@ TEST(GapLengths, HearWhereRaysSayAnotherLength) {
   }
 }
 
+/// Two right halves that stand askew: every length is right.
+TEST(GapLengths, HearWhereMatchesSayThatTheTwoSidesStandAskew) {
+  const TornStreet street;
+  MappingState askew = street.Right();
+  TornStreet::TurnFrom(7, 0.1, askew);
+  const std::vector<GapLength> gaps = MeasureGapLengths({askew, {}});
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    if (i + 3 > 6 && i < 6 + 3) continue;  // pairs that lead across image 6 and 7 lead across these
+    EXPECT_GT(gaps[i].matches.Share(), 0.8) << i;
+  }
+  EXPECT_TRUE(IsAskew(gaps[6].matches)) << gaps[6].matches.Share();
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kHinge);
+  EXPECT_EQ(faults[0].image, ImageId(6));
+}
+
 TEST(GapShift, IsByHowMuchTheStreetIsTorn) {
   const TornStreet street;
   for (const double by_m : {-3.0, 1.4, 4.0}) {

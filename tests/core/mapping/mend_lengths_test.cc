@@ -120,6 +120,30 @@ TEST(MendLengths, PutsWhatIsOnAnotherScaleOnThatOfTheRest) {
   EXPECT_LT(WorstStepError(state), 0.3);
 }
 
+/// Of the directions of steps, as the image before each sees them.
+double WorstTurn(const MappingState& state) {
+  const MappingState right = TornStreet().Right();
+  double worst_rad = 0.0;
+  for (ImageSlot image = 0; image + 1 < kImages; ++image) {
+    const auto seen = [&](const MappingState& of) {
+      return Eigen::Vector3d(of.CamFromWorld(image) * of.Centre(image + 1)).normalized();
+    };
+    worst_rad = std::max(worst_rad, std::acos(std::min(1.0, seen(state).dot(seen(right)))));
+  }
+  return worst_rad;
+}
+
+TEST(MendLengths, TurnsBackWhatStandsAskew) {
+  const TornStreet street;
+  MappingState state = street.Right();
+  TornStreet::TurnFrom(7, 0.14, state);
+  state = WithPoints(state);
+  EXPECT_GT(WorstTurn(state), 0.1);
+  EXPECT_TRUE(MendLengths(state, {}, {}).value());
+  EXPECT_LT(WorstTurn(state), 0.01);
+  EXPECT_LT(WorstStepError(state), 0.3);
+}
+
 /// Every third image is of another drive; what is torn is the first one, with what belongs to it.
 TEST(MendLengths, TakesWhatGoesWithThePieceOfOtherDrivesAlong) {
   const TornStreet street;

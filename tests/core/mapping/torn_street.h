@@ -32,6 +32,15 @@ class TornStreet {
     state.SetPose(image, Rigid3::FromCentre(pose.rotation, pose.Centre() + by));
   }
 
+  /// Everything from `first` on turned together about the vertical through the image before it.
+  static void TurnFrom(ImageSlot first, double angle_rad, MappingState& state) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+    const Eigen::Vector3d pivot = state.Centre(first - 1);
+    const Rigid3 after_from_before{turn, pivot - turn * pivot};
+    for (ImageSlot image = first; image < kImages; ++image)
+      state.SetPose(image, state.CamFromWorld(image) * after_from_before.Inverse());
+  }
+
   /// The matches of two images as if they stood as they do in `state`: tracks that jump from a
   /// house to the next, more of them than right ones.
   void Fool(ImageSlot a, ImageSlot b, const MappingState& state) {

@@ -99,6 +99,21 @@ TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
   }
 }
 
+TEST(CheckLengths, AHingeIsDoubtfulWhicheverClusterSaysSo) {
+  JobResults results = Drive();
+  results.clusters[0].gap_lengths[20].matches = {.told = 582.0, .agreeing = 62.0};
+  results.clusters.push_back(Drive().clusters[0]);
+  for (const size_t first : {0U, 1U}) {
+    const CrossCheck check = CheckLengths(results);
+    EXPECT_EQ(check.level, CheckLevel::kDoubtful) << first;
+    EXPECT_LT(check.value, check.limit);
+    EXPECT_THAT(check.sentence,
+                HasSubstr("only 11 % agree with the model between 20.jpg and 21.jpg, whose two "
+                          "sides stand askew"));
+    std::swap(results.clusters[0], results.clusters[1]);
+  }
+}
+
 TEST(CheckLengths, TheClusterThatSpeaksForAPairLessJudgesIt) {
   JobResults results = Drive();
   results.clusters.push_back(results.clusters[0]);
