@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/features/for_each_processor.h"
+#include "core/base/for_each_processor.h"
 
 namespace orbweave {
 namespace {

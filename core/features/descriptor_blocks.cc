@@ -7,7 +7,7 @@
 #include <array>
 #include <cstring>
 
-#include "core/features/for_each_processor.h"
+#include "core/base/for_each_processor.h"
 
 namespace orbweave::internal {
 namespace {
