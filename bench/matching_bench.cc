@@ -34,11 +34,13 @@ Features RandomFeatures(int64_t count, uint64_t seed) {
   return features;
 }
 
-void NearestTwoBothDirections(benchmark::State& state, DistanceKernel kernel) {
+bool IsAvailable(DistanceKernel kernel) {
   const std::vector<DistanceKernel> available = AvailableDistanceKernels();
-  if (std::find(available.begin(), available.end(), kernel) == available.end()) {
-    return state.SkipWithError("not on this processor");
-  }
+  return std::find(available.begin(), available.end(), kernel) != available.end();
+}
+
+void NearestTwoBothDirections(benchmark::State& state, DistanceKernel kernel) {
+  if (!IsAvailable(kernel)) return state.SkipWithError("not on this processor");
   const Features a = RandomFeatures(state.range(0), 1);
   const Features b = RandomFeatures(state.range(0), 2);
   for (auto _ : state) {
@@ -55,16 +57,25 @@ BENCHMARK_CAPTURE(NearestTwoBothDirections, avx512_vnni, DistanceKernel::kAvx512
     ->Arg(8192)
     ->Unit(benchmark::kMillisecond);
 
-void GuidedByEpipolarPlanes(benchmark::State& state) {
+void GuidedByEpipolarPlanes(benchmark::State& state, DistanceKernel kernel) {
+  if (!IsAvailable(kernel)) return state.SkipWithError("not on this processor");
   const PairSide a(RandomFeatures(state.range(0), 1));
   const PairSide b(RandomFeatures(state.range(0), 2));
   for (auto _ : state) {
     const NearestInPlanes planes(
-        a, b, Eigen::Vector3d::UnitZ(), a.features.camera.AngleFromPixels(4.0));
+        a, b, Eigen::Vector3d::UnitZ(), a.features.camera.AngleFromPixels(4.0), kernel);
     benchmark::DoNotOptimize(planes.Find(Eigen::Quaterniond::Identity()));
   }
 }
-BENCHMARK(GuidedByEpipolarPlanes)->Arg(8192)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(GuidedByEpipolarPlanes, portable, DistanceKernel::kPortable)
+    ->Arg(8192)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(GuidedByEpipolarPlanes, avx2, DistanceKernel::kAvx2)
+    ->Arg(8192)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(GuidedByEpipolarPlanes, avx512_vnni, DistanceKernel::kAvx512Vnni)
+    ->Arg(8192)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace orbweave

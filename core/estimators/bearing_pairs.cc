@@ -13,30 +13,28 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Squared sines for the pairs [begin, end): (p_b^T E p_a)^2 / (1 - ((T.R p_a)^2 + (T.p_b)^2) / 2).
-/// NaN where both bearings are epipoles, which no threshold admits.
+/// Squared sines for the pairs [begin, end).
 void SquaredSines(
     const BearingPairs& pairs, const Rigid3& b_from_a, size_t begin, size_t end, double* squared) {
-  const Eigen::Matrix3d E = EssentialFromPose(b_from_a);
-  const Vector3d T = b_from_a.translation;
-  const Vector3d RtT = b_from_a.rotation.conjugate() * T;
-  const double* const ax = pairs.a[0].data() + begin;
-  const double* const ay = pairs.a[1].data() + begin;
-  const double* const az = pairs.a[2].data() + begin;
-  const double* const bx = pairs.b[0].data() + begin;
-  const double* const by = pairs.b[1].data() + begin;
-  const double* const bz = pairs.b[2].data() + begin;
-  for (size_t i = 0; i < end - begin; ++i) {
-    const double f = bx[i] * (E(0, 0) * ax[i] + E(0, 1) * ay[i] + E(0, 2) * az[i]) +
-                     by[i] * (E(1, 0) * ax[i] + E(1, 1) * ay[i] + E(1, 2) * az[i]) +
-                     bz[i] * (E(2, 0) * ax[i] + E(2, 1) * ay[i] + E(2, 2) * az[i]);
-    const double along_a = RtT.x() * ax[i] + RtT.y() * ay[i] + RtT.z() * az[i];
-    const double along_b = T.x() * bx[i] + T.y() * by[i] + T.z() * bz[i];
-    squared[i] = f * f / (1.0 - 0.5 * (along_a * along_a + along_b * along_b));
-  }
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> E = EssentialFromPose(b_from_a);
+  const Vector3d T_in_a = b_from_a.rotation.conjugate() * b_from_a.translation;
+  internal::EpipolarTerms terms;
+  std::copy_n(E.data(), terms.E.size(), terms.E.begin());
+  std::copy_n(b_from_a.translation.data(), terms.T.size(), terms.T.begin());
+  std::copy_n(T_in_a.data(), terms.T_in_a.size(), terms.T_in_a.begin());
+  internal::SquaredSines(terms, pairs.ColumnsFrom(begin), end - begin, squared);
 }
 
 }  // namespace
+
+internal::PairColumns BearingPairs::ColumnsFrom(size_t first) const {
+  internal::PairColumns columns;
+  for (size_t k = 0; k < 3; ++k) {
+    columns.a[k] = a[k].data() + first;
+    columns.b[k] = b[k].data() + first;
+  }
+  return columns;
+}
 
 BearingPairs ArrangePairs(std::span<const Vector3d> bearings_a,
                           std::span<const Vector3d> bearings_b,
@@ -76,11 +74,10 @@ std::optional<RansacScore> ScoreEpipolar(const BearingPairs& pairs,
   for (size_t begin = 0; begin < pairs.Size(); begin += squared.size()) {
     const size_t end = std::min(begin + squared.size(), pairs.Size());
     SquaredSines(pairs, b_from_a, begin, end, squared.data());
-    for (size_t i = 0; i < end - begin; ++i) {
-      const bool inlier = squared[i] < max_squared;
-      score.cost += inlier ? squared[i] : max_squared;
-      score.num_inliers += inlier ? 1U : 0U;
-    }
+    const internal::TruncatedSum sum =
+        internal::SumTruncated(squared.data(), end - begin, max_squared);
+    score.cost += sum.cost;
+    score.num_inliers += sum.num_below;
     if (gate.Rejects(score.cost, score.num_inliers, end)) return std::nullopt;
   }
   return score;

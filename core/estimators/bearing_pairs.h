@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/estimators/pair_kernels.h"
 #include "core/geometry/rigid3.h"
 #include "core/robust/ransac.h"
 #include "core/scene/ids.h"
@@ -25,6 +26,8 @@ struct BearingPairs {
   [[nodiscard]] size_t Size() const { return order.size(); }
   [[nodiscard]] Eigen::Vector3d A(size_t i) const { return {a[0][i], a[1][i], a[2][i]}; }
   [[nodiscard]] Eigen::Vector3d B(size_t i) const { return {b[0][i], b[1][i], b[2][i]}; }
+  /// Those from `first` on.
+  [[nodiscard]] internal::PairColumns ColumnsFrom(size_t first) const;
 };
 
 [[nodiscard]] BearingPairs ArrangePairs(std::span<const Eigen::Vector3d> bearings_a,

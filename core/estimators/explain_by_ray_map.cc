@@ -4,6 +4,7 @@
 #include "core/estimators/explain_by_ray_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/geometry/ray_maps.h"
@@ -34,20 +35,28 @@ class RayMapEstimator {
   [[nodiscard]] size_t Size() const { return pairs_.Size(); }
 
   void Generate(std::span<const uint32_t> sample, std::vector<Matrix3d>& models) const {
-    const SelectedBearings selected = SelectPairs(pairs_, sample);
-    if (const std::optional<Matrix3d> M = kFit(selected.a, selected.b)) models.push_back(*M);
+    std::array<Vector3d, kSize> a;
+    std::array<Vector3d, kSize> b;
+    for (size_t k = 0; k < kSize; ++k) {
+      a[k] = pairs_.A(sample[k]);
+      b[k] = pairs_.B(sample[k]);
+    }
+    if (const std::optional<Matrix3d> M = kFit(a, b)) models.push_back(*M);
   }
 
   [[nodiscard]] std::optional<RansacScore> Score(const Matrix3d& M,
                                                  const EarlyRejection& gate) const {
+    std::array<double, EarlyRejection::kBlock> squared;
     RansacScore score;
-    for (size_t i = 0; i < Size(); ++i) {
-      const double squared = SquaredChord(M, i);
-      const bool inlier = squared < max_squared_chord_;
-      score.cost += inlier ? squared : max_squared_chord_;
-      score.num_inliers += inlier ? 1U : 0U;
+    for (size_t begin = 0; begin < Size(); begin += squared.size()) {
+      const size_t end = std::min(begin + squared.size(), Size());
+      SquaredChords(M, begin, end, squared.data());
+      const internal::TruncatedSum sum =
+          internal::SumTruncated(squared.data(), end - begin, max_squared_chord_);
+      score.cost += sum.cost;
+      score.num_inliers += sum.num_below;
+      if (gate.Rejects(score.cost, score.num_inliers, end)) return std::nullopt;
     }
-    if (gate.Rejects(score.cost, score.num_inliers, Size())) return std::nullopt;
     return score;
   }
 
@@ -62,16 +71,21 @@ class RayMapEstimator {
   }
 
   [[nodiscard]] std::vector<uint32_t> Inliers(const Matrix3d& M) const {
+    std::vector<double> squared(Size());
+    SquaredChords(M, 0, Size(), squared.data());
     std::vector<uint32_t> inliers;
     for (uint32_t i = 0; i < Size(); ++i) {
-      if (SquaredChord(M, i) < max_squared_chord_) inliers.push_back(i);
+      if (squared[i] < max_squared_chord_) inliers.push_back(i);
     }
     return inliers;
   }
 
  private:
-  [[nodiscard]] double SquaredChord(const Matrix3d& M, size_t i) const {
-    return ((M * pairs_.A(i)).normalized() - pairs_.B(i)).squaredNorm();
+  void SquaredChords(const Matrix3d& M, size_t begin, size_t end, double* squared) const {
+    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_rows = M;
+    std::array<double, 9> entries;
+    std::copy_n(by_rows.data(), entries.size(), entries.begin());
+    internal::SquaredChords(entries, pairs_.ColumnsFrom(begin), end - begin, squared);
   }
 
   const BearingPairs& pairs_;
@@ -87,7 +101,8 @@ absl::StatusOr<RayMap> Explain(const BearingPairs& pairs,
   constexpr int kUnlimited = 1000;
   const RansacOptions options = {
       .confidence = kConfidence,
-      .max_trials = kTrialsFactor * RequiredTrials(min_share, kSize, kConfidence, kUnlimited)};
+      .max_trials = kTrialsFactor * RequiredTrials(min_share, kSize, kConfidence, kUnlimited),
+      .min_inlier_share = min_share};
   ORBWEAVE_ASSIGN_OR_RETURN(const auto best, Ransac(estimator, options, context));
   if (!best.model) return RayMap{};
   return RayMap{.M = *best.model, .inliers = estimator.Inliers(*best.model)};

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "core/geometry/epipolar.h"
+#include "core/estimators/pair_kernels.h"
 #include "core/geometry/place_pairs.h"
-#include "core/geometry/rotation.h"
 #include "core/robust/false_alarms.h"
 
 namespace orbweave {
@@ -21,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr size_t kPoseSample = 5;
 constexpr size_t kRotationSample = 2;
-constexpr size_t kNumErrors = 4;
+using internal::kNumErrors;
 /// Exchanged matches at most: the share of chance is then known to a tenth where it is a hundredth.
 constexpr size_t kMaxExchanges = 16384;
 
@@ -32,56 +30,83 @@ std::vector<PlacePairs::Match> IndependentMatches(const BearingPairs& pairs) {
   return places.Counted();
 }
 
-/// How many of some matches lie within each of the errors.
-struct Counts {
-  std::array<size_t, kNumErrors> within{};
-  size_t all = 0;
-};
-
+/// Counts how many matches, or exchanged ones, a pose explains.
 class PoseTest {
  public:
-  PoseTest(const Rigid3& b_from_a, double max_error_rad) : b_from_a_(b_from_a) {
-    for (size_t e = 0; e < kNumErrors; ++e) errors_rad_[e] = max_error_rad / std::exp2(e);
-    min_cos_far_ = std::cos(2.0 * max_error_rad);
-  }
-
-  void Count(const Vector3d& a, const Vector3d& b, Counts& counts) const {
-    ++counts.all;
-    const double error_rad = ErrorOf(a, b);
-    for (size_t e = 0; e < kNumErrors && error_rad < errors_rad_[e]; ++e) ++counts.within[e];
+  PoseTest(const std::vector<PlacePairs::Match>& matches,
+           const Rigid3& b_from_a,
+           double max_error_rad)
+      : has_baseline_(!b_from_a.translation.isZero()), size_(matches.size()) {
+    for (size_t e = 0; e < kNumErrors; ++e) {
+      errors_rad_[e] = max_error_rad / std::exp2(e);
+      const double sine = std::sin(errors_rad_[e]);
+      limits_.squared[e] = has_baseline_ ? sine * sine : 2.0 - 2.0 * std::cos(errors_rad_[e]);
+    }
+    limits_.min_cos_far = std::cos(2.0 * max_error_rad);
+    for (const PlacePairs::Match& match : matches) AddTurned(b_from_a, match.a);
+    for (int round = 0; round < 2; ++round) {
+      for (const PlacePairs::Match& match : matches) AddTarget(b_from_a, match.b);
+    }
   }
 
   [[nodiscard]] double Error(size_t e) const { return errors_rad_[e]; }
-  [[nodiscard]] size_t Sample() const {
-    return b_from_a_.translation.isZero() ? kRotationSample : kPoseSample;
+  [[nodiscard]] size_t Sample() const { return has_baseline_ ? kPoseSample : kRotationSample; }
+
+  /// The i-th match of one panorama with the (i + shift)-th of the other, shift below their number.
+  [[nodiscard]] internal::ErrorCounts Count(size_t shift) const {
+    internal::TurnedColumns a{.along_q = along_q_.data()};
+    internal::TargetColumns b{.along_b = along_b_.data() + shift};
+    for (size_t k = 0; k < 3; ++k) {
+      a.q[k] = q_[k].data();
+      a.m[k] = m_[k].data();
+      b.b[k] = b_[k].data() + shift;
+    }
+    return has_baseline_ ? internal::CountWithinPlanes(a, b, size_, limits_)
+                         : internal::CountWithinAngles(a, b, size_, limits_);
   }
 
  private:
-  /// Pi for what is not in front of both.
-  [[nodiscard]] double ErrorOf(const Vector3d& a, const Vector3d& b) const {
-    const Vector3d turned = b_from_a_.rotation * a;
-    if (b_from_a_.translation.isZero()) return AngleBetween(turned, b);
-    const double error_rad = SymmetricEpipolarAngle(b_from_a_, a, b);
-    if (!(error_rad < errors_rad_.front())) return std::numbers::pi;
-    const bool is_far = b.dot(turned) > min_cos_far_;
-    return is_far || IsInFrontOfBoth(b_from_a_, a, b) ? error_rad : std::numbers::pi;
+  using Columns = std::array<std::vector<double>, 3>;
+
+  static void Add(const Vector3d& bearing, Columns& columns) {
+    for (int k = 0; k < 3; ++k) columns[static_cast<size_t>(k)].push_back(bearing[k]);
   }
 
-  Rigid3 b_from_a_;
+  void AddTurned(const Rigid3& b_from_a, const Vector3d& bearing) {
+    const Vector3d q = b_from_a.rotation * bearing;
+    Add(q, q_);
+    Add(b_from_a.translation.cross(q), m_);
+    along_q_.push_back(b_from_a.translation.dot(q));
+  }
+
+  void AddTarget(const Rigid3& b_from_a, const Vector3d& bearing) {
+    Add(bearing, b_);
+    along_b_.push_back(b_from_a.translation.dot(bearing));
+  }
+
+  bool has_baseline_;
+  size_t size_;
   std::array<double, kNumErrors> errors_rad_{};
-  double min_cos_far_ = 1.0;
+  internal::ErrorLimits limits_{};
+  Columns q_{};
+  Columns m_{};
+  std::vector<double> along_q_{};
+  Columns b_{};  ///< twice, one after the other
+  std::vector<double> along_b_{};
 };
 
-/// Exchanged matches: the i-th of one panorama with the (i + shift)-th of the other. A match whose
-/// place in b is the right one's is no wrong match.
-Counts CountExchanged(const std::vector<PlacePairs::Match>& matches, const PoseTest& test) {
-  const size_t n = matches.size();
+/// Exchanged matches. A match whose place in b is the right one's is no wrong match.
+struct Exchanged {
+  internal::ErrorCounts within{};
+  size_t all = 0;
+};
+
+Exchanged CountExchanged(size_t n, const PoseTest& test) {
   const size_t num_shifts = std::min(n - 1, std::max<size_t>(1, kMaxExchanges / n));
-  Counts counts;
+  Exchanged counts{.all = num_shifts * n};
   for (size_t shift = 1; shift <= num_shifts; ++shift) {
-    for (size_t i = 0; i < n; ++i) {
-      test.Count(matches[i].a, matches[(i + shift) % n].b, counts);
-    }
+    const internal::ErrorCounts some = test.Count(shift);
+    for (size_t e = 0; e < kNumErrors; ++e) counts.within[e] += some[e];
   }
   return counts;
 }
@@ -92,21 +117,20 @@ MatchEvidence EvidenceOf(const BearingPairs& pairs, const Rigid3& b_from_a, doub
   const std::vector<PlacePairs::Match> matches = IndependentMatches(pairs);
   MatchEvidence evidence{.max_error_rad = max_error_rad,
                          .num_matches = static_cast<uint32_t>(matches.size())};
-  const PoseTest test(b_from_a, max_error_rad);
+  const PoseTest test(matches, b_from_a, max_error_rad);
   if (matches.size() <= test.Sample()) return evidence;
-  Counts found;
-  for (const PlacePairs::Match& match : matches) test.Count(match.a, match.b, found);
-  const Counts exchanged = CountExchanged(matches, test);
+  const internal::ErrorCounts found = test.Count(0);
+  const Exchanged exchanged = CountExchanged(matches.size(), test);
   for (size_t e = 0; e < kNumErrors; ++e) {
     // One more than was seen: what was not seen may still happen.
     const double chance =
         static_cast<double>(exchanged.within[e] + 1) / static_cast<double>(exchanged.all + 1);
     const double log10_nfa =
-        Log10FalseAlarms(matches.size(), found.within[e], test.Sample(), chance, kNumErrors);
+        Log10FalseAlarms(matches.size(), found[e], test.Sample(), chance, kNumErrors);
     if (e > 0 && log10_nfa >= evidence.log10_false_alarms) continue;
     evidence.log10_false_alarms = log10_nfa;
     evidence.max_error_rad = test.Error(e);
-    evidence.num_inliers = static_cast<uint32_t>(found.within[e]);
+    evidence.num_inliers = static_cast<uint32_t>(found[e]);
     evidence.chance_share = chance;
   }
   return evidence;

@@ -4,12 +4,11 @@
 #include "core/features/axial_features.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
 
-#include "core/features/for_each_processor.h"
+#include "core/base/for_each_processor.h"
 
 namespace orbweave {
 namespace {
@@ -18,6 +17,8 @@ using std::numbers::pi;
 
 constexpr float kTurn = 4.0F;
 constexpr float kRounding = 1e-5F;
+/// Of a row without a feature: no wedge reaches there.
+constexpr float kNowhere = -4.0F;
 /// Buckets of a few features: narrower ones would be read no faster.
 constexpr size_t kFeaturesPerBucket = 4;
 
@@ -82,19 +83,28 @@ void TestRows(const AxialBearing& a,
 
 }  // namespace
 
-EpipolarWedge::EpipolarWedge(const AxialBearing& a, double max_error_rad)
-    : a_(a), sin_error_(static_cast<float>(std::sin(std::min(max_error_rad, 0.5 * pi)))) {
-  const double polar_rad = std::atan2(a.sin_polar, a.cos_polar) + max_error_rad;
-  min_cos_polar_ = static_cast<float>(polar_rad < pi ? std::cos(polar_rad) : -2.0);
+AngularError::AngularError(double error_rad)
+    : sine(std::sin(std::min(error_rad, 0.5 * pi))), cosine(std::cos(std::min(error_rad, pi))) {}
+
+EpipolarWedge::EpipolarWedge(const AxialBearing& a, const AngularError& max_error)
+    : a_(a), sin_error_(static_cast<float>(max_error.sine)) {
+  // cos(polar + error), of the one coordinate of the two that is exact near either end of the axis.
+  const double sin_polar = a.sin_polar;
+  const double cos_polar = std::copysign(std::sqrt(std::max(0.0, 1.0 - sin_polar * sin_polar)),
+                                         static_cast<double>(a.cos_polar));
+  const bool ends_before_axis = sin_polar * max_error.cosine + cos_polar * max_error.sine > 0.0;
+  min_cos_polar_ =
+      ends_before_axis
+          ? static_cast<float>(cos_polar * max_error.cosine - sin_polar * max_error.sine)
+          : -2.0F;
 }
 
 float EpipolarWedge::AzimuthRange() const {
   if (a_.sin_polar <= sin_error_) return kTurn;
-  return std::asin(sin_error_ / a_.sin_polar) + kRounding;
-}
-
-bool EpipolarWedge::Holds(const AxialBearing& b) const {
-  return Test(a_, sin_error_, min_cos_polar_, b) != 0;
+  // asin(s) = s + s^3 / 6 + ..., whose further coefficients sum up to pi / 2 - 1.
+  constexpr float kRest = 0.5708F;
+  const float sine = sin_error_ / a_.sin_polar;
+  return sine * (1.0F + kRest * sine * sine) + kRounding;
 }
 
 float PseudoAngle(float x, float y) {
@@ -122,8 +132,9 @@ AxialFeatures::AxialFeatures(std::span<const Eigen::Vector3d> bearings,
     ++first_of_bucket_[bucket_of.back() + 1];
   }
   for (size_t k = 0; k < num_buckets; ++k) first_of_bucket_[k + 1] += first_of_bucket_[k];
+  const size_t num_rows = (axial.size() + kRowsPerBlock - 1) / kRowsPerBlock * kRowsPerBlock;
   for (auto* column : {&cos_azimuth_, &sin_azimuth_, &cos_polar_, &sin_polar_})
-    column->resize(axial.size());
+    column->resize(num_rows, kNowhere);
   index_.resize(axial.size());
   std::vector<uint32_t> next(first_of_bucket_.begin(), first_of_bucket_.end() - 1);
   for (FeatureIndex i = 0; i < axial.size(); ++i) {
@@ -136,45 +147,39 @@ AxialFeatures::AxialFeatures(std::span<const Eigen::Vector3d> bearings,
   }
 }
 
-void AxialFeatures::Within(const EpipolarWedge& wedge, std::vector<uint32_t>& rows) const {
-  rows.clear();
+std::array<AxialFeatures::Blocks, 2> AxialFeatures::BlocksNear(const EpipolarWedge& wedge) const {
   const auto num_buckets = static_cast<int>(first_of_bucket_.size()) - 1;
   const float buckets = static_cast<float>(num_buckets) / kTurn;
   const float range = wedge.AzimuthRange();
-  if (2.0F * range * buckets >= static_cast<float>(num_buckets - 2))
-    return AppendWithin(wedge, 0, num_buckets, rows);
+  const Blocks all = BlocksOf(0, num_buckets);
+  if (2.0F * range * buckets >= static_cast<float>(num_buckets - 2)) return {all, Blocks{}};
   const float azimuth = AzimuthOf(wedge.a_);
   const int first = static_cast<int>((azimuth - range + kTurn) * buckets) - num_buckets;
   const int last = static_cast<int>((azimuth + range) * buckets);
-  AppendWithin(wedge, std::max(first, 0), std::min(last + 1, num_buckets), rows);
-  if (first < 0) AppendWithin(wedge, first + num_buckets, num_buckets, rows);
-  if (last >= num_buckets) AppendWithin(wedge, 0, last + 1 - num_buckets, rows);
+  const Blocks within = BlocksOf(std::max(first, 0), std::min(last + 1, num_buckets));
+  Blocks beyond;
+  if (first < 0) beyond = BlocksOf(first + num_buckets, num_buckets);
+  if (last >= num_buckets) beyond = BlocksOf(0, last + 1 - num_buckets);
+  const bool are_apart = beyond.end <= within.begin || within.end <= beyond.begin;
+  if (!are_apart) return {all, Blocks{}};
+  return {within, beyond};
 }
 
-void AxialFeatures::AppendWithin(const EpipolarWedge& wedge,
-                                 int first_bucket,
-                                 int end_bucket,
-                                 std::vector<uint32_t>& rows) const {
-  constexpr size_t kAtOnce = 256;
+AxialFeatures::Blocks AxialFeatures::BlocksOf(int first_bucket, int end_bucket) const {
+  const size_t begin = first_of_bucket_[static_cast<size_t>(first_bucket)];
   const size_t end = first_of_bucket_[static_cast<size_t>(end_bucket)];
-  std::array<int32_t, kAtOnce> held;
-  for (size_t row = first_of_bucket_[static_cast<size_t>(first_bucket)]; row < end;
-       row += kAtOnce) {
-    const size_t count = std::min(kAtOnce, end - row);
-    TestRows(wedge.a_,
-             wedge.sin_error_,
-             wedge.min_cos_polar_,
-             {&cos_azimuth_[row], &sin_azimuth_[row], &cos_polar_[row], &sin_polar_[row]},
-             count,
-             held.data());
-    size_t size = rows.size();
-    rows.resize(size + count);
-    for (size_t i = 0; i < count; ++i) {
-      rows[size] = static_cast<uint32_t>(row + i);
-      size += static_cast<size_t>(held[i]);
-    }
-    rows.resize(size);
-  }
+  if (begin == end) return {};
+  return {begin / kRowsPerBlock, (end + kRowsPerBlock - 1) / kRowsPerBlock};
+}
+
+void AxialFeatures::Test(const EpipolarWedge& wedge, const Blocks& blocks, int32_t* held) const {
+  const size_t row = blocks.begin * kRowsPerBlock;
+  TestRows(wedge.a_,
+           wedge.sin_error_,
+           wedge.min_cos_polar_,
+           {&cos_azimuth_[row], &sin_azimuth_[row], &cos_polar_[row], &sin_polar_[row]},
+           (blocks.end - blocks.begin) * kRowsPerBlock,
+           held);
 }
 
 }  // namespace orbweave

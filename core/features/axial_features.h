@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,17 +22,23 @@ struct AxialBearing {
   float sin_polar = 0.0F;
 };
 
+/// The sine and cosine of an angular error.
+struct AngularError {
+  explicit AngularError(double error_rad);
+
+  double sine = 0.0;    ///< of a quarter turn at most
+  double cosine = 1.0;  ///< of half a turn at most
+};
+
 /// The epipolar half plane of a bearing of a, with room for an error: where some point in front of
 /// both spheres that shows as this bearing in a can show in b. That is between the axis (the point
 /// at the centre of a) and the bearing of a itself (the point at infinity).
 class EpipolarWedge {
  public:
-  EpipolarWedge(const AxialBearing& a, double max_error_rad);
+  EpipolarWedge(const AxialBearing& a, const AngularError& max_error);
 
-  /// Half width of its azimuths, quarter turns (PseudoAngle): a radian is one at most.
+  /// Half width of its azimuths at most, quarter turns (PseudoAngle): a radian is one at most.
   [[nodiscard]] float AzimuthRange() const;
-
-  [[nodiscard]] bool Holds(const AxialBearing& b) const;
 
  private:
   friend class AxialFeatures;
@@ -45,9 +52,11 @@ class EpipolarWedge {
 [[nodiscard]] float PseudoAngle(float x, float y);
 
 /// Features about an axis, ordered by azimuth up to the width of a bucket, so that those near a
-/// plane lie together in memory.
+/// plane lie together in memory. Rows are looked at kRowsPerBlock at a time.
 class AxialFeatures {
  public:
+  static constexpr size_t kRowsPerBlock = 16;
+
   AxialFeatures(std::span<const Eigen::Vector3d> bearings,
                 const Eigen::Quaterniond& axial_from_cam);
 
@@ -55,19 +64,26 @@ class AxialFeatures {
   [[nodiscard]] AxialBearing At(size_t row) const {
     return {cos_azimuth_[row], sin_azimuth_[row], cos_polar_[row], sin_polar_[row]};
   }
-  /// Index of the feature in this row.
-  [[nodiscard]] FeatureIndex IndexOf(size_t row) const { return index_[row]; }
+  /// Index of the feature in each row.
+  [[nodiscard]] std::span<const FeatureIndex> Indices() const { return index_; }
 
-  /// Rows of the features within `wedge`, each once, into `rows`. The same on every processor.
-  void Within(const EpipolarWedge& wedge, std::vector<uint32_t>& rows) const;
+  /// Blocks of rows [begin, end); the last may be longer than there are rows.
+  struct Blocks {
+    size_t begin = 0;
+    size_t end = 0;
+  };
+  /// Blocks with all rows within `wedge`, none twice.
+  [[nodiscard]] std::array<Blocks, 2> BlocksNear(const EpipolarWedge& wedge) const;
+
+  /// held[i]: 1 where row kRowsPerBlock * blocks.begin + i is within `wedge`, 0 elsewhere, for all
+  /// rows of the blocks. The same on every processor.
+  void Test(const EpipolarWedge& wedge, const Blocks& blocks, int32_t* held) const;
 
  private:
-  /// Appends those of the rows [begin, end) of buckets.
-  void AppendWithin(const EpipolarWedge& wedge,
-                    int first_bucket,
-                    int end_bucket,
-                    std::vector<uint32_t>& rows) const;
+  /// Those of the rows of buckets [begin, end).
+  [[nodiscard]] Blocks BlocksOf(int first_bucket, int end_bucket) const;
 
+  // Whole blocks; rows beyond the last feature are within no wedge.
   std::vector<float> cos_azimuth_{};
   std::vector<float> sin_azimuth_{};
   std::vector<float> cos_polar_{};

@@ -9,6 +9,8 @@
 
 #include <cstring>
 
+#include "core/features/descriptor_blocks.h"
+
 #define ORBWEAVE_AVX2 __attribute__((target("avx2")))
 #define ORBWEAVE_AVX2_INLINE ORBWEAVE_AVX2 __attribute__((always_inline)) inline
 
@@ -86,10 +88,40 @@ ORBWEAVE_AVX2_INLINE void UpdateRows(
   }
 }
 
+ORBWEAVE_AVX2_INLINE __m256i LoadUnaligned(const int32_t* from) {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+}
+
+/// Eight lanes of a block, of which `held` is not zero everywhere.
+ORBWEAVE_AVX2_INLINE void UpdateHeldLanes(
+    const HeldJob& job, const WideRow& row, __m256i held, size_t c, size_t lane, LaneState& state) {
+  const DescriptorBlock& block = job.blocks[c];
+  __m256i dots;
+  MultiplyRows<1>(&row, &block.bytes[4 * lane], &dots);
+  const __m256i sum = _mm256_add_epi32(Load(&block.norms[lane]), _mm256_set1_epi32(job.row_norm));
+  const __m256i is_held = _mm256_cmpgt_epi32(held, _mm256_setzero_si256());
+  const __m256i distance = _mm256_blendv_epi8(
+      _mm256_set1_epi32(kNoDistance), _mm256_sub_epi32(sum, _mm256_slli_epi32(dots, 1)), is_held);
+  Update(state, lane, distance, job.first_block + static_cast<int32_t>(c));
+  Update(job.block_states[c], lane, distance, job.row_index);
+}
+
 }  // namespace
 
+ORBWEAVE_AVX2 NearestTwo UpdateHeldAvx2(const HeldJob& job) {
+  LaneState state = EmptyState();
+  const WideRow row = Widen(job.row);
+  for (size_t c = 0; c < job.blocks.size(); ++c) {
+    for (size_t lane = 0; lane < kLanes; lane += 8) {
+      const __m256i held = LoadUnaligned(job.held + c * kLanes + lane);
+      if (_mm256_testz_si256(held, held) == 0) UpdateHeldLanes(job, row, held, c, lane, state);
+    }
+  }
+  return ReduceRow(state);
+}
+
 ORBWEAVE_AVX2 void UpdateNearestAvx2(const DistanceJob& job) {
-  std::array<WideRow, kRowsAtOnce> rows;
+  std::array<WideRow, kRowsPerJob> rows;
   for (size_t r = 0; r < job.num_rows; ++r) rows[r] = Widen(job.rows + r * kDescriptorSize);
   for (size_t c = 0; c < job.blocks.size(); ++c) {
     for (size_t lane = 0; lane < kLanes; lane += 8) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/features/descriptor_blocks.h"
 #include "core/features/distance_kernels.h"
 
 namespace orbweave::internal {
@@ -10,14 +11,18 @@ namespace {
 
 using WideDescriptor = std::array<int16_t, kDescriptorSize>;
 
-/// The descriptors of a block one after the other, in a type whose products compilers vectorise.
+/// A descriptor of a block, in a type whose products compilers vectorise.
+WideDescriptor Unpack(const DescriptorBlock& block, size_t lane) {
+  WideDescriptor row;
+  for (size_t g = 0; g < kGroups; ++g) {
+    for (size_t k = 0; k < 4; ++k) row[4 * g + k] = block.bytes[4 * (kLanes * g + lane) + k];
+  }
+  return row;
+}
+
 std::array<WideDescriptor, kLanes> Unpack(const DescriptorBlock& block) {
   std::array<WideDescriptor, kLanes> rows;
-  for (size_t g = 0; g < kGroups; ++g) {
-    for (size_t j = 0; j < kLanes; ++j) {
-      for (size_t k = 0; k < 4; ++k) rows[j][4 * g + k] = block.bytes[4 * (kLanes * g + j) + k];
-    }
-  }
+  for (size_t j = 0; j < kLanes; ++j) rows[j] = Unpack(block, j);
   return rows;
 }
 
@@ -55,6 +60,22 @@ void UpdateNearestPortable(const DistanceJob& job) {
       }
     }
   }
+}
+
+NearestTwo UpdateHeldPortable(const HeldJob& job) {
+  LaneState row_state = EmptyState();
+  const WideDescriptor row = Widen(job.row);
+  for (size_t c = 0; c < job.blocks.size(); ++c) {
+    const DescriptorBlock& block = job.blocks[c];
+    for (size_t j = 0; j < kLanes; ++j) {
+      if (job.held[c * kLanes + j] == 0) continue;
+      const int32_t norms = job.row_norm + block.norms[j];
+      const int32_t distance = norms - 2 * DotProduct(row, Unpack(block, j));
+      Update(row_state, j, distance, job.first_block + static_cast<int32_t>(c));
+      Update(job.block_states[c], j, distance, job.row_index);
+    }
+  }
+  return ReduceRow(row_state);
 }
 
 }  // namespace orbweave::internal

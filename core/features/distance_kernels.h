@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "core/features/nearest_two.h"
 #include "core/scene/features.h"
 
-/// The inside of FindNearestTwo: what its kernels share.
+/// The inside of FindNearestTwo and NearestInPlanes: what their kernels share.
 
 namespace orbweave::internal {
 
@@ -34,7 +35,7 @@ struct alignas(64) LaneState {
   std::array<int32_t, kLanes> index{};
 };
 
-/// Up to kRowsAtOnce descriptors of the first set against all blocks of the second. Updates
+/// Up to kRowsPerJob descriptors of the first set against all blocks of the second. Updates
 /// `row_states` (a row's distances to descriptor j of any block go to lane j, the index is that of
 /// the block) and `block_states` (one per block, the index is that of the row).
 struct DistanceJob {
@@ -47,12 +48,28 @@ struct DistanceJob {
   LaneState* block_states = nullptr;
 };
 
-constexpr size_t kRowsAtOnce = 8;
+constexpr size_t kRowsPerJob = 8;
+
+/// One descriptor against those of some blocks that it is to be compared with: gives its two
+/// nearest (descriptor j of block c has the index 16 c + j), and updates `block_states` as
+/// DistanceJob does.
+struct HeldJob {
+  const uint8_t* row = nullptr;  ///< kDescriptorSize
+  int32_t row_norm = 0;
+  int32_t row_index = 0;
+  std::span<const DescriptorBlock> blocks{};
+  int32_t first_block = 0;            ///< index of blocks[0]
+  const int32_t* held = nullptr;      ///< kLanes per block: 1 where to compare, 0 elsewhere
+  LaneState* block_states = nullptr;  ///< of `blocks`
+};
 
 void UpdateNearestPortable(const DistanceJob& job);
+[[nodiscard]] NearestTwo UpdateHeldPortable(const HeldJob& job);
 #if defined(__x86_64__)
 void UpdateNearestAvx2(const DistanceJob& job);
+[[nodiscard]] NearestTwo UpdateHeldAvx2(const HeldJob& job);
 void UpdateNearestAvx512Vnni(const DistanceJob& job);
+[[nodiscard]] NearestTwo UpdateHeldAvx512Vnni(const HeldJob& job);
 #endif
 
 }  // namespace orbweave::internal

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/features/descriptor_blocks.h"
+
 namespace orbweave {
 namespace {
 
@@ -34,6 +36,8 @@ PairSide::PairSide(Features image_features)
     descriptors_by_scale.insert(
         descriptors_by_scale.end(), descriptor, descriptor + kDescriptorSize);
   }
+  for (FeatureIndex i = 0; i < features.size() && !features.descriptors.empty(); ++i)
+    squared_norms.push_back(internal::SquaredNorm(features.Descriptor(i)));
 }
 
 }  // namespace orbweave

@@ -19,6 +19,7 @@ struct PairSide {
   /// Features by scale, the largest first; of equal scales that of the lower index.
   std::vector<FeatureIndex> by_scale;
   std::vector<uint8_t> descriptors_by_scale;  ///< in the order of by_scale; empty without any
+  std::vector<int32_t> squared_norms;         ///< of the descriptors of `features`
 };
 
 }  // namespace orbweave

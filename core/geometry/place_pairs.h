@@ -3,9 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -32,10 +31,13 @@ class PlacePairs {
   [[nodiscard]] const std::vector<Match>& Counted() const { return counted_; }
 
  private:
-  using Cell = std::array<int, 3>;
-  static Cell CellOf(const Eigen::Vector3d& bearing);
+  /// Cells as wide as the reach, by coordinates, and one more on every side.
+  static constexpr int kSide = 18;
+  static constexpr int32_t kNone = -1;
+  static int CellOf(const Eigen::Vector3d& bearing);
 
-  std::map<Cell, std::vector<size_t>> cells_{};
+  std::vector<int32_t> last_of_cell_ = std::vector<int32_t>(size_t{kSide} * kSide * kSide, kNone);
+  std::vector<int32_t> before_{};  ///< of each counted one, the one before in its cell
   std::vector<Match> counted_{};
 };
 

@@ -27,6 +27,14 @@ constexpr double kDoubtOfPredictions = 2.0;
 /// Of the largest features' matches that fit no geometry found: those of facades that repeat had
 /// -22 to -190, those of other pairs -10 at most.
 constexpr double kRival = -12.0;
+/// Of the largest features of a town, geometries with this much evidence were those of all features
+/// where they predicted new matches that planes of wrong ones find once in 10^12; of others, with
+/// up to 10^-52, one in ten was not, and these predicted what wrong planes find once in 10^6.
+constexpr double kLikely = -40.0;
+constexpr double kSurelyPredicted = -12.0;
+/// Of the largest features' matches: of two geometries that fewer agree with each, features of all
+/// scales choose.
+constexpr double kLikelyShare = 1.0 / 3.0;
 /// Steps of the ladder of scales: the features taken together grow by so much each time.
 constexpr double kGrowth = 2.5;
 /// Planes that move by this share of their width leave matches out: they are looked for again.
@@ -51,6 +59,11 @@ uint32_t CountMoved(const TwoViewGeometry& geometry,
   return static_cast<uint32_t>(moved);
 }
 
+/// Of all matches, what stands still with the carrier among them.
+double ShareOf(const TwoViewGeometry& geometry) {
+  return static_cast<double>(geometry.inliers.size()) / geometry.num_putative;
+}
+
 bool HasEpipolarPlanes(const TwoViewGeometry& geometry) {
   return geometry.kind == TwoViewKind::kGeneral || geometry.kind == TwoViewKind::kPlanar;
 }
@@ -71,24 +84,45 @@ struct PairMatcher {
     return EstimateTwoView(pair, a.bearings, b.bearings, matches, MaxError(), options, context);
   }
 
-  /// The geometry that the largest features show beyond doubt, compared as far as that takes; none
-  /// where it takes all.
+  /// The geometry that the largest features show beyond doubt, by themselves or by what it predicts
+  /// of all features, grown over that; they are compared as far as that takes. None where it takes
+  /// all.
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> FromLargest(GrowingNearest& nearest) const {
     const TwoViewGeometry nothing{.pair = pair};
     if (match_options.largest_first == 0 || !match_options.guided) return nothing;
-    TwoViewOptions strict = two_view_options;
-    strict.max_log10_false_alarms = std::min(strict.max_log10_false_alarms, kNoDoubt);
+    TwoViewOptions likely = two_view_options;
+    likely.max_log10_false_alarms = std::min(likely.max_log10_false_alarms, kLikely);
+    likely.min_inlier_share = std::max(likely.min_inlier_share, kLikelyShare);
     for (double count = match_options.largest_first;; count *= kGrowth) {
       nearest.GrowTo(static_cast<size_t>(count));
       if (nearest.HasAll()) return nothing;
       const std::vector<FeatureMatch> matches = AcceptNearest(nearest.Nearest(), match_options);
-      ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, Verify(matches, strict));
+      ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, Verify(matches, likely));
       geometry.rung = MatchRung::kLargest;
       // More may show what is off a plane, that the camera moved, or which direction is right.
-      if (geometry.kind == TwoViewKind::kGeneral && ShowsTranslation(geometry) &&
-          !HasRival(geometry, matches))
-        return geometry;
+      if (geometry.kind != TwoViewKind::kGeneral || !ShowsTranslation(geometry) ||
+          HasRival(geometry, matches))
+        continue;
+      const bool is_sure = geometry.log10_false_alarms <= NoDoubt();
+      if (!is_sure && ShareOf(geometry) < kLikelyShare) continue;
+      const PredictedMatches predicted = Predict(geometry, nullptr, !is_sure);
+      if (is_sure || predicted.log10_chance <= kSurelyPredicted)
+        return Grow(geometry, predicted.matches, nullptr);
     }
+  }
+
+  /// Evidence of largest features that needs nothing else, whatever less the options ask for.
+  [[nodiscard]] double NoDoubt() const {
+    return std::min(two_view_options.max_log10_false_alarms, kNoDoubt);
+  }
+
+  /// What the geometry predicts; whether that is more than chance is asked where it is in doubt.
+  [[nodiscard]] PredictedMatches Predict(const TwoViewGeometry& geometry,
+                                         const NearestTwoBothWays* nearest,
+                                         bool is_in_doubt) const {
+    std::optional<std::span<const FeatureMatch>> known;
+    if (is_in_doubt) known = geometry.inliers;
+    return MatchAgainstDecoys(a, b, geometry.b_from_a, MaxError(), nearest, known, match_options);
   }
 
   /// Whether as many inliers as a geometry needs have clearly moved by more than a rotation: where
@@ -130,10 +164,7 @@ struct PairMatcher {
     const TwoViewGeometry nothing{.pair = pair, .num_putative = geometry.num_putative};
     if (!HasEpipolarPlanes(geometry) || !match_options.guided)
       return IsEvident(geometry) ? geometry : nothing;
-    std::optional<std::span<const FeatureMatch>> known;
-    if (!IsEvident(geometry)) known = geometry.inliers;
-    const PredictedMatches predicted =
-        MatchAgainstDecoys(a, b, geometry.b_from_a, MaxError(), nearest, known, match_options);
+    const PredictedMatches predicted = Predict(geometry, nearest, !IsEvident(geometry));
     TwoViewGeometry confirmed = geometry;
     confirmed.log10_false_alarms += predicted.log10_chance;
     if (!IsEvident(geometry)) {
@@ -153,9 +184,7 @@ struct PairMatcher {
       const Rigid3 before = geometry.b_from_a;
       geometry = GrowTwoView(geometry, a.bearings, b.bearings, predicted, MaxError(), context.seed);
       if (round == kMaxRounds || !HasMoved(before, geometry.b_from_a)) return geometry;
-      predicted = MatchAgainstDecoys(
-                      a, b, geometry.b_from_a, MaxError(), nearest, std::nullopt, match_options)
-                      .matches;
+      predicted = Predict(geometry, nearest, false).matches;
     }
   }
 
@@ -186,7 +215,7 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
   }
   GrowingNearest growing(a, b);
   ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry first, matcher.FromLargest(growing));
-  if (first.kind != TwoViewKind::kNone) return matcher.Confirm(first, nullptr);
+  if (first.kind != TwoViewKind::kNone) return first;
   growing.GrowTo(std::max(a.features.size(), b.features.size()));
   const NearestTwoBothWays nearest = growing.Nearest();
   ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry,

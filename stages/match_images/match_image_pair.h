@@ -16,7 +16,8 @@ namespace orbweave {
 
 /// The verified matches of two panoramas, by a ladder (MatchRung): nearest descriptors and geometry
 /// on rays, first of the largest features alone (matching.largest_first), of all where these leave
-/// doubt; where all are no evidence, samples of cameras that stand upright. What a geometry
+/// doubt, also together with what they predict; where all are no evidence, samples of cameras that
+/// stand upright. What a geometry
 /// predicts is then looked for along its epipolar planes (matching.guided), against decoys
 /// (MatchAgainstDecoys): matches that the ratio test lost are recovered, and a pair whose few
 /// matches are no evidence by themselves is kept where those that they predict are; then

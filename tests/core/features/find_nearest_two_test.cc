@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/features/nearest_two.h"
 #include "core/scene/features.h"
+#include "tests/core/features/squared_distance.h"
 
 namespace orbweave {
 namespace {
@@ -21,19 +22,13 @@ std::vector<uint8_t> RandomBytes(size_t count, uint32_t levels, uint64_t seed) {
   return bytes;
 }
 
-int32_t SquaredDistance(const uint8_t* a, const uint8_t* b) {
-  int32_t sum = 0;
-  for (int k = 0; k < kDescriptorSize; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return sum;
-}
-
 /// By sorting all distances.
 std::vector<NearestTwo> BySorting(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
   std::vector<NearestTwo> all;
   for (size_t i = 0; i < a.size(); i += kDescriptorSize) {
     std::vector<std::pair<int32_t, uint32_t>> distances;
     for (size_t j = 0; j < b.size(); j += kDescriptorSize) {
-      distances.emplace_back(SquaredDistance(&a[i], &b[j]),
+      distances.emplace_back(testing::SquaredDistance(&a[i], &b[j]),
                              static_cast<uint32_t>(j / kDescriptorSize));
     }
     std::sort(distances.begin(), distances.end());

@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "core/base/random.h"
-#include "core/features/descriptor_distance.h"
 #include "core/features/find_nearest_two.h"
+#include "tests/core/features/squared_distance.h"
 
 namespace orbweave {
 namespace {
@@ -34,7 +34,8 @@ NearestTwo NearestOf(const PairSide& a,
                      std::span<const FeatureIndex> among) {
   NearestTwo nearest;
   for (const FeatureIndex i : among) {
-    const int32_t distance = SquaredDistance(a.features.Descriptor(of), b.features.Descriptor(i));
+    const int32_t distance =
+        testing::SquaredDistance(a.features.Descriptor(of), b.features.Descriptor(i));
     nearest = MergeNearest(nearest, {distance, kNoDistance, i});
   }
   return nearest;

@@ -15,6 +15,8 @@
 #include "core/features/match_descriptors.h"
 #include "core/features/match_options.h"
 #include "core/geometry/rigid3.h"
+#include "core/geometry/rotation.h"
+#include "tests/core/features/squared_distance.h"
 
 namespace orbweave {
 namespace {
@@ -209,6 +211,25 @@ bool IsWithin(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double max_err
   return std::cos(angle) > 0.0 && largest * std::abs(std::sin(angle)) <= sine;
 }
 
+/// Features within the wedge of `a`; none may be named twice.
+std::set<FeatureIndex> Within(const AxialFeatures& axial,
+                              const AxialBearing& a,
+                              double max_error_rad) {
+  const EpipolarWedge wedge(a, AngularError(max_error_rad));
+  std::set<FeatureIndex> found;
+  for (const AxialFeatures::Blocks& blocks : axial.BlocksNear(wedge)) {
+    const size_t first = blocks.begin * AxialFeatures::kRowsPerBlock;
+    std::vector<int32_t> held((blocks.end - blocks.begin) * AxialFeatures::kRowsPerBlock);
+    axial.Test(wedge, blocks, held.data());
+    for (size_t i = 0; i < held.size(); ++i) {
+      if (held[i] == 0) continue;
+      EXPECT_LT(first + i, axial.size());
+      EXPECT_TRUE(found.insert(axial.Indices()[first + i]).second);
+    }
+  }
+  return found;
+}
+
 TEST(AxialFeatures, FindsAllAndOnlyWhatIsWithinAWedge) {
   Random random(16);
   const auto direction = [&] {
@@ -226,11 +247,8 @@ TEST(AxialFeatures, FindsAllAndOnlyWhatIsWithinAWedge) {
   constexpr double kRoundingRad = 2e-6;
   for (const double max_error_rad : {0.001, 0.02, 0.3, 0.5}) {
     for (size_t row = 0; row < axial.size(); row += 41) {
-      std::vector<uint32_t> rows;
-      axial.Within(EpipolarWedge(axial.At(row), max_error_rad), rows);
-      std::set<FeatureIndex> found;
-      for (const uint32_t i : rows) EXPECT_TRUE(found.insert(axial.IndexOf(i)).second);
-      const Eigen::Vector3d& a = bearings[axial.IndexOf(row)];
+      const std::set<FeatureIndex> found = Within(axial, axial.At(row), max_error_rad);
+      const Eigen::Vector3d& a = bearings[axial.Indices()[row]];
       for (FeatureIndex i = 0; i < bearings.size(); ++i) {
         const bool is_inside = IsWithin(a, bearings[i], max_error_rad - kRoundingRad);
         const bool is_outside = !IsWithin(a, bearings[i], max_error_rad + kRoundingRad);
@@ -239,6 +257,66 @@ TEST(AxialFeatures, FindsAllAndOnlyWhatIsWithinAWedge) {
         }
       }
     }
+  }
+}
+
+TEST(AxialFeatures, NamesNoFeatureTwiceWhereThereAreFew) {
+  Random random(17);
+  for (const size_t count : {1, 2, 15, 16, 17, 40, 100}) {
+    std::vector<Eigen::Vector3d> bearings;
+    for (size_t i = 0; i < count; ++i) {
+      bearings.push_back(
+          Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized());
+    }
+    const AxialFeatures axial(bearings, Eigen::Quaterniond::Identity());
+    for (const double max_error_rad : {0.01, 0.2, 0.6}) {
+      for (size_t row = 0; row < count; ++row)
+        EXPECT_TRUE(Within(axial, axial.At(row), max_error_rad).contains(axial.Indices()[row]));
+    }
+  }
+}
+
+/// What NearestInPlanes says, one pair after the other.
+NearestTwoBothWays ByLooking(const PairSide& a,
+                             const PairSide& b,
+                             const Rigid3& b_from_a,
+                             double max_error_rad) {
+  const Eigen::Quaterniond axial_from_b =
+      RotationBetween(b_from_a.translation, Eigen::Vector3d::UnitZ());
+  const AxialFeatures axial_a(a.bearings, axial_from_b * b_from_a.rotation);
+  const AxialFeatures axial_b(b.bearings, axial_from_b);
+  NearestTwoBothWays nearest{.of_a = std::vector<NearestTwo>(a.features.size()),
+                             .of_b = std::vector<NearestTwo>(b.features.size())};
+  const auto see = [](NearestTwo& of, int32_t distance, FeatureIndex index) {
+    of = MergeNearest(of, {distance, kNoDistance, index});
+  };
+  for (size_t row = 0; row < axial_a.size(); ++row) {
+    const FeatureIndex i = axial_a.Indices()[row];
+    for (const FeatureIndex j : Within(axial_b, axial_a.At(row), max_error_rad)) {
+      const int32_t distance =
+          testing::SquaredDistance(a.features.Descriptor(i), b.features.Descriptor(j));
+      see(nearest.of_a[i], distance, j);
+      see(nearest.of_b[j], distance, i);
+    }
+  }
+  return nearest;
+}
+
+class EveryKernelInPlanes : public ::testing::TestWithParam<DistanceKernel> {};
+INSTANTIATE_TEST_SUITE_P(Kernels,
+                         EveryKernelInPlanes,
+                         ::testing::ValuesIn(AvailableDistanceKernels()));
+
+TEST_P(EveryKernelInPlanes, FindsWhatLookingAtEachPairFinds) {
+  for (const int count : {1, 15, 33, 500}) {
+    const Scene scene = MakeScene(18, count);
+    const PairSide a(scene.a);
+    const PairSide b(scene.b);
+    const NearestInPlanes planes(a, b, scene.b_from_a.translation, kMaxErrorRad, GetParam());
+    const NearestTwoBothWays found = planes.Find(scene.b_from_a.rotation);
+    const NearestTwoBothWays expected = ByLooking(a, b, scene.b_from_a, kMaxErrorRad);
+    EXPECT_EQ(found.of_a, expected.of_a) << count;
+    EXPECT_EQ(found.of_b, expected.of_b) << count;
   }
 }
 

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "stages/match_images/match_image_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "tests/support/random_world.h"
+
+namespace orbweave {
+namespace {
+
+constexpr ImagePair kPair = {ImageId(0), ImageId(1)};
+constexpr size_t kLarge = 2000;  ///< features that are matched first
+constexpr size_t kSmall = 4000;
+constexpr float kLargeScale_px = 20.0F;
+constexpr float kSmallScale_px = 2.0F;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// What two panoramas have in common.
+struct Common {
+  size_t large = 0;
+  size_t small = 0;
+  size_t alike = 0;  ///< large features that look alike, and show different things
+};
+
+struct Sides {
+  Rigid3 b_from_a{};
+  Features a{.camera = {4096, 2048}};
+  Features b{.camera = {4096, 2048}};
+};
+
+std::vector<uint8_t> RandomDescriptor(Random& random) {
+  std::vector<double> values(kDescriptorSize);
+  double squares = 0.0;
+  for (double& value : values) {
+    value = std::pow(random.Uniform(), 3.0);
+    squares += value * value;
+  }
+  std::vector<uint8_t> descriptor;
+  for (const double value : values)
+    descriptor.push_back(static_cast<uint8_t>(std::lround(value * 512.0 / std::sqrt(squares))));
+  return descriptor;
+}
+
+void Append(Features& features,
+            const Eigen::Vector3d& bearing,
+            float scale_px,
+            const std::vector<uint8_t>& descriptor) {
+  const Eigen::Vector2d pixel = features.camera.PixelFromBearing(bearing);
+  features.keypoints.push_back(
+      {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), scale_px, 0.0F});
+  features.descriptors.insert(features.descriptors.end(), descriptor.begin(), descriptor.end());
+}
+
+Sides MakeSides(uint64_t seed, const Common& common) {
+  Random random(seed);
+  Sides sides{.b_from_a = {testing::RandomRotation(random), testing::RandomDirection(random)}};
+  const auto add_common = [&](size_t count, float scale_px) {
+    for (size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d point = testing::RandomPoint(random, 2.0, 10.0);
+      const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+      Append(sides.a, point.normalized(), scale_px, descriptor);
+      Append(sides.b, testing::BearingOf(sides.b_from_a, point), scale_px, descriptor);
+    }
+  };
+  add_common(common.large, kLargeScale_px);
+  add_common(common.small, kSmallScale_px);
+  for (size_t i = 0; i < common.alike; ++i) {
+    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+    for (Features* side : {&sides.a, &sides.b})
+      Append(*side, testing::RandomDirection(random), kLargeScale_px, descriptor);
+  }
+  for (Features* side : {&sides.a, &sides.b}) {
+    for (size_t i = common.large + common.alike; i < kLarge; ++i)
+      Append(*side, testing::RandomDirection(random), kLargeScale_px, RandomDescriptor(random));
+    for (size_t i = common.small; i < kSmall; ++i)
+      Append(*side, testing::RandomDirection(random), kSmallScale_px, RandomDescriptor(random));
+  }
+  return sides;
+}
+
+TwoViewGeometry Match(const Sides& sides) {
+  const auto geometry =
+      MatchImagePair(kPair, PairSide(sides.a), PairSide(sides.b), {}, {}, {}, {.seed = 1});
+  EXPECT_TRUE(geometry.ok()) << geometry.status();
+  EXPECT_EQ(geometry->kind, TwoViewKind::kGeneral);
+  EXPECT_LT(testing::RotationError(geometry->b_from_a.rotation, sides.b_from_a.rotation),
+            0.2 * kDegree);
+  EXPECT_LT(AngleBetween(geometry->b_from_a.translation, sides.b_from_a.translation),
+            1.0 * kDegree);
+  return *geometry;
+}
+
+TEST(MatchImagePair, LeavesNoDoubtWhereTheLargestFeaturesHaveMuchInCommon) {
+  const TwoViewGeometry geometry = Match(MakeSides(1, {.large = 80, .small = 600}));
+  EXPECT_EQ(geometry.rung, MatchRung::kLargest);
+  EXPECT_EQ(geometry.num_putative, 80U);
+  EXPECT_LE(geometry.log10_false_alarms, kNoDoubt);
+  EXPECT_GT(geometry.inliers.size(), 600U);
+}
+
+TEST(MatchImagePair, BelievesWhatFewLargeFeaturesShowWhereItPredictsTheOthers) {
+  const TwoViewGeometry geometry = Match(MakeSides(2, {.large = 30, .small = 600}));
+  EXPECT_EQ(geometry.rung, MatchRung::kLargest);
+  EXPECT_EQ(geometry.num_putative, 30U);  // so nothing but the largest was compared
+  EXPECT_GT(geometry.log10_false_alarms, kNoDoubt);
+  EXPECT_GT(geometry.inliers.size(), 550U);
+}
+
+TEST(MatchImagePair, ComparesAllWhereFewLargeFeaturesPredictNothing) {
+  const TwoViewGeometry geometry = Match(MakeSides(3, {.large = 30, .small = 0}));
+  EXPECT_EQ(geometry.rung, MatchRung::kDescriptors);
+}
+
+TEST(MatchImagePair, ComparesMoreWhereMostLargeFeaturesDisagree) {
+  const TwoViewGeometry geometry = Match(MakeSides(4, {.large = 30, .small = 600, .alike = 80}));
+  EXPECT_GT(geometry.num_putative, 110U);
+  EXPECT_LE(geometry.log10_false_alarms, kNoDoubt);
+}
+
+}  // namespace
+}  // namespace orbweave
