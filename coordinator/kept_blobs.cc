@@ -202,7 +202,7 @@ absl::Status KeptBlobs::Probe(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, folder_.Put(bytes));
   ORBWEAVE_RETURN_IF_ERROR(folder_.Get(digest).status());
   (void)folder_.RemoveUnused(digest, 0.0);  // or else there is one blob more until it is garbage
-  return shelf_ ? shelf_->Probe() : absl::OkStatus();
+  return shelf_ ? Annotate(shelf_->Probe(bytes), "object store") : absl::OkStatus();
 }
 
 }  // namespace orbweave

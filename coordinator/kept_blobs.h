@@ -63,7 +63,7 @@ class KeptBlobs final : public BlobDepot {
   [[nodiscard]] absl::StatusOr<std::vector<StoredBlob>> List();
   [[nodiscard]] bool IsUnused(const Digest& digest, double unused_s);
   [[nodiscard]] absl::StatusOr<bool> RemoveUnused(const Digest& digest, double unused_s);
-  /// OK when `bytes` can be put, read and removed, and the object store answers.
+  /// OK when `bytes` can be put and read, in the folder and in the object store. One at a time.
   [[nodiscard]] absl::Status Probe(std::string_view bytes);
 
  private:

@@ -13,6 +13,8 @@ namespace {
 
 /// The object that says whose the store is.
 constexpr char kOwnerKey[] = "coordinator";
+/// The object of a Probe.
+constexpr char kProbeKey[] = "probe";
 
 absl::Status BeingRemoved(const Digest& digest) {
   return absl::UnavailableError(
@@ -182,6 +184,17 @@ absl::StatusOr<bool> ObjectShelf::RemoveUnused(const Digest& digest, double unus
   return true;
 }
 
-absl::Status ObjectShelf::Probe() { return store_->Head(kOwnerKey).status(); }
+absl::Status ObjectShelf::Probe(std::string_view bytes) {
+  // One that a crash left may have other bytes, and would never be written over.
+  ORBWEAVE_RETURN_IF_ERROR(store_->Delete(kProbeKey));
+  ORBWEAVE_RETURN_IF_ERROR(store_->Put(kProbeKey, DigestOf(bytes), bytes));
+  std::string read;
+  ORBWEAVE_RETURN_IF_ERROR(store_->Get(kProbeKey, std::nullopt, [&read](std::string_view piece) {
+    read += piece;
+    return absl::OkStatus();
+  }));
+  if (read == bytes) return absl::OkStatus();
+  return absl::DataLossError("the object store gives other bytes than were put");
+}
 
 }  // namespace orbweave

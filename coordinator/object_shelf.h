@@ -49,8 +49,8 @@ class ObjectShelf {
   [[nodiscard]] bool IsUnused(const Digest& digest, double unused_s);
   /// Removes the blob if it is unused; whether it was.
   [[nodiscard]] absl::StatusOr<bool> RemoveUnused(const Digest& digest, double unused_s);
-  /// OK when the store answers.
-  [[nodiscard]] absl::Status Probe();
+  /// OK when `bytes` can be put and read; they stay there until the next probe. One at a time.
+  [[nodiscard]] absl::Status Probe(std::string_view bytes);
 
  private:
   struct Entry {

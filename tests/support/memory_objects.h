@@ -21,6 +21,7 @@ class MemoryObjects final : public ObjectStore {
 
   absl::StatusOr<ObjectInfo> Head(const std::string& key) override {
     ++heads;
+    ++calls;
     if (is_away) return absl::UnavailableError("away");
     const auto found = objects.find(key);
     if (found == objects.end()) return absl::NotFoundError(key);
@@ -29,17 +30,21 @@ class MemoryObjects final : public ObjectStore {
   absl::Status Get(const std::string& key,
                    const std::optional<ByteRange>&,
                    const TakePiece& take) override {
+    ++calls;
     if (is_away) return absl::UnavailableError("away");
     const auto found = objects.find(key);
     if (found == objects.end()) return absl::NotFoundError(key);
     return take(found->second.bytes);
   }
   absl::Status Put(const std::string& key, const Digest&, std::string_view bytes) override {
+    ++calls;
     if (is_away) return absl::UnavailableError("away");
-    objects.try_emplace(key, Object{std::string(bytes), now_unix_s});
+    if (is_read_only) return absl::PermissionDeniedError("read only");
+    objects.try_emplace(key, Object{loses_bytes ? "" : std::string(bytes), now_unix_s});
     return absl::OkStatus();
   }
   absl::Status Delete(const std::string& key) override {
+    ++calls;
     if (on_delete) on_delete();
     if (is_away) return absl::UnavailableError("away");
     objects.erase(key);
@@ -47,6 +52,7 @@ class MemoryObjects final : public ObjectStore {
   }
   absl::StatusOr<std::vector<ObjectInfo>> List() override {
     ++lists;
+    ++calls;
     if (is_away) return absl::UnavailableError("away");
     std::vector<ObjectInfo> infos;
     for (const auto& [key, object] : objects)
@@ -62,6 +68,9 @@ class MemoryObjects final : public ObjectStore {
   std::map<std::string, Object> objects;
   int64_t now_unix_s = 1'000'000;
   bool is_away = false;
+  bool is_read_only = false;
+  bool loses_bytes = false;  ///< keeps nothing of what is put
+  int calls = 0;             ///< of all kinds
   int heads = 0;
   int lists = 0;
   std::function<void()> on_delete{};  ///< just before an object goes
