@@ -3,6 +3,8 @@
 
 #include "cli/slurm_scripts.h"
 
+#include <algorithm>
+
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
@@ -74,14 +76,21 @@ std::string SlurmLaunch::WorkersName() const {
   return absl::StrCat(name, "-worker-", DigestOf(output).ToShortHex());
 }
 
+bool SlurmLaunch::HasStore() const {
+  return std::ranges::any_of(run_arguments, [](const std::string& argument) {
+    return argument == "--store" || argument.starts_with("--store=");
+  });
+}
+
 std::string ShellWord(const std::string& text) {
   return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "'\\''"}}), "'");
 }
 
 std::string CoordinatorScript(const SlurmLaunch& launch) {
   std::string arguments;
-  for (const std::string& argument : launch.run_arguments)
-    absl::StrAppend(&arguments, " ", ShellWord(argument));
+  for (const auto* words : {&launch.command, &launch.run_arguments}) {
+    for (const std::string& word : *words) absl::StrAppend(&arguments, " ", ShellWord(word));
+  }
   return absl::StrCat(
       Header(launch, launch.coordinator_sbatch, launch.name, "coordinator.log"),
       "#SBATCH --cpus-per-task=1\n\n",
@@ -122,7 +131,10 @@ submit() {
 }
 
 # Workers that are missing in the queue: all at first, later those whose node was lost or who gave up.
-# submit_missing COUNT: so many there should be.
+# submit_missing COUNT: so many there should be. Fails when workers cannot work. Says in $skip for how many
+# looks none are to be submitted: for a minute, or longer each time that Slurm takes none.
+skip=0
+pause=1
 submit_missing() {
   local known
   known=$(squeue --noheader --array --me --name="$name") || return 0
@@ -134,13 +146,18 @@ submit_missing() {
   known=$(grep -c . <<<"$known")
   local stay=$((fewest - known))
   [ $stay -gt 0 ] || stay=0
-  submit $stay
-  submit $(($1 - known - stay)) --export=ALL,ORBWEAVE_IDLE_EXIT=120
+  [ $1 -gt $known ] || [ $stay -gt 0 ] || return 0
+  skip=1
+  if submit $stay && submit $(($1 - known - stay)) --export=ALL,ORBWEAVE_IDLE_EXIT=120; then
+    pause=1
+  else
+    pause=$((pause < 16 ? 2 * pause : 32))
+    skip=$((pause - 1))
+  fi
 }
 
 submit_missing $fewest
 "$program")sh",
-      " run",
       arguments,
       " --output ",
       ShellWord(launch.output),
@@ -150,7 +167,9 @@ submit_missing $fewest
       launch.journal_folder.empty() ? "\"${TMPDIR:-/tmp}\"" : ShellWord(launch.journal_folder),
       R"sh( &
 child=$!
-while sleep 60; do submit_missing "$(target)" || break; done &
+while sleep 30; do
+  if [ $skip -gt 0 ]; then skip=$((skip - 1)); else submit_missing "$(target)" || break; fi
+done &
 keeper=$!
 )sh",
       WaitOrRequeue(),
@@ -179,8 +198,8 @@ memory=${SLURM_MEM_PER_NODE:-$((${SLURM_MEM_PER_CPU:-0} * ${SLURM_CPUS_PER_TASK:
 )sh",
       ShellWord(launch.program),
       R"sh( work --join "@$launch/coordinator.json" --patience 600 \
-  --tls "$scratch/keys" --token-file "$launch/join.token" --blobs )sh",
-      ShellWord(launch.output + "/.orbweave/blobs"),
+  --tls "$scratch/keys" --token-file "$launch/join.token")sh",
+      launch.HasStore() ? "" : " --blobs " + ShellWord(launch.output + "/.orbweave/blobs"),
       R"sh( \
   --slots "${SLURM_CPUS_PER_TASK:-1}" ${until:+--until "$until"} \
   ${ORBWEAVE_IDLE_EXIT:+--idle-exit "$ORBWEAVE_IDLE_EXIT"} \

@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "absl/strings/match.h"
+#include "absl/strings/str_split.h"
 #include "cli/exit_code.h"
 #include "tests/support/command.h"
 
@@ -145,6 +147,68 @@ TEST_F(SlurmScripts, TheCoordinatorSubmitsNoneWhileSlurmDoesNotAnswer) {
   Program("squeue", "exit 1");
   EXPECT_EQ(testing::RunCommand(Batch(CoordinatorScript(launch_))).exit_code, kExitOk);
   EXPECT_THAT(Calls(), Not(HasSubstr("sbatch")));
+}
+
+/// How often the script slept for 30 s before each line of `calls` that begins with `begin`.
+std::vector<size_t> PausesBefore(const std::string& calls, const std::string& begin) {
+  std::vector<size_t> pauses;
+  size_t sleeps = 0;
+  for (const absl::string_view line : absl::StrSplit(calls, '\n')) {
+    if (absl::StartsWith(line, "sleep 30")) ++sleeps;
+    if (absl::StartsWith(line, begin)) pauses.push_back(std::exchange(sleeps, 0));
+  }
+  return pauses;
+}
+
+TEST_F(SlurmScripts, WorkersAreSubmittedOnceAMinuteAtMost) {
+  launch_.max_nodes = 8;
+  Program("orbweave",
+          "[ $1 = status ] && { echo 100; exit; }; until [ $(grep -c ^squeue '" +
+              (folder_ / "calls") + "') -ge 4 ]; do /bin/sleep 0.02; done");
+  std::vector<std::string> batch = Batch(CoordinatorScript(launch_));
+  Program("sleep", "exec /bin/sleep 0.02");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  const std::vector<size_t> pauses = PausesBefore(Calls(), "squeue --noheader --array");
+  ASSERT_GE(pauses.size(), 4U) << Calls();
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(pauses[i], 2U) << Calls();
+}
+
+TEST_F(SlurmScripts, TheCoordinatorLooksEveryHalfMinuteWhileNobodyIsMissing) {
+  Write("queue", "12_1\n12_2\n12_3\n");
+  Program(
+      "orbweave",
+      "until [ $(grep -c ^squeue '" + (folder_ / "calls") + "') -ge 4 ]; do /bin/sleep 0.02; done");
+  std::vector<std::string> batch = Batch(CoordinatorScript(launch_));
+  Program("sleep", "exec /bin/sleep 0.02");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  const std::vector<size_t> pauses = PausesBefore(Calls(), "squeue --noheader --array");
+  ASSERT_GE(pauses.size(), 4U) << Calls();
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(pauses[i], 1U) << Calls();
+}
+
+TEST_F(SlurmScripts, TheCoordinatorBacksOffWhileSlurmTakesNoWorkers) {
+  Program("sbatch", "exit 1");
+  Program(
+      "orbweave",
+      "until [ $(grep -c ^sbatch '" + (folder_ / "calls") + "') -ge 4 ]; do /bin/sleep 0.02; done");
+  std::vector<std::string> batch = Batch(CoordinatorScript(launch_));
+  Program("sleep", "exec /bin/sleep 0.02");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  const std::vector<size_t> pauses = PausesBefore(Calls(), "sbatch");
+  ASSERT_GE(pauses.size(), 4U) << Calls();
+  EXPECT_THAT(std::vector<size_t>(pauses.begin(), pauses.begin() + 4),
+              ::testing::ElementsAre(0, 2, 4, 8))
+      << Calls();
+}
+
+TEST_F(SlurmScripts, WithAStoreWorkersLeaveTheFolderAlone) {
+  EXPECT_THAT(WorkersScript(launch_), HasSubstr("--blobs"));
+  for (const std::vector<std::string>& given :
+       {std::vector<std::string>{"images", "--store", "s3://b/p"},
+        std::vector<std::string>{"images", "--store=s3://b/p"}}) {
+    launch_.run_arguments = given;
+    EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--blobs")));
+  }
 }
 
 TEST_F(SlurmScripts, SigtermIsHandedOnAndTheJobRequeued) {
