@@ -129,6 +129,16 @@ CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arg
                    arguments->launch.coordinator_sbatch,
                    "The same for the coordinator alone (repeatable)")
       ->allow_extra_args(false);
+  CLI::Option* const scratch = slurm->add_option(
+      "--scratch",
+      arguments->launch.scratch,
+      "Folder on a disk of each worker's node for copies of blobs that were read, as in "
+      "--scratch '$TMPDIR' (the node's own)");
+  slurm
+      ->add_option("--scratch-size",
+                   arguments->launch.scratch_size,
+                   "Bytes of that disk for each worker, as in 50GiB (default: 16GiB)")
+      ->needs(scratch);
   slurm->add_option("--journal-folder",
                     arguments->launch.journal_folder,
                     "Folder on a disk of the coordinator's node for its journal (default: $TMPDIR, "

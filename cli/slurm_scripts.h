@@ -23,6 +23,9 @@ struct SlurmLaunch {
   std::vector<std::string> sbatch{};  ///< further options of sbatch, for all
   std::vector<std::string> coordinator_sbatch{};  ///< for the coordinator alone
   std::vector<std::string> workers_sbatch{};      ///< for the workers: graphics cards, memory
+  std::string scratch{};         ///< folder of each node for copies of blobs, in which $NAME is the
+                                 ///< node's; empty: none
+  std::string scratch_size{};    ///< as `work --scratch-size` takes it; empty: as that says
   std::string journal_folder{};  ///< of the command; empty: where the node has its temporary files
 
   /// Where the scripts, keys and logs are.
@@ -48,6 +51,10 @@ struct SlurmLaunch {
 
 /// The name in the queue of a launch into a folder of this name.
 [[nodiscard]] std::string NameInQueue(const std::string& name);
+
+/// `text` as one word of a shell, in which $NAME and ${NAME} are as the shell has them, and nothing
+/// else is more than itself.
+[[nodiscard]] std::string ShellWordWithNames(const std::string& text);
 
 /// `text` as one word of a shell.
 [[nodiscard]] std::string ShellWord(const std::string& text);

@@ -6,7 +6,7 @@
 # One job is run undisturbed on this machine, then by Slurm
 #   disturbed          while its coordinator is requeued (5 times) and its workers are preempted by jobs of another
 #                      partition (20 times)
-#   short_allocations  in allocations of 4 minutes (ALLOCATION), of which 5 % (MOST_REPEATED) may be computed twice at most
+#   short_allocations  with its dense cloud, by one worker in allocations of 4 minutes (ALLOCATION), of which 5 % (MOST_REPEATED) may be computed twice at most
 #   elastic            by one to three workers as there is work for
 #   exit_codes         small jobs whose end `sbatch --wait` tells
 #   scaling            orbweave bench scaling --engine slurm, of a corridor
@@ -128,11 +128,11 @@ clean_up() {
   if ((failures == 0)); then rm -rf "$lab"; else echo "what is left: $lab" >&2; fi
 }
 
-# NAME TIME [NODES]: launches the job, whose number goes to $job.
+# NAME TIME [NODES [ARGUMENTS...]]: launches the job, whose number goes to $job.
 launch() {
   model=$lab/$1
   on hub "$orbweave" launch slurm "$lab/street/images" --gnss "$lab/street/gnss.csv" --output "$model" \
-    --nodes "${3:-2}" --cpus 1 --time "$2" >"$lab/$1.log" || return 1
+    --nodes "${3:-2}" --cpus 1 --time "$2" "${@:4}" >"$lab/$1.log" || return 1
   job=$(grep -o '[0-9]*$' "$lab/$1.log" | tail -n 1)
   began=$SECONDS
 }
@@ -172,16 +172,16 @@ disturbed() {
 
 # Slurm counts in whole minutes and warns a minute before the end.
 short_allocations() {
-  launch short "$minutes" 1 || return 1
+  launch short "$minutes" 1 --dense || return 1
   while [ -n "$(state_of_job)" ] && ((SECONDS - began < 3600)); do sleep 1; done
   local all lost percent allocations
   read -r all lost < <(computed_twice "$model"/.orbweave/launch/worker-*.log)
   percent=$(awk "BEGIN { printf \"%.1f\", 100 * $lost / $all }")
-  allocations=$(($(grep -c 'DUE TO JOB REQUEUE' "$model/.orbweave/launch/coordinator.log") + 1))
+  allocations=$(cat "$model"/.orbweave/launch/worker-*.log | grep -c '"event":"worker_started"')
   awk "BEGIN { exit !($percent > $most_repeated) }" && ((++failures)) && echo "more than $most_repeated % was computed twice" >&2
   ((allocations > 1)) || { ((++failures)); echo "the job was too short to need two allocations" >&2; }
   end_launch "allocations of $minutes minutes" \
-    "$allocations allocations of the coordinator; $lost of $all s of slots computed twice: $percent %"
+    "$allocations allocations of the worker; $lost of $all s of slots computed twice: $percent %"
 }
 
 # EXPECTED ARGUMENTS...: launches and waits.

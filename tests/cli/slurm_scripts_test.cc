@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_split.h"
@@ -227,6 +228,32 @@ TEST_F(SlurmScripts, SigtermIsHandedOnAndTheJobRequeued) {
   }
 }
 
+TEST_F(SlurmScripts, TheCoordinatorStaysWhileWorkersThatEndWithItHandIn) {
+  Program("orbweave",
+          "trap 'echo told >>\"" + (folder_ / "calls") +
+              "\"; exit 75' TERM; while :; do /bin/sleep 0.05; done");
+  // The time that is left, and how many seconds of it the script sleeps before it hands SIGTERM on.
+  for (const auto& [left_s, most, least] : {std::tuple(55, 40, 1), {10, 0, 0}, {3000, 0, 0}}) {
+    Write("calls", "");
+    Program("scontrol",
+            "echo \"JobId=7 EndTime=$(date -d '" + std::to_string(left_s) +
+                " seconds' +%Y-%m-%dT%H:%M:%S) X=1\"");
+    const std::vector<std::string> arguments = Batch(CoordinatorScript(launch_));
+    Program("sleep", "exec /bin/sleep 0.01");
+    Command batch(arguments);
+    ASSERT_TRUE(WaitUntil([&] { return Calls().find("orbweave ") != std::string::npos; }, 20.0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    batch.Signal(SIGTERM);
+    EXPECT_EQ(batch.Wait().exit_code, kExitStopped);
+    const std::string calls = Calls();
+    int slept = 0;
+    for (const absl::string_view line : absl::StrSplit(calls.substr(0, calls.find("told")), '\n'))
+      slept += line == "sleep 1" ? 1 : 0;
+    EXPECT_LE(slept, most) << calls;
+    EXPECT_GE(slept, least) << calls;
+  }
+}
+
 TEST_F(SlurmScripts, AWorkerSpeaksForItselfAndNotForTheArrayItIsOf) {
   array_ = "7";  // as its last job is numbered
   Program("orbweave", "exit 75");
@@ -252,7 +279,9 @@ TEST_F(SlurmScripts, AWorkerIsToldWhenItsMachineIsTakenBack) {
   Program("scontrol",
           "echo 'JobId=7 StartTime=2026-11-23T17:00:00 EndTime=2026-11-23T18:00:00 X=1'");
   EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitOk);
-  EXPECT_THAT(Calls(), HasSubstr("--until 2026-11-23T18:00:00"));
+  const std::string end =
+      testing::RunCommand({"/bin/date", "-d", "2026-11-23T17:59:50", "+%s"}).out;
+  EXPECT_THAT(Calls(), HasSubstr("--until " + end.substr(0, end.size() - 1) + " --grace 50"));
   EXPECT_THAT(Calls(), HasSubstr("--join @" + launch_.Folder() + "/coordinator.json"));
   Write("calls", "");
   Program("scontrol", "echo 'JobId=7 EndTime=Unknown'");
@@ -271,6 +300,29 @@ TEST_F(SlurmScripts, SayWhatTheSiteWants) {
   EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--partition")));
   EXPECT_THAT(CoordinatorScript(launch_), HasSubstr("\n#SBATCH --partition=long\n"));
   EXPECT_THAT(CoordinatorScript(launch_), Not(HasSubstr("--mem")));
+}
+
+TEST_F(SlurmScripts, WorkersKeepCopiesOfBlobsWhereTheNodeSays) {
+  Program("orbweave", "exit 0");
+  EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--scratch")));
+  launch_.scratch = "$TMPDIR/a b";
+  launch_.scratch_size = "50GiB";
+  EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), HasSubstr("--scratch " + folder_.Path() + "/a b --scratch-size 50GiB"));
+}
+
+TEST(ShellWordWithNames, ExpandsNamesAndNothingElse) {
+  const auto echo = [](const std::string& text) {
+    return testing::RunCommand({"/usr/bin/env",
+                                "NODE=n 7",
+                                "/bin/bash",
+                                "-c",
+                                "printf %s " + ShellWordWithNames(text)})
+        .out;
+  };
+  EXPECT_EQ(echo("/scratch/$NODE/${NODE}x"), "/scratch/n 7/n 7x");
+  for (const std::string text : {"$(id)", "`id`", "a\"b", "\\", "$1$", "it's", "a\\$ b", ""})
+    EXPECT_EQ(echo(text), text);
 }
 
 TEST(ShellWord, IsOneWordWhateverIsInIt) {
