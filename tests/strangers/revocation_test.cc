@@ -10,6 +10,7 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "security/handshake_probe.h"
 #include "security/secret_file.h"
@@ -103,6 +104,39 @@ TEST(Revoked, LosesStreamsThatHaveBegun) {
   EXPECT_FALSE(wrote.ok());
   EXPECT_FALSE(read.ok());
   EXPECT_TRUE(client->Get(blob).ok()) << "others are not disturbed";
+}
+
+TEST(Revoked, LosesAllOfHundredsOfCallsAndDisturbsNobodyElse) {
+  constexpr uint32_t kWaiting = 150;
+  TlsServer server;
+  const auto node = server.As("node");
+  WorkerInfo many = Worker("node");
+  many.slots = kWaiting;
+  const uint64_t session = node->Join(many)->session;
+  std::atomic<uint32_t> refused{0};
+  std::vector<std::jthread> calls;
+  for (uint32_t slot = 0; slot < kWaiting; ++slot) {
+    calls.emplace_back([&, slot] {
+      if (absl::IsPermissionDenied(node->LeaseTask(session, slot, 3600.0).status())) ++refused;
+    });
+  }
+  const auto busy = server.As("node");
+  std::atomic<bool> is_busy_refused{false};
+  calls.emplace_back([&] {  // and calls that come all the while
+    while (!absl::IsPermissionDenied(busy->Heartbeat(session, {}).status())) {
+    }
+    is_busy_refused = true;
+  });
+  const auto other = server.As("other");
+  const uint64_t others = other->Join(Worker("other"))->session;
+  const auto client = server.As("client");
+  ASSERT_TRUE(Revoke(server.keys(), {.names = {"node"}}).ok());
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(other->Heartbeat(others, {}).ok());
+  calls.clear();  // joins: an hour before their time
+  EXPECT_EQ(refused, kWaiting);
+  EXPECT_TRUE(is_busy_refused);
+  ASSERT_TRUE(client->SubmitJob(*testing::PrepareToyJob(*client, "1")).ok());
+  EXPECT_TRUE((*other->LeaseTask(others, 0, 30.0)).has_value());
 }
 
 TEST(Revoked, StaysOutAfterARestartAndGetsNoNewCertificate) {
