@@ -48,6 +48,7 @@ FileRoots StoreArgument::Folders() const {
 absl::Status StoreArgument::OpenFor(CoordinatorOptions& coordinator) const {
   if (!store.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(coordinator.objects, OpenS3Store(store, keys));
+    coordinator.object_limits = limits;
   }
   ORBWEAVE_ASSIGN_OR_RETURN(coordinator.object_roots, ObjectRootsOf(*this));
   return absl::OkStatus();
@@ -68,6 +69,20 @@ void AddStoreArguments(CLI::App& command, StoreArgument& argument) {
       argument.store,
       "Object store for large blobs, as s3://BUCKET/PREFIX?region=R or "
       "s3://BUCKET/PREFIX?endpoint=https://HOST; workers read and write there without keys");
+  command
+      .add_option("--store-put-limit",
+                  argument.limits.put_bytes,
+                  "With --store: bytes above which a blob is stored in parts, each of which is "
+                  "tried again by itself (default: 5GiB, which no server takes more of)")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(kLeastObjectBytes, kMostPutBytes));
+  command
+      .add_option("--store-part",
+                  argument.limits.part_bytes,
+                  "With --store: bytes of such a part, more where there would be over 10,000 "
+                  "(default: 64MiB; most servers take none below 5MiB)")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(kLeastObjectBytes, kMostPutBytes));
   AddRootArgument(command,
                   argument.roots,
                   "Folder, or s3://BUCKET/PREFIX as for --store, beneath which clients may name "

@@ -16,6 +16,7 @@ namespace orbweave {
 struct StoreArgument {
   std::string store{};  ///< address of an object store for large blobs; empty: none
   std::string keys{};   ///< file of its keys and of those to roots; empty: in the environment
+  ObjectLimits limits{};
   std::map<std::string, std::string> roots{};  ///< by name: folders, and parts of object stores
 
   /// Whether there is anything that keys are for.
@@ -30,7 +31,7 @@ struct StoreArgument {
 /// Declares `--store-keys`.
 CLI::Option* AddStoreKeysArgument(CLI::App& command, std::string& path);
 
-/// Declares `--store` and `--root`.
+/// Declares `--store`, `--store-put-limit`, `--store-part` and `--root`.
 void AddStoreArguments(CLI::App& command, StoreArgument& argument);
 
 /// Notes in the state folder where its large blobs are, for who opens it later: the address, and

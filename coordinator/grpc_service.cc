@@ -298,4 +298,11 @@ grpc::Status GrpcService::GrantBlobs(Context*,
   return grpc::Status::OK;
 }
 
+grpc::Status GrpcService::FinishUpload(Context*,
+                                       const v1::FinishUploadRequest* request,
+                                       v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const UploadEnd end, FromProto(*request));
+  return OnWire(api_.FinishUpload(end));
+}
+
 }  // namespace orbweave

@@ -79,6 +79,7 @@ class GrpcService final
                        grpc::ServerWriter<v1::BlobChunk>*) override;
   grpc::Status PutBlob(Context*, grpc::ServerReader<v1::BlobChunk>*, v1::PutBlobReply*) override;
   grpc::Status GrantBlobs(Context*, const v1::GrantBlobsRequest*, v1::GrantBlobsReply*) override;
+  grpc::Status FinishUpload(Context*, const v1::FinishUploadRequest*, v1::Empty*) override;
 
  private:
   [[nodiscard]] absl::StatusOr<JoinReply> JoinAs(const Context& context, const WorkerInfo& worker);

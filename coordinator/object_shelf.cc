@@ -126,6 +126,33 @@ absl::StatusOr<ObjectGrant> ObjectShelf::GrantPut(const Digest& digest,
   return store_->GrantPut(digest.ToHex(), digest, size_bytes, valid_s);
 }
 
+absl::StatusOr<std::string> ObjectShelf::BeginUpload(const Digest& digest) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto entry = entries_.find(digest);
+    if (entry != entries_.end() && entry->second.is_leaving) return BeingRemoved(digest);
+  }
+  return store_->BeginUpload(digest.ToHex());
+}
+
+ObjectGrant ObjectShelf::GrantPart(const Digest& digest, const ObjectPart& part, int valid_s) {
+  return store_->GrantPart(digest.ToHex(), part, valid_s);
+}
+
+absl::Status ObjectShelf::FinishUpload(const UploadEnd& end) {
+  if (end.etags.empty()) return store_->AbortUpload(end.digest.ToHex(), end.upload);
+  return store_->FinishUpload(end.digest.ToHex(), end.upload, end.etags);
+}
+
+absl::Status ObjectShelf::AbortUploads(double unused_s) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<UploadInfo> uploads, store_->ListUploads());
+  for (const UploadInfo& upload : uploads) {
+    if (static_cast<double>(clock_() - upload.begun_unix_s) < unused_s) continue;
+    ORBWEAVE_RETURN_IF_ERROR(store_->AbortUpload(upload.key, upload.upload));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status ObjectShelf::Refresh(int64_t most_age_s) {
   const int64_t now_unix_s = clock_();
   uint64_t number = 0;

@@ -64,8 +64,37 @@ class MemoryObjects final : public ObjectStore {
   ObjectGrant GrantPut(const std::string& key, const Digest&, uint64_t, int) override {
     return {.url = "put " + key};
   }
+  absl::StatusOr<std::string> BeginUpload(const std::string& key) override {
+    if (is_away) return absl::UnavailableError("away");
+    const std::string upload = "upload " + std::to_string(uploads.size() + 1);
+    uploads[upload] = {key, upload, now_unix_s};
+    return upload;
+  }
+  ObjectGrant GrantPart(const std::string& key, const ObjectPart& part, int) override {
+    return {.url = "put " + key + " " + part.upload + " " + std::to_string(part.number)};
+  }
+  absl::Status FinishUpload(const std::string& key,
+                            const std::string& upload,
+                            const std::vector<std::string>& etags) override {
+    if (uploads.erase(upload) == 0) return absl::NotFoundError(upload);
+    std::string bytes;
+    for (const std::string& etag : etags) bytes += etag;
+    objects.try_emplace(key, Object{bytes, now_unix_s});
+    return absl::OkStatus();
+  }
+  absl::Status AbortUpload(const std::string&, const std::string& upload) override {
+    if (is_away) return absl::UnavailableError("away");
+    uploads.erase(upload);
+    return absl::OkStatus();
+  }
+  absl::StatusOr<std::vector<UploadInfo>> ListUploads() override {
+    std::vector<UploadInfo> infos;
+    for (const auto& [name, info] : uploads) infos.push_back(info);
+    return infos;
+  }
 
   std::map<std::string, Object> objects;
+  std::map<std::string, UploadInfo> uploads;
   int64_t now_unix_s = 1'000'000;
   bool is_away = false;
   bool is_read_only = false;
