@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <memory>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "bench/scaling/engine_study.h"
-#include "cli/option_arguments.h"
+#include "absl/status/statusor.h"
+#include "bench/scaling/job_measurement.h"
 
 namespace orbweave {
 
@@ -26,9 +25,6 @@ struct EngineArgument {
   std::vector<std::string> sbatch{};  ///< further options of sbatch
 };
 
-/// Declares `--engine` and what belongs to it; returns `--engine`.
-CLI::Option* AddEngineArguments(CLI::App& command, EngineArgument& argument);
-
 /// One corridor on so many nodes.
 struct NodesRun {
   std::string corridor{};  ///< folder, see WriteCorridor
@@ -42,15 +38,5 @@ class BenchEngine {
   virtual ~BenchEngine() = default;
   [[nodiscard]] virtual absl::StatusOr<JobMeasurement> Run(const NodesRun& run) = 0;
 };
-
-/// `scratch`: a folder for what it needs, on storage that all nodes see. InvalidArgument,
-/// FailedPrecondition: such nodes cannot be had here, and why.
-[[nodiscard]] absl::StatusOr<std::unique_ptr<BenchEngine>> MakeBenchEngine(
-    const EngineArgument& argument, const OptionArguments& options, const std::string& scratch);
-
-/// All jobs of a study, in `scratch`; says on stderr how far it is. Errors of the engine.
-[[nodiscard]] absl::StatusOr<std::vector<StudyRun>> RunStudy(const EngineArgument& argument,
-                                                             const OptionArguments& options,
-                                                             const std::string& scratch);
 
 }  // namespace orbweave

@@ -8,6 +8,7 @@
 #include "bench/scaling/job_measurement.h"
 #include "cli/bench_engine.h"
 #include "cli/command.h"
+#include "cli/option_arguments.h"
 
 namespace orbweave {
 

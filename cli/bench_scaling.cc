@@ -16,10 +16,10 @@
 #include "bench/scaling/format_scaling.h"
 #include "bench/scaling/scaling_html.h"
 #include "bench/scaling/scaling_json.h"
-#include "cli/bench_engine.h"
 #include "cli/exit_code.h"
 #include "cli/measure_job.h"
 #include "cli/option_arguments.h"
+#include "cli/run_study.h"
 #include "cli/write_corridor.h"
 #include "core/io/file.h"
 

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "cli/bench_engine.h"
+#include "cli/option_arguments.h"
 
 namespace orbweave {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/bench_engine.h"
+#include "cli/run_study.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -61,6 +61,19 @@ absl::StatusOr<std::string> CorridorOf(uint32_t panoramas, const std::string& sc
         WriteCorridor({.panoramas = static_cast<int>(panoramas)}, folder).status());
   }
   return folder;
+}
+
+absl::StatusOr<std::unique_ptr<BenchEngine>> MakeEngine(const EngineArgument& argument,
+                                                        const OptionArguments& options,
+                                                        const std::string& scratch) {
+  if (argument.strong == 0 && argument.weak == 0)
+    return absl::InvalidArgumentError("--engine needs --strong or --weak: how many panoramas");
+  ORBWEAVE_ASSIGN_OR_RETURN(PipelineOptions read, ReadOptions(options));
+  if (argument.engine == "netns") return MakeNetnsEngine(argument, options, scratch);
+  if (argument.engine == "slurm") return MakeSlurmEngine(argument, options);
+  if (argument.cpus != 1)
+    return absl::InvalidArgumentError("--cpus is for netns and slurm: a local node has one slot");
+  return std::make_unique<LocalEngine>(std::move(read));
 }
 
 }  // namespace
@@ -127,23 +140,10 @@ CLI::Option* AddEngineArguments(CLI::App& command, EngineArgument& argument) {
   return engine;
 }
 
-absl::StatusOr<std::unique_ptr<BenchEngine>> MakeBenchEngine(const EngineArgument& argument,
-                                                             const OptionArguments& options,
-                                                             const std::string& scratch) {
-  if (argument.strong == 0 && argument.weak == 0)
-    return absl::InvalidArgumentError("--engine needs --strong or --weak: how many panoramas");
-  ORBWEAVE_ASSIGN_OR_RETURN(PipelineOptions read, ReadOptions(options));
-  if (argument.engine == "netns") return MakeNetnsEngine(argument, options, scratch);
-  if (argument.engine == "slurm") return MakeSlurmEngine(argument, options);
-  if (argument.cpus != 1)
-    return absl::InvalidArgumentError("--cpus is for netns and slurm: a local node has one slot");
-  return std::make_unique<LocalEngine>(std::move(read));
-}
-
 absl::StatusOr<std::vector<StudyRun>> RunStudy(const EngineArgument& argument,
                                                const OptionArguments& options,
                                                const std::string& scratch) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto engine, MakeBenchEngine(argument, options, scratch));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto engine, MakeEngine(argument, options, scratch));
   const std::vector<Plan> plans = PlansOf(argument);
   std::vector<StudyRun> runs;
   for (const Plan& plan : plans) {
