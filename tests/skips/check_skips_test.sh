@@ -41,3 +41,19 @@ if "$check" "$work/nothing.xml" 2>/dev/null; then
   echo "a run that left nothing passes" >&2
   exit 1
 fi
+
+# Whoever is on the list exists.
+tests=$(dirname "$check")
+while read -r first second _; do
+  case $first in
+    '' | '#'*) continue ;;
+    elsewhere) name=${second##*/} ;;
+    *) name=${first##*/} ;;
+  esac
+  suite=${name%%.*} case=${name#*.}
+  suite=${suite#\*} case=${case%\*}
+  grep -rqE "TEST(_F|_P)?\($suite, *$case" "$tests" --include='*_test.cc' && continue
+  grep -rqF "NAME deploy/$suite.$case" "$tests" --include=CMakeLists.txt && continue
+  echo "there is no test $name, which the list names" >&2
+  exit 1
+done <"$tests/may_skip.txt"
