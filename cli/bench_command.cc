@@ -3,6 +3,7 @@
 #include "cli/bench_command.h"
 
 #include "cli/bench_dense.h"
+#include "cli/bench_measure.h"
 #include "cli/bench_scaling.h"
 
 namespace orbweave {
@@ -10,6 +11,7 @@ namespace orbweave {
 void AddBenchCommand(CLI::App& app, SelectedCommand& selected) {
   CLI::App* command = app.add_subcommand("bench", "Measure this program");
   command->require_subcommand(1);
+  AddBenchMeasure(*command, selected);
   AddBenchScaling(*command, selected);
   AddBenchDense(*command, selected);
 }

@@ -19,6 +19,7 @@
 #include "cli/exit_code.h"
 #include "cli/measure_job.h"
 #include "cli/option_arguments.h"
+#include "cli/run_study.h"
 #include "cli/write_corridor.h"
 #include "core/io/file.h"
 
@@ -30,16 +31,22 @@ struct BenchArguments {
   std::vector<uint32_t> workers = {1, 2};
   std::string job{};
   std::string output{};
+  EngineArgument engine{};
   ScalingQuestion question{};
   OptionArguments options{};
 };
 
+/// With the adjustment as in large jobs, unless the command line says otherwise.
+OptionArguments Given(const BenchArguments& arguments) {
+  OptionArguments given = arguments.options;
+  given.sets.insert(given.sets.begin(), "blocks.distribute_from=0");
+  return given;
+}
+
 /// Every size on the fewest workers, the largest on all numbers of them.
 absl::StatusOr<std::vector<JobMeasurement>> MeasureCorridors(const BenchArguments& arguments,
                                                              const std::string& scratch) {
-  OptionArguments given = arguments.options;
-  given.sets.insert(given.sets.begin(), "blocks.distribute_from=0");  // as large jobs are run
-  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(given));
+  ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(Given(arguments)));
   const uint32_t largest =
       *std::max_element(arguments.panoramas.begin(), arguments.panoramas.end());
   const uint32_t fewest = *std::min_element(arguments.workers.begin(), arguments.workers.end());
@@ -53,7 +60,11 @@ absl::StatusOr<std::vector<JobMeasurement>> MeasureCorridors(const BenchArgument
       std::fprintf(stderr, "%u panoramas, %u workers\n", panoramas, workers);
       const std::string folder = absl::StrCat(scratch, "/job-", panoramas, "-", workers);
       ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(),
-                                MeasureCorridorJob(corridor, options, workers, folder));
+                                MeasureCorridorJob({.corridor = corridor,
+                                                    .options = options,
+                                                    .folder = folder,
+                                                    .fleet = {.workers = workers},
+                                                    .workers = workers}));
       std::filesystem::remove_all(folder);
     }
   }
@@ -72,20 +83,41 @@ double LoadAverage() {
   return ::getloadavg(&load, 1) == 1 ? load : 0.0;
 }
 
-absl::Status BenchScaling(const BenchArguments& arguments) {
-  const std::string output = arguments.output.empty() ? arguments.job : arguments.output;
-  const double load_average = LoadAverage();
-  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(output));
+/// The report on a study by an engine.
+absl::StatusOr<ScalingReport> Study(const BenchArguments& arguments, const std::string& scratch) {
+  const EngineArgument& engine = arguments.engine;
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<StudyRun> runs,
+                            RunStudy(engine, Given(arguments), scratch));
+  std::vector<JobMeasurement> jobs;
+  for (const StudyRun& run : runs) jobs.push_back(run.job);
+  ScalingReport report = BuildScalingReport(jobs, arguments.question);
+  const bool has_own_machines = engine.engine == "slurm";
+  report.study = BuildEngineStudy(
+      runs,
+      {.engine = engine.engine,
+       .machine_processors = has_own_machines ? 0 : std::thread::hardware_concurrency()});
+  return report;
+}
+
+absl::StatusOr<ScalingReport> Measure(const BenchArguments& arguments, const std::string& scratch) {
+  if (!arguments.engine.engine.empty()) return Study(arguments, scratch);
   std::vector<JobMeasurement> jobs;
   if (!arguments.job.empty()) {
     ORBWEAVE_ASSIGN_OR_RETURN(jobs.emplace_back(), MeasureFinishedJob(arguments.job));
   } else {
-    const std::string scratch = output + "/.scratch";
-    std::filesystem::remove_all(scratch);
     ORBWEAVE_ASSIGN_OR_RETURN(jobs, MeasureCorridors(arguments, scratch));
-    std::filesystem::remove_all(scratch);
   }
-  ScalingReport report = BuildScalingReport(jobs, arguments.question);
+  return BuildScalingReport(jobs, arguments.question);
+}
+
+absl::Status BenchScaling(const BenchArguments& arguments) {
+  const std::string output = arguments.output.empty() ? arguments.job : arguments.output;
+  const double load_average = LoadAverage();
+  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(output));
+  const std::string scratch = output + "/.scratch";
+  std::filesystem::remove_all(scratch);
+  ORBWEAVE_ASSIGN_OR_RETURN(ScalingReport report, Measure(arguments, scratch));
+  std::filesystem::remove_all(scratch);
   report.processors = std::thread::hardware_concurrency();
   report.load_average = load_average;
   return Write(report, output);
@@ -117,6 +149,8 @@ void AddBenchScaling(CLI::App& bench, SelectedCommand& selected) {
           ->add_option("--job", arguments->job, "Output folder of a finished job, instead of runs")
           ->excludes(panoramas)
           ->excludes(workers);
+  CLI::Option* engine = AddEngineArguments(*command, arguments->engine);
+  engine->excludes(panoramas)->excludes(workers)->excludes(job);
   CLI::Option* output = command->add_option(
       "--output", arguments->output, "Folder for scaling.json and scaling.html; or that of --job");
   command
@@ -143,6 +177,10 @@ void AddBenchScaling(CLI::App& bench, SelectedCommand& selected) {
       "Examples:\n"
       "  orbweave bench scaling --panoramas 250,500,1000 --workers 1,2 --output scaling\n"
       "  orbweave bench scaling --job model\n"
+      "  orbweave bench scaling --engine netns --nodes 1,2,4 --node-processors 0.4 --link-mbit 200 "
+      "--strong 500 --weak 125 --repeat 3 --output scaling\n"
+      "  orbweave bench scaling --engine slurm --nodes 1,2,4,8 --cpus 8 --strong 4000 --weak 500 "
+      "--sbatch=--account=city --output scaling\n"
       "The global adjustment is distributed as in large jobs (blocks.distribute_from=0).");
   command->callback([arguments, job, output, &selected] {
     if (job->count() + output->count() == 0) throw CLI::RequiredError("--output (or --job)");

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/store_argument.h"
 #include "coordinator/journal_copy.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
@@ -55,6 +56,8 @@ absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& out
   ORBWEAVE_RETURN_IF_ERROR(CheckHoldsJob(output));
   const std::string state = output + "/.orbweave";
   CoordinatorOptions options{.state_dir = state, .leases_survive = false, .find_plan = FindJobPlan};
+  ORBWEAVE_ASSIGN_OR_RETURN(const StoreArgument store, RememberedStore(state));
+  ORBWEAVE_RETURN_IF_ERROR(store.OpenFor(options));
   if (!SharedFileSystemOf(state).empty()) options.open_journal = OpenJournalToLook;
   return Coordinator::Open(options, clock);
 }

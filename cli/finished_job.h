@@ -9,8 +9,9 @@
 
 namespace orbweave {
 
-/// Opens the state of a job that ran into the folder `output`, without workers. NotFound: no job
-/// ran there; FailedPrecondition: it runs now. `clock` outlives the coordinator.
+/// Opens the state of a job that ran into the folder `output`, without workers, and the object
+/// store that it had. NotFound: no job ran there; FailedPrecondition: it runs now; errors of
+/// OpenS3Store. `clock` outlives the coordinator.
 [[nodiscard]] absl::StatusOr<std::unique_ptr<Coordinator>> OpenFinished(const std::string& output,
                                                                         const Clock& clock);
 

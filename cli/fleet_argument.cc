@@ -28,6 +28,9 @@ void AddFleetArguments(CLI::App& command, FleetArgument& argument) {
                      argument.journal_folder,
                      "Folder on a disk of this machine to keep the journal in, with a copy in the "
                      "output (default: only where that is on NFS, Lustre and their like)");
+  AddStoreArguments(command, argument.store);
+  if (command.get_option_no_throw("--store-keys") == nullptr)
+    AddStoreKeysArgument(command, argument.store.keys);
   AddLeaseArgument(command, argument.lease_s);
   AddMonitoringArguments(command, argument.monitoring);
 }

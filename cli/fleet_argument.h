@@ -7,6 +7,7 @@
 
 #include "cli/local_fleet.h"
 #include "cli/monitoring.h"
+#include "cli/store_argument.h"
 #include "core/base/status.h"
 
 namespace orbweave {
@@ -16,6 +17,7 @@ struct FleetArgument {
   uint32_t workers = 2;          ///< processes of this machine
   FleetDoor door{};              ///< for workers of others
   std::string journal_folder{};  ///< see LocalFleetOptions
+  StoreArgument store{};
   MonitoringArgument monitoring{};
   double lease_s = kDefaultLease_s;
 
@@ -24,7 +26,8 @@ struct FleetArgument {
 };
 
 /// Declares `--workers`, `--listen`, `--tls`, `--announce` and `--announce-host`, `--lease`,
-/// `--journal-folder`, and those of AddMonitoringArguments.
+/// `--journal-folder`, those of AddStoreArguments (and `--store-keys`, unless the command has it
+/// for its images: then its value goes to `store.keys` as well) and of AddMonitoringArguments.
 void AddFleetArguments(CLI::App& command, FleetArgument& argument);
 
 /// Declares `--lease` alone.

@@ -3,12 +3,8 @@
 
 #include "cli/launch_command.h"
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,17 +15,10 @@
 #include "absl/strings/str_split.h"
 #include "cli/exit_code.h"
 #include "cli/run_command.h"
-#include "cli/slurm_scripts.h"
-#include "core/io/file.h"
-#include "core/storage/durable_file.h"
-#include "security/join_token.h"
-#include "security/key_store.h"
-#include "security/unix_time.h"
+#include "cli/slurm_launch.h"
 
 namespace orbweave {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct LaunchArguments {
   SlurmLaunch launch{};
@@ -87,50 +76,6 @@ absl::Status ReadNodes(const std::string& nodes, SlurmLaunch& launch) {
   return absl::OkStatus();
 }
 
-/// Keys of a fleet of this job's own, and a token by which its workers join.
-absl::Status MakeKeys(const SlurmLaunch& launch) {
-  constexpr int64_t kValid_s = int64_t{30} * 86'400;
-  const std::string keys = launch.Folder() + "/keys";
-  std::error_code error;
-  if (!fs::exists(keys, error))
-    ORBWEAVE_RETURN_IF_ERROR(MakeKeyStore(keys, "launch", {}, UnixNow()));
-  return WriteJoinToken(keys, launch.Folder() + "/join.token", UnixNow() + kValid_s, kMostUses)
-      .status();
-}
-
-absl::Status WriteScripts(const SlurmLaunch& launch) {
-  const std::string folder = launch.Folder();
-  ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(launch.output));
-  ORBWEAVE_RETURN_IF_ERROR(MakeFolder(folder));
-  ORBWEAVE_RETURN_IF_ERROR(MakeKeys(launch));
-  ORBWEAVE_RETURN_IF_ERROR(
-      WriteFileDurably(folder, folder + "/coordinator.sbatch", CoordinatorScript(launch)));
-  return WriteFileDurably(folder, folder + "/workers.sbatch", WorkersScript(launch));
-}
-
-/// The exit code of `sbatch`; with --wait that is the job's.
-int Submit(const LaunchArguments& arguments) {
-  std::fflush(nullptr);
-  const std::string script = arguments.launch.Folder() + "/coordinator.sbatch";
-  const std::string command =
-      absl::StrCat("exec sbatch ", arguments.wait ? "--wait " : "", ShellWord(script));
-  const int end = std::system(command.c_str());
-  if (end != -1 && WIFEXITED(end)) return WEXITSTATUS(end);
-  return kExitFailed;
-}
-
-/// Makes what was said relative to here hold on every node.
-absl::Status MakeAbsolute(SlurmLaunch& launch) {
-  std::error_code error;
-  launch.program = fs::read_symlink("/proc/self/exe", error).string();
-  launch.work_folder = fs::current_path(error).string();
-  launch.output = fs::absolute(launch.output, error).lexically_normal().string();
-  while (launch.output.size() > 1 && launch.output.ends_with('/')) launch.output.pop_back();
-  if (error) return absl::InvalidArgumentError(absl::StrCat(launch.output, ": ", error.message()));
-  launch.name = NameInQueue(fs::path(launch.output).filename().string());
-  return absl::OkStatus();
-}
-
 int Launch(LaunchArguments arguments) {
   SlurmLaunch& launch = arguments.launch;
   absl::Status status = ReadNodes(arguments.nodes, launch);
@@ -144,10 +89,10 @@ int Launch(LaunchArguments arguments) {
                 WorkersScript(launch).c_str());
     return kExitOk;
   }
-  if (status.ok()) status = WriteScripts(launch);
+  if (status.ok()) status = WriteLaunch(launch);
   if (!status.ok()) return ReportStatus(status);
   std::printf("scripts, keys and logs are in %s\n", launch.Folder().c_str());
-  return Submit(arguments);
+  return SubmitLaunch(launch, arguments.wait ? SubmitAnd::kWait : SubmitAnd::kLeave);
 }
 
 CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arguments) {
@@ -184,6 +129,16 @@ CLI::App* AddSlurm(CLI::App& launch, const std::shared_ptr<LaunchArguments>& arg
                    arguments->launch.coordinator_sbatch,
                    "The same for the coordinator alone (repeatable)")
       ->allow_extra_args(false);
+  CLI::Option* const scratch = slurm->add_option(
+      "--scratch",
+      arguments->launch.scratch,
+      "Folder on a disk of each worker's node for copies of blobs that were read, as in "
+      "--scratch '$TMPDIR' (the node's own)");
+  slurm
+      ->add_option("--scratch-size",
+                   arguments->launch.scratch_size,
+                   "Bytes of that disk for each worker, as in 50GiB (default: 16GiB)")
+      ->needs(scratch);
   slurm->add_option("--journal-folder",
                     arguments->launch.journal_folder,
                     "Folder on a disk of the coordinator's node for its journal (default: $TMPDIR, "

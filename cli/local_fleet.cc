@@ -75,7 +75,8 @@ absl::Status LocalFleet::OpenDoor() {
                         door.listen,
                         {.tls_folder = door.tls_folder,
                          .used_tokens_folder = options_.coordinator.state_dir + "/used_tokens",
-                         .log = options_.coordinator.log}));
+                         .log = options_.coordinator.log,
+                         .roots = options_.roots}));
   ORBWEAVE_RETURN_IF_ERROR(Announce(door.announce, door_->address(), door.tls_folder));
   options_.coordinator.log({.event = "door_open", .message = "address=" + door_->address()});
   return absl::OkStatus();
@@ -139,24 +140,25 @@ absl::StatusOr<JobStatus> LocalFleet::RunJob(const JobSpec& job,
 }
 
 absl::Status LocalFleet::StartMember(Member& member) const {
-  const std::vector<std::string> arguments = {"orbweave",
-                                              "work",
-                                              "--join",
-                                              address(),
-                                              "--name",
-                                              member.name,
-                                              "--blobs",
-                                              BlobFolderOf(options_.coordinator.state_dir),
-                                              "--threads",
-                                              absl::StrCat(options_.threads_per_worker),
-                                              "--memory",
-                                              absl::StrCat(member.offers.memory_bytes),
-                                              "--gpus",
-                                              absl::StrCat(member.offers.gpus),
-                                              "--grace",
-                                              "0",
-                                              "--parent-pid",
-                                              absl::StrCat(::getpid())};
+  std::vector<std::string> arguments = {"orbweave",
+                                        "work",
+                                        "--join",
+                                        address(),
+                                        "--name",
+                                        member.name,
+                                        "--threads",
+                                        absl::StrCat(options_.threads_per_worker),
+                                        "--memory",
+                                        absl::StrCat(member.offers.memory_bytes),
+                                        "--gpus",
+                                        absl::StrCat(member.offers.gpus),
+                                        "--grace",
+                                        "0",
+                                        "--parent-pid",
+                                        absl::StrCat(::getpid())};
+  if (options_.coordinator.objects == nullptr) {
+    arguments.insert(arguments.end(), {"--blobs", BlobFolderOf(options_.coordinator.state_dir)});
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(member.process,
                             ChildProcess::SpawnSelf(arguments, {.log_path = member.log_path}));
   return absl::OkStatus();

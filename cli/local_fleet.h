@@ -14,6 +14,7 @@
 #include "cli/monitoring.h"
 #include "cli/wait_for_job.h"
 #include "coordinator/coordinator.h"
+#include "coordinator/file_roots.h"
 #include "coordinator/grpc_server.h"
 #include "core/base/clock.h"
 #include "worker/child_process.h"
@@ -32,6 +33,7 @@ struct FleetDoor {
 struct LocalFleetOptions {
   CoordinatorOptions coordinator{};
   FleetDoor door{};
+  FileRoots roots{};  ///< beneath which those who come by the door may name files
   MonitoringArgument monitoring{};
   /// Where the journal is, with a copy in the state folder; empty: in the state folder itself, or
   /// in that of temporary files where machines share its file system.
@@ -44,6 +46,7 @@ struct LocalFleetOptions {
 /// A coordinator in this process, listening on a unix socket in its state folder, and worker
 /// processes of the same executable (`<self> work --join ...`), which end with it however it ends;
 /// and, where it has a door, whoever joins there, who outlast it unless they are sent home.
+/// With an object store they, too, have large blobs there, and not in the coordinator's folder.
 /// A worker that dies is started again; its tasks go to others at once. Workers write
 /// their log to `<state>/logs/worker-<n>.log`, the coordinator to `coordinator.log` beside them.
 class LocalFleet {

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/measure_job.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <ctime>
+#include <filesystem>
 
+#include "absl/strings/str_cat.h"
 #include "cli/fetch_results.h"
 #include "cli/finished_job.h"
 #include "cli/run_local_job.h"
+#include "core/base/sleep.h"
 #include "core/report/build_job_report.h"
 #include "core/report/job_results.h"
 #include "stages/prepare_job.h"
@@ -36,17 +41,46 @@ absl::StatusOr<JobMeasurement> Recorded(ClientApi& coordinator, const JobStatus&
   return measurement;
 }
 
+/// So that time is that of the job, and not of whoever starts workers.
+absl::Status AwaitWorkers(JobApi& coordinator, uint32_t count, const std::stop_token& stop) {
+  constexpr double kLook_s = 0.1;
+  constexpr double kSay_s = 60.0;
+  double until_said_s = kSay_s;
+  while (!stop.stop_requested()) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<WorkerStatus> workers, coordinator.ListWorkers());
+    const auto here = std::ranges::count_if(workers, &WorkerStatus::alive);
+    if (here >= count) return absl::OkStatus();
+    if ((until_said_s -= kLook_s) <= 0.0) {
+      std::fprintf(stderr, "%d of %u workers are there\n", static_cast<int>(here), count);
+      until_said_s = kSay_s;
+    }
+    SleepUnlessStopped(kLook_s, stop);
+  }
+  return absl::CancelledError("interrupted");
+}
+
+absl::Status CheckNothingRanIn(const std::string& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(BlobFolderOf(folder + "/.orbweave"), error)) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat(
+      folder, ": a job ran here before; a measurement begins anew, remove the folder"));
+}
+
 }  // namespace
 
-absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
-                                                  const PipelineOptions& options,
-                                                  uint32_t workers,
-                                                  const std::string& folder) {
+absl::StatusOr<JobMeasurement> MeasureCorridorJob(const CorridorRun& run) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckNothingRanIn(run.folder));
   JobMeasurement measurement;
   double cpu_start_s = 0.0;
-  const auto prepare = [&](BlobDepot& coordinator, const StageContext& context) {
-    absl::StatusOr<JobSpec> spec = PrepareDatabaseJob(
-        coordinator, corridor + "/corridor.db", corridor + "/gnss.csv", "", options, context);
+  const auto prepare = [&](ClientApi& coordinator,
+                           const StageContext& context) -> absl::StatusOr<JobSpec> {
+    absl::StatusOr<JobSpec> spec = PrepareDatabaseJob(coordinator,
+                                                      run.corridor + "/corridor.db",
+                                                      run.corridor + "/gnss.csv",
+                                                      "",
+                                                      run.options,
+                                                      context);
+    ORBWEAVE_RETURN_IF_ERROR(AwaitWorkers(coordinator, run.workers, context.stop));
     RestartPeakMemory();
     cpu_start_s = ProcessCpuSeconds();
     return spec;
@@ -55,18 +89,18 @@ absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
     const double coordinator_cpu_s = ProcessCpuSeconds() - cpu_start_s;
     const uint64_t coordinator_peak_bytes = PeakMemoryBytes();
     ORBWEAVE_ASSIGN_OR_RETURN(measurement, Recorded(coordinator, job));
-    ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskTiming> timings,
-                              coordinator.GetTimings(job.id));
-    measurement.workers = workers;
+    ORBWEAVE_ASSIGN_OR_RETURN(measurement.timings, coordinator.GetTimings(job.id));
+    measurement.workers = run.workers;
+    measurement.slots = run.slots;
     measurement.wall_s = job.elapsed_s;
-    measurement.overhead = MeasureOverhead(timings, measurement.tasks);
+    measurement.overhead = MeasureOverhead(measurement.timings, measurement.tasks);
     measurement.coordinator_cpu_s = coordinator_cpu_s;
     measurement.coordinator_peak_bytes = coordinator_peak_bytes;
     return absl::OkStatus();
   };
   const StopSignals signals;
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(
-      {.output = folder, .fleet = {.workers = workers}, .prepare = prepare, .conclude = conclude},
+      {.output = run.folder, .fleet = run.fleet, .prepare = prepare, .conclude = conclude},
       signals));
   return measurement;
 }

@@ -6,16 +6,24 @@
 #include <string>
 
 #include "bench/scaling/job_measurement.h"
+#include "cli/fleet_argument.h"
 #include "stages/pipeline_options.h"
 
 namespace orbweave {
 
-/// Reconstructs the corridor in `corridor` (see WriteCorridor) from nothing, as
-/// `orbweave reconstruct` does, with state in `folder`. Codes of RunLocalJob.
-[[nodiscard]] absl::StatusOr<JobMeasurement> MeasureCorridorJob(const std::string& corridor,
-                                                                const PipelineOptions& options,
-                                                                uint32_t workers,
-                                                                const std::string& folder);
+/// A corridor that is to be reconstructed and measured.
+struct CorridorRun {
+  std::string corridor{};  ///< folder, see WriteCorridor
+  PipelineOptions options{};
+  std::string folder{};  ///< of its state, where nothing has been done yet
+  FleetArgument fleet{};
+  uint32_t workers = 1;  ///< that have to be there before the job begins
+  uint32_t slots = 1;    ///< of each
+};
+
+/// Reconstructs it from nothing, as `orbweave reconstruct` does. FailedPrecondition: a job ran in
+/// that folder before; codes of RunLocalJob.
+[[nodiscard]] absl::StatusOr<JobMeasurement> MeasureCorridorJob(const CorridorRun& run);
 
 /// The last finished job of the output folder `output`, as its tasks are recorded. Codes of
 /// OpenFinished and LastFinishedJob.

@@ -73,10 +73,13 @@ void AddRunCommand(CLI::App& app, SelectedCommand& selected) {
       "keys/coordinator --announce model.json\n"
       "  orbweave run 's3://city-images/2026/north?region=eu-central-1' --store-keys reader.keys "
       "--output model\n"
+      "  orbweave run street/images --output model --store "
+      "'s3://city-blobs/model?region=eu-central-1' --store-keys store.keys\n"
       "Ctrl-C stops cleanly; the same command goes on where it was. Workers that joined by "
       "--listen "
       "are sent home at the end, and not when an engine stops it by SIGTERM (exit code 75).");
   command->callback([arguments, &selected] {
+    arguments->fleet.store.keys = arguments->scan.store_keys;
     selected.run = [arguments] { return ReportStatus(Run(*arguments)); };
   });
 }

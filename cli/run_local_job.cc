@@ -40,6 +40,20 @@ absl::Status Interrupted(const std::string& output, int signal) {
   return signal == SIGTERM ? StoppedError(message) : absl::CancelledError(message);
 }
 
+/// What was given; of a job that goes on also the store that it had before.
+absl::StatusOr<StoreArgument> StoreOf(const LocalJob& job) {
+  const std::string state_dir = job.output + "/.orbweave";
+  StoreArgument store = job.fleet.store;
+  if (!store.store.empty()) {
+    ORBWEAVE_RETURN_IF_ERROR(RememberStore(state_dir, store));
+    return store;
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const StoreArgument before, RememberedStore(state_dir));
+  store.store = before.store;
+  if (store.keys.empty()) store.keys = before.keys;
+  return store;
+}
+
 /// As long as nobody stops it.
 absl::Status RunOn(LocalFleet& fleet, const LocalJob& job, const std::stop_token& stop) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobSpec spec, PrepareShowingProgress(fleet, job, stop));
@@ -53,13 +67,16 @@ absl::Status RunOn(LocalFleet& fleet, const LocalJob& job, const std::stop_token
 absl::Status RunLocalJob(const LocalJob& job, const StopSignals& signals) {
   ORBWEAVE_RETURN_IF_ERROR(job.fleet.Check());
   ORBWEAVE_RETURN_IF_ERROR(EnsureWritableFolder(job.output));
-  const LocalFleetOptions fleet_options{.coordinator = {.state_dir = job.output + "/.orbweave",
-                                                        .lease_s = job.fleet.lease_s,
-                                                        .find_plan = FindJobPlan},
-                                        .door = job.fleet.door,
-                                        .monitoring = job.fleet.monitoring,
-                                        .journal_folder = job.fleet.journal_folder,
-                                        .workers = job.fleet.workers};
+  LocalFleetOptions fleet_options{.coordinator = {.state_dir = job.output + "/.orbweave",
+                                                  .lease_s = job.fleet.lease_s,
+                                                  .find_plan = FindJobPlan},
+                                  .door = job.fleet.door,
+                                  .monitoring = job.fleet.monitoring,
+                                  .journal_folder = job.fleet.journal_folder,
+                                  .workers = job.fleet.workers};
+  ORBWEAVE_ASSIGN_OR_RETURN(const StoreArgument store, StoreOf(job));
+  ORBWEAVE_RETURN_IF_ERROR(store.OpenFor(fleet_options.coordinator));
+  fleet_options.roots = store.Folders();
   ORBWEAVE_ASSIGN_OR_RETURN(const auto fleet, LocalFleet::Start(fleet_options));
   const absl::Status end = RunOn(*fleet, job, signals.token());
   const bool is_stopped =

@@ -3,10 +3,8 @@
 
 #include "cli/serve_command.h"
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,7 +16,6 @@
 #include "cli/exit_code.h"
 #include "cli/fleet_argument.h"
 #include "cli/monitoring.h"
-#include "cli/root_argument.h"
 #include "cli/see_workers_off.h"
 #include "cli/stop_signals.h"
 #include "cli/store_argument.h"
@@ -27,7 +24,6 @@
 #include "coordinator/open_journal.h"
 #include "coordinator/postgres_journal.h"
 #include "core/base/sleep.h"
-#include "objects/s3_store.h"
 
 namespace orbweave {
 namespace {
@@ -36,9 +32,7 @@ struct ServeOptions {
   std::string listen{};
   std::string journal{};         ///< of a PostgreSQL database; empty: in the state folder
   std::string journal_folder{};  ///< where it is instead, with a copy in the state folder
-  std::string store{};           ///< address of an object store; empty: none
-  std::string store_keys{};
-  std::map<std::string, std::string> roots{};  ///< by name: folders, and parts of object stores
+  StoreArgument store{};
   MonitoringArgument monitoring{};
   AnnounceArgument announce{};
   ServerOptions server{};
@@ -67,32 +61,6 @@ struct EndOfService {
   std::atomic<bool> is_told{false};  ///< by `orbweave stop`
 };
 
-bool HasObjectRoot(const ServeOptions& options) {
-  return std::ranges::any_of(options.roots,
-                             [](const auto& root) { return IsS3Address(root.second); });
-}
-
-/// Roots that are parts of object stores.
-absl::StatusOr<ObjectRoots> ObjectRootsOf(const ServeOptions& options) {
-  ObjectRoots roots;
-  for (const auto& [name, place] : options.roots) {
-    if (!IsS3Address(place)) continue;
-    ORBWEAVE_ASSIGN_OR_RETURN(std::shared_ptr<ObjectStore> store,
-                              OpenS3Store(place, options.store_keys));
-    ORBWEAVE_ASSIGN_OR_RETURN(const S3Address address, ParseS3Address(place));
-    if (!roots.try_emplace(address.ToText(), std::move(store)).second)
-      return absl::InvalidArgumentError(absl::StrCat(address.ToText(), " is a root twice"));
-  }
-  return roots;
-}
-
-/// Roots that are folders.
-FileRoots FileRootsOf(const ServeOptions& options) {
-  FileRoots roots = options.roots;
-  std::erase_if(roots, [](const auto& root) { return IsS3Address(root.second); });
-  return roots;
-}
-
 /// Those given, with what this process has for the coordinator. All arguments outlive it.
 absl::StatusOr<CoordinatorOptions> CompleteOptions(const ServeOptions& options,
                                                    Monitoring& monitoring,
@@ -109,10 +77,7 @@ absl::StatusOr<CoordinatorOptions> CompleteOptions(const ServeOptions& options,
                               OpenJournalOf(options, monitoring.Log()));
     return monitoring.Meter(std::move(journal));
   };
-  if (!options.store.empty()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(complete.objects, OpenS3Store(options.store, options.store_keys));
-  }
-  ORBWEAVE_ASSIGN_OR_RETURN(complete.object_roots, ObjectRootsOf(options));
+  ORBWEAVE_RETURN_IF_ERROR(options.store.OpenFor(complete));
   return complete;
 }
 
@@ -130,7 +95,7 @@ absl::Status Serve(const ServeOptions& options) {
   ORBWEAVE_ASSIGN_OR_RETURN(const auto coordinator, Coordinator::Open(coordinator_options, clock));
   ServerOptions server_options = options.server;
   server_options.used_tokens_folder = options.coordinator.state_dir + "/used_tokens";
-  server_options.roots = FileRootsOf(options);
+  server_options.roots = options.store.Folders();
   server_options.log = log;
   ORBWEAVE_ASSIGN_OR_RETURN(const auto server,
                             GrpcServer::Start(*coordinator, options.listen, server_options));
@@ -182,12 +147,8 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
           "Folder on a disk of this machine to keep the journal in, where the state folder "
           "is on NFS, Lustre and their like; a copy goes there each minute and at the end")
       ->excludes(journal);
-  command->add_option(
-      "--store",
-      options->store,
-      "Object store for large blobs, as s3://BUCKET/PREFIX?region=R or "
-      "s3://BUCKET/PREFIX?endpoint=https://HOST; workers read and write there without keys");
-  AddStoreKeysArgument(*command, options->store_keys);
+  AddStoreArguments(*command, options->store);
+  AddStoreKeysArgument(*command, options->store.keys);
   AddAnnounceArguments(*command, options->announce);
   AddTlsArgument(*command, options->server.tls_folder)
       ->description(
@@ -199,10 +160,6 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
                    "Running jobs beyond which no more are taken")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  AddRootArgument(*command,
-                  options->roots,
-                  "Folder, or s3://BUCKET/PREFIX as for --store, beneath which clients may name "
-                  "images, instead of sending them (repeatable)");
   AddMonitoringArguments(*command, options->monitoring);
   command
       ->add_option("--max-slots",
@@ -226,7 +183,7 @@ void AddServeCommand(CLI::App& app, SelectedCommand& selected, const PlanLookup&
       "Started again on the same state it goes on where it was. The log, one JSON object per line, "
       "goes to stderr and to logs/coordinator.log in the state folder.");
   command->callback([options, &selected] {
-    if (!options->store_keys.empty() && options->store.empty() && !HasObjectRoot(*options))
+    if (!options->store.keys.empty() && !options->store.HasObjects())
       throw CLI::RequiresError("--store-keys", "--store or --root NAME=s3://BUCKET/PREFIX");
     selected.run = [options] { return ReportStatus(Serve(*options)); };
   });

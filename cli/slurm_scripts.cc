@@ -3,6 +3,8 @@
 
 #include "cli/slurm_scripts.h"
 
+#include <algorithm>
+
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
@@ -39,11 +41,35 @@ constexpr const char* kOwnId =
 me=${me:-$SLURM_JOB_ID}
 )sh";
 
-/// Waits for the process $child, hands one SIGTERM on to it, and has Slurm start the script again
-/// when the process says that there is more to do. Not when somebody cancelled the job. Leaves the
-/// exit code in $code.
+/// Until when this allocation lasts, in seconds since 1970; nothing where Slurm does not know.
+constexpr const char* kEndTime = R"sh(end_time() {
+  local end
+  end=$(scontrol show job --oneliner "$me" | grep -o ' EndTime=[0-9][^ ]*' | cut -d= -f2)
+  [ -z "$end" ] || date -d "$end" +%s
+}
+)sh";
+
+/// SIGTERM comes a minute before the end. Workers whose time is up too hand in what they have
+/// meanwhile, so the coordinator stays for most of that minute. Who is preempted has less, or more
+/// than Slurm says: then it goes at once.
+constexpr const char* kHandOnLate = R"sh(hand_on() {
+  local left
+  left=$(end_time)
+  left=$((${left:-0} - $(date +%s) - 15))
+  if [ $left -gt 0 ] && [ $left -le 60 ]; then
+    while [ $((left--)) -gt 0 ] && kill -0 $child 2>/dev/null; do sleep 1; done
+  fi
+  kill -TERM $child 2>/dev/null
+}
+)sh";
+constexpr const char* kHandOn = R"sh(hand_on() { kill -TERM $child 2>/dev/null; }
+)sh";
+
+/// Waits for the process $child, hands one SIGTERM on to it (hand_on), and has Slurm start the
+/// script again when the process says that there is more to do. Not when somebody cancelled the
+/// job. Leaves the exit code in $code.
 std::string WaitOrRequeue() {
-  return absl::StrCat(R"sh(trap 'trap "" TERM; kill -TERM $child 2>/dev/null' TERM
+  return absl::StrCat(R"sh(trap 'trap "" TERM; hand_on' TERM
 wait $child
 code=$?
 wait $child 2>/dev/null  # the first may have ended by the signal
@@ -74,18 +100,40 @@ std::string SlurmLaunch::WorkersName() const {
   return absl::StrCat(name, "-worker-", DigestOf(output).ToShortHex());
 }
 
+bool SlurmLaunch::HasStore() const {
+  return std::ranges::any_of(run_arguments, [](const std::string& argument) {
+    return argument == "--store" || argument.starts_with("--store=");
+  });
+}
+
 std::string ShellWord(const std::string& text) {
   return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "'\\''"}}), "'");
 }
 
+std::string ShellWordWithNames(const std::string& text) {
+  std::string word = "\"";
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char next = i + 1 < text.size() ? text[i + 1] : ' ';
+    const bool is_name =
+        next == '{' || next == '_' || absl::ascii_isalpha(static_cast<unsigned char>(next));
+    if (text[i] == '"' || text[i] == '`' || text[i] == '\\' || (text[i] == '$' && !is_name))
+      word += '\\';
+    word += text[i];
+  }
+  return word + "\"";
+}
+
 std::string CoordinatorScript(const SlurmLaunch& launch) {
   std::string arguments;
-  for (const std::string& argument : launch.run_arguments)
-    absl::StrAppend(&arguments, " ", ShellWord(argument));
+  for (const auto* words : {&launch.command, &launch.run_arguments}) {
+    for (const std::string& word : *words) absl::StrAppend(&arguments, " ", ShellWord(word));
+  }
   return absl::StrCat(
       Header(launch, launch.coordinator_sbatch, launch.name, "coordinator.log"),
       "#SBATCH --cpus-per-task=1\n\n",
       kOwnId,
+      kEndTime,
+      kHandOnLate,
       "launch=",
       ShellWord(launch.Folder()),
       "\nname=",
@@ -122,7 +170,10 @@ submit() {
 }
 
 # Workers that are missing in the queue: all at first, later those whose node was lost or who gave up.
-# submit_missing COUNT: so many there should be.
+# submit_missing COUNT: so many there should be. Fails when workers cannot work. Says in $skip for how many
+# looks none are to be submitted: for a minute, or longer each time that Slurm takes none.
+skip=0
+pause=1
 submit_missing() {
   local known
   known=$(squeue --noheader --array --me --name="$name") || return 0
@@ -134,13 +185,18 @@ submit_missing() {
   known=$(grep -c . <<<"$known")
   local stay=$((fewest - known))
   [ $stay -gt 0 ] || stay=0
-  submit $stay
-  submit $(($1 - known - stay)) --export=ALL,ORBWEAVE_IDLE_EXIT=120
+  [ $1 -gt $known ] || [ $stay -gt 0 ] || return 0
+  skip=1
+  if submit $stay && submit $(($1 - known - stay)) --export=ALL,ORBWEAVE_IDLE_EXIT=120; then
+    pause=1
+  else
+    pause=$((pause < 16 ? 2 * pause : 32))
+    skip=$((pause - 1))
+  fi
 }
 
 submit_missing $fewest
 "$program")sh",
-      " run",
       arguments,
       " --output ",
       ShellWord(launch.output),
@@ -150,7 +206,9 @@ submit_missing $fewest
       launch.journal_folder.empty() ? "\"${TMPDIR:-/tmp}\"" : ShellWord(launch.journal_folder),
       R"sh( &
 child=$!
-while sleep 60; do submit_missing "$(target)" || break; done &
+while sleep 30; do
+  if [ $skip -gt 0 ]; then skip=$((skip - 1)); else submit_missing "$(target)" || break; fi
+done &
 keeper=$!
 )sh",
       WaitOrRequeue(),
@@ -167,22 +225,28 @@ std::string WorkersScript(const SlurmLaunch& launch) {
       launch.cpus,
       "\n\n",
       kOwnId,
+      kEndTime,
+      kHandOn,
       "launch=",
       ShellWord(launch.Folder()),
       R"sh(
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/orbweave-XXXXXX") || exit
 trap 'rm -rf "$scratch"' EXIT
-until=$(scontrol show job --oneliner "$me" | grep -o ' EndTime=[0-9][^ ]*' | cut -d= -f2)
+# SIGTERM comes a minute before the end; tasks then have what is left of it, but for a moment to give back.
+until=$(end_time)
+[ -z "$until" ] || until=$((until - 10))
 memory=${SLURM_MEM_PER_NODE:-$((${SLURM_MEM_PER_CPU:-0} * ${SLURM_CPUS_PER_TASK:-1}))}
 [ "$memory" -gt 0 ] || memory=
 
 )sh",
       ShellWord(launch.program),
       R"sh( work --join "@$launch/coordinator.json" --patience 600 \
-  --tls "$scratch/keys" --token-file "$launch/join.token" --blobs )sh",
-      ShellWord(launch.output + "/.orbweave/blobs"),
+  --tls "$scratch/keys" --token-file "$launch/join.token")sh",
+      launch.HasStore() ? "" : " --blobs " + ShellWord(launch.output + "/.orbweave/blobs"),
+      launch.scratch.empty() ? "" : " --scratch " + ShellWordWithNames(launch.scratch),
+      launch.scratch_size.empty() ? "" : " --scratch-size " + ShellWord(launch.scratch_size),
       R"sh( \
-  --slots "${SLURM_CPUS_PER_TASK:-1}" ${until:+--until "$until"} \
+  --slots "${SLURM_CPUS_PER_TASK:-1}" ${until:+--until "$until"} --grace 50 \
   ${ORBWEAVE_IDLE_EXIT:+--idle-exit "$ORBWEAVE_IDLE_EXIT"} \
   ${memory:+--memory "${memory}MiB"} &
 child=$!

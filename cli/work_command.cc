@@ -170,6 +170,16 @@ void AddWorkCommand(CLI::App& app, SelectedCommand& selected) {
       options->worker.blob_folder,
       "The folder blobs in the coordinator's state folder, as this machine sees it; "
       "they are then read and written there and do not go through the coordinator");
+  CLI::Option* const scratch = command->add_option(
+      "--scratch",
+      options->worker.scratch_folder,
+      "Folder on a disk of this machine for copies of blobs that were read, of those used last");
+  command
+      ->add_option("--scratch-size",
+                   options->worker.scratch_bytes,
+                   "Bytes of that disk, or as in 50GiB (default: 16GiB)")
+      ->transform(CLI::AsSizeValue(false))
+      ->needs(scratch);
   AddWorkerTermArguments(*command, options->term);
   AddOffers(*command, *options);
   AddTaskLimits(*command, options->task_limits);

@@ -21,7 +21,9 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Open(const Coordinator
   ORBWEAVE_RETURN_IF_ERROR(MakeFolder(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(StateLock lock, StateLock::Acquire(options.state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(
-      KeptBlobs blobs, KeptBlobs::Open(options.state_dir, options.objects, options.object_roots));
+      KeptBlobs blobs,
+      KeptBlobs::Open(
+          options.state_dir, options.objects, options.object_roots, options.object_limits));
   ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<Journal> journal,
                             options.open_journal(options.state_dir));
   std::unique_ptr<Coordinator> coordinator(

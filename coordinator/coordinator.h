@@ -43,6 +43,7 @@ struct CoordinatorOptions {
       open_journal = OpenJournal;
   std::shared_ptr<ObjectStore> objects{};  ///< for large blobs; null: all stay in its folder
   ObjectRoots object_roots{};              ///< beneath which clients may name objects
+  ObjectLimits object_limits{};            ///< of the object store
   EventLog log{};
   std::function<void()> lost{};  ///< called when health() is OK no more
   std::function<void()> stop{};  ///< called when an administrator wants it to end
@@ -112,6 +113,7 @@ class Coordinator final : public ServedApi {
   [[nodiscard]] absl::Status LinkFile(const Digest& digest, const std::string& path) override;
   [[nodiscard]] absl::StatusOr<std::vector<BlobGrant>> GrantBlobs(
       const std::vector<WantedBlob>& blobs, GrantVerb verb) override;
+  [[nodiscard]] absl::Status FinishUpload(const UploadEnd& end) override;
   [[nodiscard]] absl::StatusOr<GarbageReport> CollectGarbage(
       const GarbageOptions& options) override;
 

@@ -49,12 +49,21 @@ absl::StatusOr<std::vector<BlobGrant>> Coordinator::GrantBlobs(const std::vector
   return blobs_.Grant(blobs, verb, kGrant_s);
 }
 
+absl::Status Coordinator::FinishUpload(const UploadEnd& end) { return blobs_.FinishUpload(end); }
+
 absl::StatusOr<GarbageReport> Coordinator::CollectGarbage(const GarbageOptions& options) {
   const std::lock_guard collecting(collecting_mutex_);
   ORBWEAVE_ASSIGN_OR_RETURN(
       const GarbageReport report,
       orbweave::CollectGarbage(options, options_.find_plan, blobs_, *journal_));
+  const absl::Status called_off =
+      options.dry_run ? absl::OkStatus() : blobs_.AbortUploads(options.unused_s);
   const std::lock_guard lock(mutex_);
+  if (!called_off.ok()) {  // a right that is missing; the rest is done
+    dispatcher_.Log({.level = LogLevel::kWarning,
+                     .event = "uploads_not_called_off",
+                     .message = std::string(called_off.message())});
+  }
   dispatcher_.Log({.event = options.dry_run ? "garbage_counted" : "garbage_collected",
                    .message = absl::StrCat("blobs=",
                                            report.removed_blobs,

@@ -5,9 +5,12 @@
 
 #include <grpcpp/support/server_callback.h>
 
+#include <functional>
+#include <memory>
 #include <stop_token>
 
 #include "coordinator/served_api.h"
+#include "coordinator/standing_calls.h"
 #include "orbweave/v1/coordinator.pb.h"
 
 namespace orbweave {
@@ -20,8 +23,13 @@ class GrpcLeaseCall final : public grpc::ServerUnaryReactor {
   GrpcLeaseCall(ServedApi& api, const v1::LeaseTaskRequest& request, v1::LeaseTaskReply& reply)
       : api_(api), request_(request), reply_(reply) {}
 
-  /// To be called once; the call may be answered before it returns.
-  void Ask();
+  /// Ends its wait; may be called whenever, also when it is gone.
+  [[nodiscard]] std::function<void()> CallOff() const {
+    return [left = left_]() mutable { left.request_stop(); };
+  }
+  /// To be called once; the call may be answered before it returns. `standing`: null where the peer
+  /// is trusted; one who is shut out meanwhile is told so, and gets no task.
+  void Ask(std::unique_ptr<StandingCalls::Call> standing);
   void OnCancel() override { left_.request_stop(); }
   void OnDone() override { delete this; }
 
@@ -32,6 +40,7 @@ class GrpcLeaseCall final : public grpc::ServerUnaryReactor {
   const v1::LeaseTaskRequest& request_;
   v1::LeaseTaskReply& reply_;
   std::stop_source left_;
+  std::unique_ptr<StandingCalls::Call> standing_;
 };
 
 }  // namespace orbweave

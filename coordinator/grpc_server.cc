@@ -15,6 +15,7 @@
 #include "absl/strings/str_cat.h"
 #include "coordinator/grpc_tls.h"
 #include "coordinator/listen_address.h"
+#include "coordinator/open_revocations.h"
 
 namespace orbweave {
 namespace {
@@ -65,13 +66,17 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(ServedApi& api,
   ORBWEAVE_RETURN_IF_ERROR(CheckListenAddress(address, has_tls ? Wire::kEncrypted : Wire::kPlain));
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   std::unique_ptr<EnrollmentService> enrollment_service;
+  std::shared_ptr<RevocationList> revocations;
   if (has_tls) {
     ORBWEAVE_ASSIGN_OR_RETURN(enrollment_service, OpenEnrollment(options));
+    ORBWEAVE_ASSIGN_OR_RETURN(revocations,
+                              OpenRevocations(TlsFolder{options.tls_folder}, options.log));
     const Strangers strangers = enrollment_service ? Strangers::kLetToEnrol : Strangers::kRefused;
     ORBWEAVE_ASSIGN_OR_RETURN(credentials,
-                              MakeTlsCredentials({options.tls_folder}, strangers, options.log));
+                              MakeTlsCredentials({options.tls_folder}, strangers, revocations));
   }
-  std::unique_ptr<GrpcServer> server(new GrpcServer(api, options, std::move(enrollment_service)));
+  std::unique_ptr<GrpcServer> server(
+      new GrpcServer(api, options, std::move(revocations), std::move(enrollment_service)));
   grpc::EnableDefaultHealthCheckService(true);
   grpc::ServerBuilder builder;
   SetKeepalive(builder);
@@ -95,11 +100,9 @@ absl::StatusOr<std::unique_ptr<GrpcServer>> GrpcServer::Start(ServedApi& api,
 
 GrpcServer::GrpcServer(ServedApi& api,
                        const ServerOptions& options,
+                       std::shared_ptr<RevocationList> revocations,
                        std::unique_ptr<EnrollmentService> enrollment_service)
-    : service_(api,
-               options.tls_folder.empty() ? Peers::kTrusted : Peers::kCertified,
-               options.roots,
-               options.limits.streams),
+    : service_(api, std::move(revocations), options.roots, options.limits.streams),
       enrollment_(std::move(enrollment_service)) {}
 
 GrpcServer::~GrpcServer() {

@@ -48,6 +48,7 @@ class GrpcServer {
  private:
   GrpcServer(ServedApi& api,
              const ServerOptions& options,
+             std::shared_ptr<RevocationList> revocations,
              std::unique_ptr<EnrollmentService> enrollment_service);
 
   GrpcService service_;

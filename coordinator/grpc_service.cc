@@ -69,7 +69,12 @@ grpc::ServerUnaryReactor* GrpcService::LeaseTask(grpc::CallbackServerContext* co
     return refusal;
   }
   auto* const call = new GrpcLeaseCall(api_, *request, *reply);  // deletes itself
-  call->Ask();
+  auto standing = BeginCall(*context, call->CallOff());
+  if (standing.ok()) {
+    call->Ask(*std::move(standing));
+  } else {
+    call->Finish(OnWire(standing.status()));
+  }
   return call;
 }
 
@@ -221,14 +226,28 @@ grpc::Status GrpcService::LinkFile(Context*, const v1::LinkFileRequest* request,
   return OnWire(api_.LinkFile(digest, path));
 }
 
-absl::StatusOr<std::unique_ptr<StreamWatch::Stream>> GrpcService::BeginStream(Context& context) {
+absl::StatusOr<std::unique_ptr<StandingCalls::Call>> GrpcService::BeginCall(
+    const grpc::ServerContextBase& context, std::function<void()> call_off) {
+  if (calls_ == nullptr) return nullptr;
+  const auto connection = context.auth_context();
+  ORBWEAVE_ASSIGN_OR_RETURN(Identity identity, CertifiedPeerOf(*connection));
+  return calls_->Begin(
+      {.identity = std::move(identity), .certificate_pem = std::string(CertificateOf(*connection))},
+      std::move(call_off));
+}
+
+absl::StatusOr<GrpcService::BlobStream> GrpcService::BeginStream(Context& context) {
+  BlobStream stream;
+  const auto call_off = [&context] { context.TryCancel(); };
   std::string peer;
   if (peers_ == Peers::kCertified) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Identity identity, CertifiedPeerOf(*context.auth_context()));
     const std::string address = context.peer();  // "ipv4:192.0.2.7:40312"
     peer = identity.ToUri() + " " + address.substr(0, address.rfind(':'));
   }
-  return streams_.Begin([&context] { context.TryCancel(); }, peer);
+  ORBWEAVE_ASSIGN_OR_RETURN(stream.watched, streams_.Begin(call_off, peer));
+  ORBWEAVE_ASSIGN_OR_RETURN(stream.standing, BeginCall(context, call_off));
+  return stream;
 }
 
 grpc::Status GrpcService::GetBlob(Context* context,
@@ -239,7 +258,7 @@ grpc::Status GrpcService::GetBlob(Context* context,
   return OnWire(api_.Read(digest, [&](std::string_view piece) {
     v1::BlobChunk chunk;
     chunk.set_data(piece.data(), piece.size());
-    return stream->Wait([&] { return writer->Write(chunk); })
+    return stream.watched->Wait([&] { return writer->Write(chunk); })
                ? absl::OkStatus()
                : absl::CancelledError("the reader left, or took nothing for long");
   }));
@@ -250,7 +269,7 @@ grpc::Status GrpcService::PutBlob(Context* context,
                                   v1::PutBlobReply* reply) {
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const auto stream, BeginStream(*context));
   v1::BlobChunk chunk;
-  const auto read = [&] { return stream->Wait([&] { return reader->Read(&chunk); }); };
+  const auto read = [&] { return stream.watched->Wait([&] { return reader->Read(&chunk); }); };
   if (!read()) return OnWire(absl::InvalidArgumentError("a blob without a name"));
   ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const Digest digest, DigestFromProto(chunk.digest()));
   const uint64_t size_bytes = chunk.size_bytes();
@@ -277,6 +296,13 @@ grpc::Status GrpcService::GrantBlobs(Context*,
                                  api_.GrantBlobs(question.blobs, question.verb));
   *reply = ToProto(grants);
   return grpc::Status::OK;
+}
+
+grpc::Status GrpcService::FinishUpload(Context*,
+                                       const v1::FinishUploadRequest* request,
+                                       v1::Empty*) {
+  ORBWEAVE_GRPC_ASSIGN_OR_RETURN(const UploadEnd end, FromProto(*request));
+  return OnWire(api_.FinishUpload(end));
 }
 
 }  // namespace orbweave

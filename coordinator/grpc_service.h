@@ -5,6 +5,7 @@
 #include "coordinator/file_roots.h"
 #include "coordinator/served_api.h"
 #include "coordinator/session_owners.h"
+#include "coordinator/standing_calls.h"
 #include "coordinator/stream_watch.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 
@@ -22,9 +23,18 @@ enum class Peers {
 class GrpcService final
     : public v1::Coordinator::WithCallbackMethod_LeaseTask<v1::Coordinator::Service> {
  public:
-  /// Files are named to it beneath `roots` alone.
-  GrpcService(ServedApi& api, Peers peers, FileRoots roots, StreamLimits streams)
-      : api_(api), peers_(peers), roots_(std::move(roots)), streams_(streams) {}
+  /// Files are named to it beneath `roots` alone. Peers are certified where there is a list of
+  /// those who are `revoked`; who comes upon it loses the calls that go on.
+  GrpcService(ServedApi& api,
+              std::shared_ptr<RevocationList> revoked,
+              FileRoots roots,
+              StreamLimits streams)
+      : api_(api),
+        peers_(revoked == nullptr ? Peers::kTrusted : Peers::kCertified),
+        roots_(std::move(roots)),
+        streams_(streams) {
+    if (revoked != nullptr) calls_ = std::make_unique<StandingCalls>(std::move(revoked));
+  }
 
   using Context = grpc::ServerContext;
   using WithCallbackMethod_LeaseTask::LeaseTask;
@@ -69,6 +79,7 @@ class GrpcService final
                        grpc::ServerWriter<v1::BlobChunk>*) override;
   grpc::Status PutBlob(Context*, grpc::ServerReader<v1::BlobChunk>*, v1::PutBlobReply*) override;
   grpc::Status GrantBlobs(Context*, const v1::GrantBlobsRequest*, v1::GrantBlobsReply*) override;
+  grpc::Status FinishUpload(Context*, const v1::FinishUploadRequest*, v1::Empty*) override;
 
  private:
   [[nodiscard]] absl::StatusOr<JoinReply> JoinAs(const Context& context, const WorkerInfo& worker);
@@ -76,14 +87,22 @@ class GrpcService final
   [[nodiscard]] absl::Status CheckSession(const grpc::ServerContextBase& context,
                                           uint64_t session) const;
 
-  /// A stream of blobs of the caller's.
-  [[nodiscard]] absl::StatusOr<std::unique_ptr<StreamWatch::Stream>> BeginStream(Context& context);
+  /// A stream of blobs of the caller's, while both live.
+  struct BlobStream {
+    std::unique_ptr<StreamWatch::Stream> watched{};
+    std::unique_ptr<StandingCalls::Call> standing{};
+  };
+  [[nodiscard]] absl::StatusOr<BlobStream> BeginStream(Context& context);
+  /// A call of the caller's that lasts; null where peers are trusted.
+  [[nodiscard]] absl::StatusOr<std::unique_ptr<StandingCalls::Call>> BeginCall(
+      const grpc::ServerContextBase& context, std::function<void()> call_off);
 
   ServedApi& api_;
   Peers peers_;
   FileRoots roots_;
   SessionOwners owners_;
   StreamWatch streams_;
+  std::unique_ptr<StandingCalls> calls_;  ///< null: peers are trusted
 };
 
 }  // namespace orbweave

@@ -8,7 +8,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "coordinator/grpc_gate.h"
-#include "coordinator/open_revocations.h"
 
 namespace orbweave {
 namespace {
@@ -17,9 +16,8 @@ constexpr unsigned kLookAtFiles_s = 30;
 
 }  // namespace
 
-absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(const TlsFolder& folder,
-                                                                            Strangers strangers,
-                                                                            const EventLog& log) {
+absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(
+    const TlsFolder& folder, Strangers strangers, std::shared_ptr<RevocationList> revocations) {
   ORBWEAVE_ASSIGN_OR_RETURN(const CertificateFacts own, CheckTlsFolder(folder));
   if (own.identity.role != Role::kCoordinator) {
     return absl::InvalidArgumentError(absl::StrCat(folder.path,
@@ -27,8 +25,6 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(cons
                                                    std::string(RoleName(own.identity.role)),
                                                    ", not of a coordinator"));
   }
-  ORBWEAVE_ASSIGN_OR_RETURN(std::shared_ptr<RevocationList> revocations,
-                            OpenRevocations(folder, log));
   grpc::experimental::TlsServerCredentialsOptions options(
       std::make_shared<grpc::experimental::FileWatcherCertificateProvider>(
           folder.KeyPath(), folder.CertificatePath(), folder.AuthorityPath(), kLookAtFiles_s));

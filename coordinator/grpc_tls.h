@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "core/pipeline/log_event.h"
+#include "security/revocations.h"
 #include "security/tls_folder.h"
 
 namespace orbweave {
@@ -18,10 +18,9 @@ enum class Strangers {
 };
 
 /// Credentials of a listener: its certificate and authorities come from `folder`, and again when
-/// the files change; every call passes a GrpcGate. `log` hears of a list of revocations that
-/// cannot be read any more. InvalidArgument: the folder is not a coordinator's; else as
-/// CheckTlsFolder and RevocationList::Open.
+/// the files change; every call passes a GrpcGate, which asks `revocations`. InvalidArgument: the
+/// folder is not a coordinator's; else as CheckTlsFolder.
 [[nodiscard]] absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeTlsCredentials(
-    const TlsFolder& folder, Strangers strangers, const EventLog& log);
+    const TlsFolder& folder, Strangers strangers, std::shared_ptr<RevocationList> revocations);
 
 }  // namespace orbweave

@@ -36,13 +36,14 @@ std::string BlobFolderOf(const std::string& state_dir) { return state_dir + "/bl
 
 absl::StatusOr<KeptBlobs> KeptBlobs::Open(const std::string& state_dir,
                                           std::shared_ptr<ObjectStore> objects,
-                                          ObjectRoots roots) {
+                                          ObjectRoots roots,
+                                          ObjectLimits limits) {
   ORBWEAVE_ASSIGN_OR_RETURN(BlobStore folder, BlobStore::Open(BlobFolderOf(state_dir)));
-  if (objects == nullptr) return KeptBlobs(std::move(folder), nullptr, std::move(roots));
+  if (objects == nullptr) return KeptBlobs(std::move(folder), nullptr, std::move(roots), limits);
   ORBWEAVE_ASSIGN_OR_RETURN(const std::string owner, NameOfState(state_dir));
   ORBWEAVE_ASSIGN_OR_RETURN(std::unique_ptr<ObjectShelf> shelf,
                             ObjectShelf::Open(std::move(objects), owner));
-  return KeptBlobs(std::move(folder), std::move(shelf), std::move(roots));
+  return KeptBlobs(std::move(folder), std::move(shelf), std::move(roots), limits);
 }
 
 absl::StatusOr<std::string> KeptBlobs::Get(const Digest& digest) {
@@ -132,11 +133,32 @@ absl::StatusOr<BlobGrant> KeptBlobs::GrantOne(const WantedBlob& blob, GrantVerb 
     return grant ? BlobGrant{Where::kObject, *grant} : BlobGrant{};
   }
   if (!shelf_) return BlobGrant{};
-  if (blob.size_bytes < kLeastObjectBytes || blob.size_bytes > kMostObjectBytes) return BlobGrant{};
+  if (verb == GrantVerb::kPutPart)
+    return BlobGrant{Where::kObject, shelf_->GrantPart(blob.digest, blob.part, valid_s)};
+  if (blob.size_bytes < kLeastObjectBytes) return BlobGrant{};
   if (UseKept(blob.digest)) return BlobGrant{.where = Where::kNowhere};
+  if (blob.size_bytes > limits_.put_bytes) return GrantParts(blob);
   ORBWEAVE_ASSIGN_OR_RETURN(ObjectGrant grant,
                             shelf_->GrantPut(blob.digest, blob.size_bytes, valid_s));
   return BlobGrant{Where::kObject, std::move(grant)};
+}
+
+absl::StatusOr<BlobGrant> KeptBlobs::GrantParts(const WantedBlob& blob) {
+  BlobGrant grant{.where = BlobGrant::Where::kParts,
+                  .part_bytes = limits_.PartBytesOf(blob.size_bytes)};
+  if (grant.part_bytes > kMostPutBytes)
+    return absl::InvalidArgumentError("a blob that is larger than any object can be");
+  ORBWEAVE_ASSIGN_OR_RETURN(grant.upload, shelf_->BeginUpload(blob.digest));
+  return grant;
+}
+
+absl::Status KeptBlobs::FinishUpload(const UploadEnd& end) {
+  if (!shelf_) return absl::FailedPreconditionError("this coordinator has no object store");
+  return shelf_->FinishUpload(end);
+}
+
+absl::Status KeptBlobs::AbortUploads(double unused_s) {
+  return shelf_ ? shelf_->AbortUploads(unused_s) : absl::OkStatus();
 }
 
 std::optional<ObjectGrant> KeptBlobs::GrantGet(const Digest& digest, int valid_s) {
@@ -202,7 +224,7 @@ absl::Status KeptBlobs::Probe(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, folder_.Put(bytes));
   ORBWEAVE_RETURN_IF_ERROR(folder_.Get(digest).status());
   (void)folder_.RemoveUnused(digest, 0.0);  // or else there is one blob more until it is garbage
-  return shelf_ ? shelf_->Probe() : absl::OkStatus();
+  return shelf_ ? Annotate(shelf_->Probe(bytes), "object store") : absl::OkStatus();
 }
 
 }  // namespace orbweave

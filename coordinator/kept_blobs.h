@@ -24,7 +24,8 @@ class KeptBlobs final : public BlobDepot {
   /// `objects`: null for none. Errors of BlobStore::Open and ObjectShelf::Open.
   [[nodiscard]] static absl::StatusOr<KeptBlobs> Open(const std::string& state_dir,
                                                       std::shared_ptr<ObjectStore> objects,
-                                                      ObjectRoots roots = {});
+                                                      ObjectRoots roots = {},
+                                                      ObjectLimits limits = {});
 
   [[nodiscard]] absl::StatusOr<std::string> Get(const Digest& digest) override;
   /// Into the folder, as Write does.
@@ -47,6 +48,11 @@ class KeptBlobs final : public BlobDepot {
                                                              GrantVerb verb,
                                                              int valid_s);
 
+  /// As FinishUpload of ServedApi.
+  [[nodiscard]] absl::Status FinishUpload(const UploadEnd& end);
+  /// See ObjectShelf::AbortUploads.
+  [[nodiscard]] absl::Status AbortUploads(double unused_s);
+
   /// Whether it is known to be there.
   [[nodiscard]] bool Has(const Digest& digest);
   /// Has; and if so, it counts as used now.
@@ -63,12 +69,18 @@ class KeptBlobs final : public BlobDepot {
   [[nodiscard]] absl::StatusOr<std::vector<StoredBlob>> List();
   [[nodiscard]] bool IsUnused(const Digest& digest, double unused_s);
   [[nodiscard]] absl::StatusOr<bool> RemoveUnused(const Digest& digest, double unused_s);
-  /// OK when `bytes` can be put, read and removed, and the object store answers.
+  /// OK when `bytes` can be put and read, in the folder and in the object store. One at a time.
   [[nodiscard]] absl::Status Probe(std::string_view bytes);
 
  private:
-  KeptBlobs(BlobStore folder, std::unique_ptr<ObjectShelf> shelf, ObjectRoots roots)
-      : folder_(std::move(folder)), shelf_(std::move(shelf)), roots_(std::move(roots)) {}
+  KeptBlobs(BlobStore folder,
+            std::unique_ptr<ObjectShelf> shelf,
+            ObjectRoots roots,
+            ObjectLimits limits)
+      : folder_(std::move(folder)),
+        shelf_(std::move(shelf)),
+        roots_(std::move(roots)),
+        limits_(limits) {}
   /// Use of one that is no linked object.
   [[nodiscard]] bool UseKept(const Digest& digest);
   /// The object that the blob is linked to; empty: none.
@@ -82,9 +94,12 @@ class KeptBlobs final : public BlobDepot {
                                                    GrantVerb verb,
                                                    int valid_s);
 
+  [[nodiscard]] absl::StatusOr<BlobGrant> GrantParts(const WantedBlob& blob);
+
   BlobStore folder_;
   std::unique_ptr<ObjectShelf> shelf_;  ///< null: no object store
   ObjectRoots roots_;
+  ObjectLimits limits_;
 };
 
 }  // namespace orbweave

@@ -11,7 +11,7 @@
 namespace orbweave {
 namespace {
 
-constexpr std::array<MethodRight, 27> kRights = {{
+constexpr std::array<MethodRight, 28> kRights = {{
     {.method = "/orbweave.v1.Coordinator/Join", .worker = true},
     {.method = "/orbweave.v1.Coordinator/LeaseTask", .worker = true},
     {.method = "/orbweave.v1.Coordinator/Heartbeat", .worker = true},
@@ -34,6 +34,7 @@ constexpr std::array<MethodRight, 27> kRights = {{
     {.method = "/orbweave.v1.Coordinator/GetBlob", .worker = true, .client = true},
     {.method = "/orbweave.v1.Coordinator/PutBlob", .worker = true, .client = true},
     {.method = "/orbweave.v1.Coordinator/GrantBlobs", .worker = true, .client = true},
+    {.method = "/orbweave.v1.Coordinator/FinishUpload", .worker = true, .client = true},
 
     // An admin's.
     {.method = "/orbweave.v1.Coordinator/DrainWorkers"},

@@ -13,6 +13,8 @@ namespace {
 
 /// The object that says whose the store is.
 constexpr char kOwnerKey[] = "coordinator";
+/// The object of a Probe.
+constexpr char kProbeKey[] = "probe";
 
 absl::Status BeingRemoved(const Digest& digest) {
   return absl::UnavailableError(
@@ -124,6 +126,33 @@ absl::StatusOr<ObjectGrant> ObjectShelf::GrantPut(const Digest& digest,
   return store_->GrantPut(digest.ToHex(), digest, size_bytes, valid_s);
 }
 
+absl::StatusOr<std::string> ObjectShelf::BeginUpload(const Digest& digest) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto entry = entries_.find(digest);
+    if (entry != entries_.end() && entry->second.is_leaving) return BeingRemoved(digest);
+  }
+  return store_->BeginUpload(digest.ToHex());
+}
+
+ObjectGrant ObjectShelf::GrantPart(const Digest& digest, const ObjectPart& part, int valid_s) {
+  return store_->GrantPart(digest.ToHex(), part, valid_s);
+}
+
+absl::Status ObjectShelf::FinishUpload(const UploadEnd& end) {
+  if (end.etags.empty()) return store_->AbortUpload(end.digest.ToHex(), end.upload);
+  return store_->FinishUpload(end.digest.ToHex(), end.upload, end.etags);
+}
+
+absl::Status ObjectShelf::AbortUploads(double unused_s) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<UploadInfo> uploads, store_->ListUploads());
+  for (const UploadInfo& upload : uploads) {
+    if (static_cast<double>(clock_() - upload.begun_unix_s) < unused_s) continue;
+    ORBWEAVE_RETURN_IF_ERROR(store_->AbortUpload(upload.key, upload.upload));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status ObjectShelf::Refresh(int64_t most_age_s) {
   const int64_t now_unix_s = clock_();
   uint64_t number = 0;
@@ -182,6 +211,17 @@ absl::StatusOr<bool> ObjectShelf::RemoveUnused(const Digest& digest, double unus
   return true;
 }
 
-absl::Status ObjectShelf::Probe() { return store_->Head(kOwnerKey).status(); }
+absl::Status ObjectShelf::Probe(std::string_view bytes) {
+  // One that a crash left may have other bytes, and would never be written over.
+  ORBWEAVE_RETURN_IF_ERROR(store_->Delete(kProbeKey));
+  ORBWEAVE_RETURN_IF_ERROR(store_->Put(kProbeKey, DigestOf(bytes), bytes));
+  std::string read;
+  ORBWEAVE_RETURN_IF_ERROR(store_->Get(kProbeKey, std::nullopt, [&read](std::string_view piece) {
+    read += piece;
+    return absl::OkStatus();
+  }));
+  if (read == bytes) return absl::OkStatus();
+  return absl::DataLossError("the object store gives other bytes than were put");
+}
 
 }  // namespace orbweave

@@ -42,6 +42,15 @@ class ObjectShelf {
                                                      uint64_t size_bytes,
                                                      int valid_s);
 
+  /// An object that comes in parts: its name for FinishUpload. Unavailable: it is being removed.
+  [[nodiscard]] absl::StatusOr<std::string> BeginUpload(const Digest& digest);
+  [[nodiscard]] ObjectGrant GrantPart(const Digest& digest, const ObjectPart& part, int valid_s);
+  /// Makes the object of its parts, or calls it off. Errors of ObjectStore::FinishUpload.
+  [[nodiscard]] absl::Status FinishUpload(const UploadEnd& end);
+  /// Calls off uploads that were begun `unused_s` ago or earlier; servers keep, and charge for,
+  /// what has come of them.
+  [[nodiscard]] absl::Status AbortUploads(double unused_s);
+
   /// Reads the list of the store, unless that was done within the last `most_age_s` seconds.
   [[nodiscard]] absl::Status Refresh(int64_t most_age_s = 0);
   [[nodiscard]] std::vector<StoredBlob> List();
@@ -49,8 +58,8 @@ class ObjectShelf {
   [[nodiscard]] bool IsUnused(const Digest& digest, double unused_s);
   /// Removes the blob if it is unused; whether it was.
   [[nodiscard]] absl::StatusOr<bool> RemoveUnused(const Digest& digest, double unused_s);
-  /// OK when the store answers.
-  [[nodiscard]] absl::Status Probe();
+  /// OK when `bytes` can be put and read; they stay there until the next probe. One at a time.
+  [[nodiscard]] absl::Status Probe(std::string_view bytes);
 
  private:
   struct Entry {

@@ -34,6 +34,9 @@ class ServedApi : public CoordinatorApi {
   /// for kGrant_s. Empty: there is no such store. InvalidArgument: more than kMostGrants of them.
   [[nodiscard]] virtual absl::StatusOr<std::vector<BlobGrant>> GrantBlobs(
       const std::vector<WantedBlob>& blobs, GrantVerb verb) = 0;
+  /// Ends what a grant of kParts began: the object is there, or nothing is. NotFound: there is no
+  /// such upload any more. FailedPrecondition: there is no such store.
+  [[nodiscard]] virtual absl::Status FinishUpload(const UploadEnd& end) = 0;
 };
 
 }  // namespace orbweave

@@ -14,6 +14,8 @@ namespace orbweave {
 namespace {
 
 constexpr int kGrant_s = 60;
+/// Less most servers take as the last part alone.
+constexpr size_t kUsualLeastPart = size_t{5} << 20;
 
 absl::Status Expect(bool holds, const std::string& otherwise) {
   return holds ? absl::OkStatus() : absl::InternalError(otherwise);
@@ -43,6 +45,8 @@ class StoreTrial {
     Row("other bytes than were signed are refused", CheckWrongBytes());
     Row("a grant of an hour ago is refused", CheckExpired());
     Row("what is there is not written over (If-None-Match)", CheckCondition(), false);
+    Row("put an object in parts (blobs above 5 GiB)", CheckParts(), false);
+    Row("a part of other bytes is refused, its upload gone", CheckWrongPart(), false);
     Row("delete", Clean());
     return std::move(rows_);
   }
@@ -120,8 +124,42 @@ class StoreTrial {
     return CheckBytes(std::nullopt, bytes_);
   }
 
+  absl::StatusOr<std::string> PutPart(const std::string& upload,
+                                      uint32_t number,
+                                      const Digest& digest,
+                                      std::string_view bytes) {
+    const ObjectPart part{
+        .upload = upload, .number = number, .digest = digest, .size_bytes = bytes.size()};
+    return WriteGrantedPart(http_, store_.GrantPart(parts_key_, part, kGrant_s), bytes, parts_key_);
+  }
+
+  absl::Status CheckParts() {
+    const std::vector<std::string> parts = {std::string(kUsualLeastPart, 'p'), bytes_};
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string upload, store_.BeginUpload(parts_key_));
+    std::vector<std::string> etags;
+    for (const std::string& part : parts) {
+      const auto number = static_cast<uint32_t>(etags.size() + 1);
+      ORBWEAVE_ASSIGN_OR_RETURN(etags.emplace_back(),
+                                PutPart(upload, number, DigestOf(part), part));
+    }
+    ORBWEAVE_RETURN_IF_ERROR(store_.FinishUpload(parts_key_, upload, etags));
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string read, Read(parts_key_, std::nullopt));
+    return Expect(read == parts[0] + parts[1], absl::StrCat("other bytes: ", read.size()));
+  }
+
+  absl::Status CheckWrongPart() {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string upload, store_.BeginUpload(parts_key_));
+    const absl::Status refused =
+        ExpectRefusal(PutPart(upload, 1, digest_, "other bytes").status(), "it is stored");
+    ORBWEAVE_RETURN_IF_ERROR(store_.AbortUpload(parts_key_, upload));
+    ORBWEAVE_RETURN_IF_ERROR(refused);
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<UploadInfo> left, store_.ListUploads());
+    return Expect(std::ranges::find(left, upload, &UploadInfo::upload) == left.end(),
+                  "it is still listed");
+  }
+
   absl::Status Clean() {
-    for (const std::string& key : {key_, granted_key_, key_ + ".wrong"})
+    for (const std::string& key : {key_, granted_key_, key_ + ".wrong", parts_key_})
       ORBWEAVE_RETURN_IF_ERROR(store_.Delete(key));
     return CheckListed(false);
   }
@@ -131,6 +169,7 @@ class StoreTrial {
   HttpClient& http_;
   const std::string key_ = absl::StrCat("check/", std::random_device{}());
   const std::string granted_key_ = key_ + ".granted";
+  const std::string parts_key_ = key_ + ".parts";
   const std::string bytes_ = absl::StrCat("orbweave store check ", key_, std::string(100'000, '.'));
   const Digest digest_ = DigestOf(bytes_);
   std::vector<StoreCheck> rows_;

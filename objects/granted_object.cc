@@ -98,4 +98,20 @@ absl::Status WriteGranted(HttpClient& http,
   return absl::IsAlreadyExists(status) ? absl::OkStatus() : status;
 }
 
+absl::StatusOr<std::string> WriteGrantedPart(HttpClient& http,
+                                             const ObjectGrant& grant,
+                                             std::string_view bytes,
+                                             const std::string& what) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const HttpAnswer answer,
+                            http.Do({.method = "PUT",
+                                     .url = grant.url,
+                                     .headers = grant.headers,
+                                     .body_bytes = bytes.size(),
+                                     .next = PiecesOf(bytes)}));
+  ORBWEAVE_RETURN_IF_ERROR(StatusOfS3(answer, what, UnixNow()));
+  std::string etag = answer.Header("etag");
+  if (etag.empty()) return absl::DataLossError(what + ": the store gives no ETag of a part");
+  return etag;
+}
+
 }  // namespace orbweave

@@ -26,6 +26,13 @@ namespace orbweave {
                                         const std::string& what,
                                         const NextPiece& next);
 
+/// Stores the part that `grant` gives the right to; the tag by which the server knows it. Errors of
+/// StatusOfS3; DataLoss also: the server gives no tag.
+[[nodiscard]] absl::StatusOr<std::string> WriteGrantedPart(HttpClient& http,
+                                                           const ObjectGrant& grant,
+                                                           std::string_view bytes,
+                                                           const std::string& what);
+
 /// The time before attempt number `attempt` (from 1 on) after a failure that may pass: a tenth of a
 /// second, doubled each time, times a random number from 0.5 to 1.5, so that many who failed
 /// together do not come back together.

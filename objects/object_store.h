@@ -20,6 +20,13 @@ struct ObjectInfo {
   std::string etag{};  ///< what changes with its bytes, as the store says it; empty: it does not
 };
 
+/// An object that comes in parts.
+struct UploadInfo {
+  std::string key{};
+  std::string upload{};
+  int64_t begun_unix_s = 0;
+};
+
 /// Bytes number `first` to `last` of an object.
 struct ByteRange {
   uint64_t first = 0;
@@ -55,6 +62,23 @@ class ObjectStore {
                                              const Digest& digest,
                                              uint64_t size_bytes,
                                              int valid_s) = 0;
+
+  /// Begins an object that comes in parts; the server's name for what is coming.
+  [[nodiscard]] virtual absl::StatusOr<std::string> BeginUpload(const std::string& key) = 0;
+  /// The right to store one part of it, of these bytes and no others.
+  [[nodiscard]] virtual ObjectGrant GrantPart(const std::string& key,
+                                              const ObjectPart& part,
+                                              int valid_s) = 0;
+  /// Makes the object of all its parts, whose tags are in order; OK also when there is such a key.
+  /// NotFound: there is no such upload, or not any more.
+  [[nodiscard]] virtual absl::Status FinishUpload(const std::string& key,
+                                                  const std::string& upload,
+                                                  const std::vector<std::string>& etags) = 0;
+  /// Gives up what has come of it; also OK when there is none.
+  [[nodiscard]] virtual absl::Status AbortUpload(const std::string& key,
+                                                 const std::string& upload) = 0;
+  /// Uploads that were begun and not ended, a thousand at most.
+  [[nodiscard]] virtual absl::StatusOr<std::vector<UploadInfo>> ListUploads() = 0;
 };
 
 }  // namespace orbweave

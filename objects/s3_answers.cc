@@ -11,6 +11,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "objects/s3_address.h"
 
 namespace orbweave {
@@ -148,6 +149,55 @@ absl::StatusOr<ObjectPage> ParseObjectPage(std::string_view xml) {
   page.next = TextOf(xml, "NextContinuationToken");
   if (page.next.empty()) return absl::DataLossError("the store lists half and not how to go on");
   return page;
+}
+
+absl::StatusOr<std::string> ParseUpload(std::string_view xml) {
+  std::string upload = TextOf(xml, "UploadId");
+  if (upload.empty()) return absl::DataLossError("the store names no upload in parts");
+  return upload;
+}
+
+absl::StatusOr<std::vector<UploadInfo>> ParseUploads(std::string_view xml) {
+  if (xml.find("<ListMultipartUploadsResult") == std::string_view::npos)
+    return absl::DataLossError("the store answers with no list of uploads");
+  const bool is_encoded = TextOf(xml, "EncodingType") == "url";
+  std::vector<UploadInfo> uploads;
+  size_t begin = 0;
+  while (const auto element = NextElement(xml, "Upload", begin)) {
+    UploadInfo& upload = uploads.emplace_back();
+    upload.key = TextOf(*element, "Key");
+    if (is_encoded) {
+      ORBWEAVE_ASSIGN_OR_RETURN(upload.key, UriDecode(upload.key));
+    }
+    upload.upload = TextOf(*element, "UploadId");
+    const absl::StatusOr<int64_t> begun = ParseHttpTime(TextOf(*element, "Initiated"));
+    if (!begun.ok() || upload.upload.empty())
+      return absl::DataLossError("the store lists an upload without its name or time");
+    upload.begun_unix_s = *begun;
+  }
+  return uploads;
+}
+
+std::string PartsXml(const std::vector<std::string>& etags) {
+  std::string xml = "<CompleteMultipartUpload>";
+  for (size_t i = 0; i < etags.size(); ++i) {
+    absl::StrAppend(&xml,
+                    "<Part><PartNumber>",
+                    i + 1,
+                    "</PartNumber><ETag>",
+                    absl::StrReplaceAll(etags[i], {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}}),
+                    "</ETag></Part>");
+  }
+  return xml + "</CompleteMultipartUpload>";
+}
+
+absl::Status StatusOfFinish(const HttpAnswer& answer, const std::string& what) {
+  if (answer.body.find("<Error>") == std::string::npos) return absl::OkStatus();
+  return absl::UnavailableError(absl::StrCat(what,
+                                             ": the store could not put the parts together: ",
+                                             TextOf(answer.body, "Code"),
+                                             ", ",
+                                             TextOf(answer.body, "Message")));
 }
 
 absl::StatusOr<int64_t> ParseHttpTime(const std::string& text) {

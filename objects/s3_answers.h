@@ -30,6 +30,16 @@ struct ObjectPage {
 /// The answer to ListObjectsV2 with encoding-type=url. DataLoss: something else.
 [[nodiscard]] absl::StatusOr<ObjectPage> ParseObjectPage(std::string_view xml);
 
+/// The name of an upload that was begun. DataLoss: the answer has none.
+[[nodiscard]] absl::StatusOr<std::string> ParseUpload(std::string_view xml);
+/// The answer to ListMultipartUploads with encoding-type=url. DataLoss: something else.
+[[nodiscard]] absl::StatusOr<std::vector<UploadInfo>> ParseUploads(std::string_view xml);
+/// What CompleteMultipartUpload is sent.
+[[nodiscard]] std::string PartsXml(const std::vector<std::string>& etags);
+/// And what its answer of success means: servers begin it before they know, and may end it with an
+/// error. Unavailable: such a one.
+[[nodiscard]] absl::Status StatusOfFinish(const HttpAnswer& answer, const std::string& what);
+
 /// "Wed, 21 Oct 2015 07:28:00 GMT" (RFC 9110, section 5.6.7) and "2009-10-12T17:50:30.000Z" in
 /// seconds since 1970. InvalidArgument: neither.
 [[nodiscard]] absl::StatusOr<int64_t> ParseHttpTime(const std::string& text);

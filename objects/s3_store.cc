@@ -78,11 +78,17 @@ ObjectGrant S3Store::GrantPut(const std::string& key,
   return Grant(std::move(request), valid_s);
 }
 
-absl::StatusOr<HttpAnswer> S3Store::Ask(const S3Request& request, const std::string& what) {
+absl::StatusOr<HttpAnswer> S3Store::Ask(const S3Request& request,
+                                        const std::string& what,
+                                        const std::string& body) {
   return TryAgain([&]() -> absl::StatusOr<HttpAnswer> {
     const ObjectGrant grant = Grant(request, kOwn_s);
-    absl::StatusOr<HttpAnswer> answer =
-        http_->Do({.method = request.method, .url = grant.url, .headers = grant.headers});
+    HttpCall call{.method = request.method, .url = grant.url, .headers = grant.headers};
+    if (request.method == "POST") {
+      call.body_bytes = body.size();
+      call.next = PiecesOf(body);
+    }
+    absl::StatusOr<HttpAnswer> answer = http_->Do(call);
     if (answer.ok()) ORBWEAVE_RETURN_IF_ERROR(StatusOfS3(*answer, what, clock_()));
     return answer;
   });
@@ -157,6 +163,63 @@ absl::StatusOr<std::vector<ObjectInfo>> S3Store::List() {
     return absl::OkStatus();
   }));
   return objects;
+}
+
+absl::StatusOr<std::string> S3Store::BeginUpload(const std::string& key) {
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const HttpAnswer answer,
+      Ask({.method = "POST", .path = address_.PathOf(key), .query = {{"uploads", ""}}},
+          NameOf(key)));
+  return ParseUpload(answer.body);
+}
+
+ObjectGrant S3Store::GrantPart(const std::string& key, const ObjectPart& part, int valid_s) {
+  return Grant({.method = "PUT",
+                .path = address_.PathOf(key),
+                .query = {{"partNumber", absl::StrCat(part.number)}, {"uploadId", part.upload}},
+                .headers = {{kLength, absl::StrCat(part.size_bytes)},
+                            {"x-amz-content-sha256", part.digest.ToHex()}}},
+               valid_s);
+}
+
+absl::Status S3Store::FinishUpload(const std::string& key,
+                                   const std::string& upload,
+                                   const std::vector<std::string>& etags) {
+  const auto finish = [&](bool has_condition) -> absl::Status {
+    S3Request request{
+        .method = "POST", .path = address_.PathOf(key), .query = {{"uploadId", upload}}};
+    if (has_condition) request.headers["if-none-match"] = "*";
+    const absl::StatusOr<HttpAnswer> answer = Ask(request, NameOf(key), PartsXml(etags));
+    ORBWEAVE_RETURN_IF_ERROR(answer.status());
+    return StatusOfFinish(*answer, NameOf(key));
+  };
+  absl::Status status = finish(knows_conditions_);
+  if (absl::IsUnimplemented(status) && knows_conditions_.exchange(false)) status = finish(false);
+  if (absl::IsAlreadyExists(status)) return AbortUpload(key, upload);
+  if (!absl::IsNotFound(status)) return status;
+  // It was finished by an answer that did not arrive, or by who brings the same.
+  return Head(key).ok() ? absl::OkStatus() : status;
+}
+
+absl::Status S3Store::AbortUpload(const std::string& key, const std::string& upload) {
+  const absl::Status status =
+      Ask({.method = "DELETE", .path = address_.PathOf(key), .query = {{"uploadId", upload}}},
+          NameOf(key))
+          .status();
+  return absl::IsNotFound(status) ? absl::OkStatus() : status;
+}
+
+absl::StatusOr<std::vector<UploadInfo>> S3Store::ListUploads() {
+  const std::string folder = address_.prefix.empty() ? "" : address_.prefix + "/";
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const HttpAnswer answer,
+      Ask({.path = address_.PathOf(""),
+           .query = {{"encoding-type", "url"}, {"prefix", folder}, {"uploads", ""}}},
+          NameOf("")));
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<UploadInfo> uploads, ParseUploads(answer.body));
+  std::erase_if(uploads, [&](const UploadInfo& upload) { return !upload.key.starts_with(folder); });
+  for (UploadInfo& upload : uploads) upload.key.erase(0, folder.size());
+  return uploads;
 }
 
 absl::StatusOr<std::unique_ptr<S3Store>> OpenS3Store(const std::string& address,

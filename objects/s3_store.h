@@ -52,6 +52,16 @@ class S3Store final : public ObjectStore {
                                      const Digest& digest,
                                      uint64_t size_bytes,
                                      int valid_s) override;
+  [[nodiscard]] absl::StatusOr<std::string> BeginUpload(const std::string& key) override;
+  [[nodiscard]] ObjectGrant GrantPart(const std::string& key,
+                                      const ObjectPart& part,
+                                      int valid_s) override;
+  [[nodiscard]] absl::Status FinishUpload(const std::string& key,
+                                          const std::string& upload,
+                                          const std::vector<std::string>& etags) override;
+  [[nodiscard]] absl::Status AbortUpload(const std::string& key,
+                                         const std::string& upload) override;
+  [[nodiscard]] absl::StatusOr<std::vector<UploadInfo>> ListUploads() override;
 
  private:
   S3Store(S3Address address, S3Keys keys, UnixClock clock, std::unique_ptr<HttpClient> http)
@@ -62,7 +72,9 @@ class S3Store final : public ObjectStore {
   [[nodiscard]] ObjectGrant Grant(S3Request request, int valid_s) const;
   [[nodiscard]] std::string NameOf(const std::string& key) const;
   /// The answer to `request`, tried a few times. Errors of StatusOfS3.
-  [[nodiscard]] absl::StatusOr<HttpAnswer> Ask(const S3Request& request, const std::string& what);
+  [[nodiscard]] absl::StatusOr<HttpAnswer> Ask(const S3Request& request,
+                                               const std::string& what,
+                                               const std::string& body = {});
 
   const S3Address address_;
   const S3Keys keys_;

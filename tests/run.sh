@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything, runs all tests. Arguments go to ctest, e.g. -L fast or -R Mapping.
+# Fails too when a test is skipped that tests/may_skip.txt does not name.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 "$root/deploy/install_packages.sh"
 "$root/deploy/build.sh" release -DORBWEAVE_TESTS=ON -DORBWEAVE_BENCH=ON
 cd "$root"
-ctest --preset release -j "$(nproc)" "$@"
+ran=build/release/ran.xml
+rm -f "$ran"
+ctest --preset release -j "$(nproc)" --output-junit "$root/$ran" "$@"
+tests/check_skips.sh "$ran"

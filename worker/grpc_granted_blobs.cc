@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/sleep.h"
 #include "objects/granted_object.h"
 #include "proto/codec/grants_codec.h"
 #include "worker/grpc_blob_transfer.h"
@@ -43,6 +44,66 @@ absl::StatusOr<std::optional<BlobGrant>> Ask(v1::Coordinator::Stub& stub,
   if (grants.empty()) return std::nullopt;
   return std::move(grants.front());
 }
+
+/// Makes an object of its parts, or calls it off where there are none.
+absl::Status End(v1::Coordinator::Stub& stub, const UploadEnd& end) {
+  grpc::ClientContext context;
+  // A server puts thousands of parts together before it answers.
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(10));
+  v1::Empty ignored;
+  return FromWire(stub.FinishUpload(&context, ToProto(end), &ignored));
+}
+
+/// Stores one part by rights that are asked for anew each time it is tried; its tag.
+absl::StatusOr<std::string> WritePart(v1::Coordinator::Stub& stub,
+                                      HttpClient& http,
+                                      const WantedBlob& part,
+                                      const std::string& bytes) {
+  for (int attempt = 1;; ++attempt) {
+    const auto grant = Ask(stub, part, GrantVerb::kPutPart);
+    ORBWEAVE_RETURN_IF_ERROR(grant.status());
+    if (!*grant || (*grant)->where != Where::kObject)
+      return absl::UnavailableError("the coordinator has no object store any more");
+    absl::StatusOr<std::string> etag =
+        WriteGrantedPart(http, (*grant)->object, bytes, NameOf(part.digest));
+    if (absl::IsDataLoss(etag.status()))
+      etag = absl::UnavailableError(absl::StrCat(NameOf(part.digest), " arrived damaged"));
+    if (!absl::IsUnavailable(etag.status()) || attempt == kMostAttempts) return etag;
+    SleepUnlessStopped(PauseBefore_s(attempt), {});
+  }
+}
+
+/// The pieces of a blob as parts of so many bytes, one at a time; counts what has come.
+class PartsOf {
+ public:
+  PartsOf(const NextPiece& next, uint64_t part_bytes) : next_(next), part_bytes_(part_bytes) {}
+
+  /// The next part; empty: that was all. Errors of `next`.
+  [[nodiscard]] absl::StatusOr<std::string> Next() {
+    std::string part;
+    while (part.size() < part_bytes_) {
+      if (rest_.empty()) {
+        ORBWEAVE_ASSIGN_OR_RETURN(rest_, next_());
+        if (rest_.empty()) break;
+        builder_.Add(rest_);
+      }
+      const std::string_view taken = rest_.substr(0, part_bytes_ - part.size());
+      part += taken;
+      rest_.remove_prefix(taken.size());
+      size_bytes_ += taken.size();
+    }
+    return part;
+  }
+  [[nodiscard]] Digest Finish() { return builder_.Finish(); }
+  [[nodiscard]] uint64_t size_bytes() const { return size_bytes_; }
+
+ private:
+  const NextPiece& next_;
+  const uint64_t part_bytes_;
+  std::string_view rest_;
+  uint64_t size_bytes_ = 0;
+  DigestBuilder builder_;
+};
 
 /// The coordinator looks at the blob itself, and removes it when it is damaged.
 absl::Status Complain(v1::Coordinator::Stub& stub, const Digest& digest) {
@@ -88,6 +149,37 @@ std::optional<absl::Status> GrantedBlobs::Read(v1::Coordinator::Stub& stub,
   return Complain(stub, digest);
 }
 
+absl::Status GrantedBlobs::WriteParts(v1::Coordinator::Stub& stub,
+                                      const Digest& digest,
+                                      uint64_t size_bytes,
+                                      const BlobGrant& grant,
+                                      const NextPiece& next) {
+  UploadEnd end{.digest = digest, .upload = grant.upload};
+  const auto write = [&]() -> absl::Status {
+    ORBWEAVE_ASSIGN_OR_RETURN(HttpClient* const http, Http());
+    PartsOf parts(next, grant.part_bytes);
+    while (true) {
+      ORBWEAVE_ASSIGN_OR_RETURN(const std::string part, parts.Next());
+      if (part.empty()) break;
+      const auto number = static_cast<uint32_t>(end.etags.size() + 1);
+      const WantedBlob wanted{digest,
+                              size_bytes,
+                              {.upload = grant.upload,
+                               .number = number,
+                               .digest = DigestOf(part),
+                               .size_bytes = part.size()}};
+      ORBWEAVE_ASSIGN_OR_RETURN(end.etags.emplace_back(), WritePart(stub, *http, wanted, part));
+    }
+    if (parts.size_bytes() == size_bytes && parts.Finish() == digest) return absl::OkStatus();
+    return absl::DataLossError(absl::StrCat(NameOf(digest), ": the bytes are not what was named"));
+  };
+  const absl::Status written = write();
+  if (written.ok()) return End(stub, end);
+  end.etags.clear();
+  End(stub, end).IgnoreError();  // the coordinator calls it off in time
+  return written;
+}
+
 std::optional<absl::Status> GrantedBlobs::Write(v1::Coordinator::Stub& stub,
                                                 const Digest& digest,
                                                 uint64_t size_bytes,
@@ -106,6 +198,11 @@ std::optional<absl::Status> GrantedBlobs::Write(v1::Coordinator::Stub& stub,
     given = piece.status();
     return piece;
   };
+  if ((*grant)->where == Where::kParts) {
+    const absl::Status written = WriteParts(stub, digest, size_bytes, **grant, next_and_note);
+    if (!given.ok() || absl::IsDataLoss(written)) return given.ok() ? written : given;
+    return OfThisMachine(written);
+  }
   const absl::Status written =
       WriteGranted(**http, (*grant)->object, size_bytes, NameOf(digest), next_and_note);
   if (!given.ok()) return given;

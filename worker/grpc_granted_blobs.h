@@ -9,6 +9,7 @@
 
 #include "core/base/status.h"
 #include "core/pipeline/blob_access.h"
+#include "core/pipeline/blob_grant.h"
 #include "objects/http_client.h"
 #include "orbweave/v1/coordinator.grpc.pb.h"
 
@@ -31,6 +32,12 @@ class GrantedBlobs {
 
  private:
   [[nodiscard]] absl::StatusOr<HttpClient*> Http();
+  /// A blob for which there is a grant of kParts.
+  [[nodiscard]] absl::Status WriteParts(v1::Coordinator::Stub& stub,
+                                        const Digest& digest,
+                                        uint64_t size_bytes,
+                                        const BlobGrant& grant,
+                                        const NextPiece& next);
 
   std::atomic<bool> has_store_{true};  ///< until the coordinator says otherwise
   std::mutex mutex_;

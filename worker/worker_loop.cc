@@ -21,6 +21,7 @@
 #include "worker/coordinator_contact.h"
 #include "worker/held_leases.h"
 #include "worker/retry.h"
+#include "worker/scratch_tier.h"
 #include "worker/shared_store.h"
 #include "worker/worker_session.h"
 
@@ -66,7 +67,9 @@ struct Slot {
 
 class Worker {
  public:
+  /// `store`: where results go and all is checked with each session; `blobs`: by which it is read.
   Worker(WorkerApi& api,
+         SharedStore& store,
          BlobAccess& blobs,
          const MakeTaskExecutor& make_executor,
          const WorkerOptions& options)
@@ -74,7 +77,7 @@ class Worker {
         make_executor_(make_executor),
         options_(options),
         contact_(options.term.patience_s, options.term.idle_s, 0.0),
-        store_(blobs, options.blob_folder),
+        store_(store),
         session_(
             api,
             store_,
@@ -86,7 +89,7 @@ class Worker {
             leases_,
             [this] { return StaysFor_s(); },
             [this](const absl::Status& why) { return Waits(why); }),
-        blobs_(store_, options.cache_bytes, ending_.get_token()) {}
+        blobs_(blobs, options.cache_bytes, ending_.get_token()) {}
 
   absl::StatusOr<WorkerEnd> Run(const std::stop_token& stop) {
     const std::stop_callback on_stop(stop, [this] { Drain(); });
@@ -355,7 +358,7 @@ class Worker {
   std::stop_source ending_;    ///< give back what runs
   std::stop_source beating_;   ///< all is handed in
   HeldLeases leases_;
-  SharedStore store_;
+  SharedStore& store_;
   WorkerSession session_;
   BlobCache blobs_;
   std::jthread grace_;  ///< last: ends before what it uses
@@ -368,7 +371,12 @@ absl::StatusOr<WorkerEnd> RunWorker(WorkerApi& coordinator,
                                     const MakeTaskExecutor& make_executor,
                                     const WorkerOptions& options,
                                     const std::stop_token& stop) {
-  return Worker(coordinator, blobs, make_executor, options).Run(stop);
+  SharedStore store(blobs, options.blob_folder);
+  if (options.scratch_folder.empty())
+    return Worker(coordinator, store, store, make_executor, options).Run(stop);
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const auto scratch, ScratchTier::Make(store, options.scratch_folder, options.scratch_bytes));
+  return Worker(coordinator, store, *scratch, make_executor, options).Run(stop);
 }
 
 }  // namespace orbweave

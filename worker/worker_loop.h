@@ -41,7 +41,9 @@ struct WorkerOptions {
   double grace_s = 30.0;  ///< for tasks that run when the worker is told to end
   double poll_s = 10.0;   ///< how long one question for a task waits at the coordinator
   size_t cache_bytes = size_t{512} << 20;
-  std::string blob_folder{};  ///< see SharedStore
+  std::string blob_folder{};     ///< see SharedStore
+  std::string scratch_folder{};  ///< of a ScratchTier; empty: none
+  uint64_t scratch_bytes = uint64_t{16} << 30;
   WorkerTerm term{};
   EventLog log{};
 };

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "bench/scaling/fit_growth.h"
+#include "bench/scaling/fleet_model_of.h"
 #include "bench/scaling/grow_job.h"
 #include "bench/scaling/stage_totals.h"
 #include "core/base/status.h"
@@ -19,10 +20,6 @@
 namespace orbweave {
 namespace {
 
-/// Of a coordinator and workers on one machine; used where a job's own are not known.
-constexpr FleetModel kUsualOverhead{
-    .task_overhead_s = 0.005, .stage_overhead_s = 0.02, .coordinator_s_per_task = 0.002};
-
 const JobMeasurement& LargestOnFewest(const std::vector<JobMeasurement>& jobs) {
   return *std::max_element(jobs.begin(), jobs.end(), [](const auto& a, const auto& b) {
     return std::tie(a.panoramas, b.workers) < std::tie(b.panoramas, a.workers);
@@ -30,13 +27,7 @@ const JobMeasurement& LargestOnFewest(const std::vector<JobMeasurement>& jobs) {
 }
 
 FleetModel ModelOf(const JobMeasurement& job, const ScalingQuestion& question) {
-  FleetModel model = kUsualOverhead;
-  if (job.workers > 0) {
-    model.task_overhead_s = job.overhead.task_s;
-    model.stage_overhead_s = job.overhead.stage_s;
-    model.coordinator_s_per_task =
-        job.coordinator_cpu_s / static_cast<double>(std::max<size_t>(job.tasks.size(), 1));
-  }
+  FleetModel model = FleetModelOf(job);
   model.worker_gbit_per_s = question.worker_gbit_per_s;
   model.coordinator_gbit_per_s = question.coordinator_gbit_per_s;
   return model;
@@ -163,10 +154,7 @@ std::map<std::string, StageGrowth> CarefulGrowth(const std::vector<JobMeasuremen
   return growth;
 }
 
-std::vector<ScalingRun> RunsOf(const std::vector<JobMeasurement>& jobs, FleetModel model) {
-  constexpr double kNoLink = 1e9;  // on one machine bytes take no time of their own
-  model.worker_gbit_per_s = kNoLink;
-  model.coordinator_gbit_per_s = kNoLink;
+std::vector<ScalingRun> RunsOf(const std::vector<JobMeasurement>& jobs, const FleetModel& model) {
   std::vector<ScalingRun> runs;
   for (const JobMeasurement& job : jobs) {
     if (job.workers == 0) continue;
@@ -208,7 +196,7 @@ ScalingReport BuildScalingReport(const std::vector<JobMeasurement>& jobs,
   ScalingReport report{.version = std::string(BuildVersion()),
                        .title = base.label,
                        .panoramas = base.panoramas,
-                       .runs = RunsOf(jobs, model),
+                       .runs = RunsOf(jobs, FleetModelOf(base)),
                        .stages = StagesOf(jobs, base),
                        .assumptions = {.worker_gbit_per_s = model.worker_gbit_per_s,
                                        .coordinator_gbit_per_s = model.coordinator_gbit_per_s,

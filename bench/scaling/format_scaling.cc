@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "bench/scaling/engine_study_text.h"
 #include "core/io/html_text.h"
 
 namespace orbweave {
@@ -93,7 +94,8 @@ std::string PredictionsTable(const ScalingReport& report) {
 }  // namespace
 
 std::string FormatScaling(const ScalingReport& report) {
-  return RunsTable(report) + StagesTable(report) + PredictionsTable(report);
+  return (report.study ? FormatEngineStudy(*report.study) : "") + RunsTable(report) +
+         StagesTable(report) + PredictionsTable(report);
 }
 
 }  // namespace orbweave

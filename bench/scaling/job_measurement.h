@@ -10,6 +10,14 @@
 
 namespace orbweave {
 
+/// What went over a node's link while a job ran, as the node's network counted it: with the heads
+/// of packets and everything that is no blob.
+struct LinkTraffic {
+  std::string node{};
+  uint64_t in_bytes = 0;
+  uint64_t out_bytes = 0;
+};
+
 /// What a job was and took.
 struct JobMeasurement {
   std::string label{};
@@ -22,6 +30,12 @@ struct JobMeasurement {
   ScheduleOverhead overhead{};
   double coordinator_cpu_s = 0.0;
   uint64_t coordinator_peak_bytes = 0;
+
+  uint32_t slots = 1;                 ///< of each worker
+  double processors_per_slot = 1.0;   ///< less where nodes are given a share of one
+  double link_gbit_per_s = 0.0;       ///< of each worker; 0: no network, or nobody knows
+  std::vector<TaskTiming> timings{};  ///< of all attempts; empty: not known
+  std::vector<LinkTraffic> links{};   ///< empty: not known
 };
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "absl/strings/str_cat.h"
+#include "bench/scaling/engine_study_html.h"
 #include "bench/scaling/line_chart.h"
 #include "bench/scaling/scaling_tables.h"
 #include "core/io/html_page.h"
@@ -203,6 +204,7 @@ std::string ScalingHtml(const ScalingReport& report) {
                                EscapeHtml(report.version),
                                "</p></header>\n",
                                Cards(report),
+                               report.study ? EngineStudyHtml(*report.study) : "",
                                WorkersCharts(report),
                                WeakScaling(report),
                                Shares(report),

@@ -3,6 +3,7 @@
 
 #include "bench/scaling/scaling_json.h"
 
+#include "bench/scaling/engine_study_text.h"
 #include "core/io/json_text.h"
 
 namespace orbweave {
@@ -48,6 +49,8 @@ Json JsonOf(const ScalingWeakPoint& point) {
 }
 
 Json JsonOf(const ScalingPrediction& prediction);
+Json JsonOf(const LinkTraffic& link);
+Json JsonOf(const StudyPoint& point);
 
 template <typename Values>
 Json ListOf(const Values& values) {
@@ -74,6 +77,46 @@ Json JsonOf(const ScalingAssumptions& assumed) {
           {"coordinator_s_per_task", assumed.coordinator_s_per_task}};
 }
 
+Json JsonOf(const LinkTraffic& link) {
+  return {{"node", link.node}, {"in_bytes", link.in_bytes}, {"out_bytes", link.out_bytes}};
+}
+
+Json JsonOf(const TimeShares& shares) {
+  Json json = Json::object();
+  for (const auto& [name, share] : TimeCauses()) json[name] = shares.*share;
+  return json;
+}
+
+Json JsonOf(const StudyPoint& point) {
+  return {{"scaling", ScalingKindName(point.kind)},
+          {"nodes", point.nodes},
+          {"repeat", point.repeat},
+          {"panoramas", point.panoramas},
+          {"wall_s", point.wall_s},
+          {"cpu_s", point.cpu_s},
+          {"efficiency", point.efficiency},
+          {"simulated_s", point.simulated_s},
+          {"simulation_error", point.simulation_error},
+          {"coordinator_cpu_s", point.coordinator_cpu_s},
+          {"coordinator_ms_per_task", point.coordinator_ms_per_task},
+          {"read_bytes", point.read_bytes},
+          {"written_bytes", point.written_bytes},
+          {"links", ListOf(point.links)},
+          {"slot_s", JsonOf(point.shares)}};
+}
+
+Json JsonOf(const EngineStudy& study) {
+  return {{"engine", study.facts.engine},
+          {"machine_processors", study.facts.machine_processors},
+          {"slots", study.slots},
+          {"processors_per_slot", study.processors_per_slot},
+          {"link_gbit_per_s", study.link_gbit_per_s},
+          {"crowded_from", study.crowded_from},
+          {"remarks", RemarksOn(study)},
+          {"simulator", JudgeSimulator(study)},
+          {"points", ListOf(study.points)}};
+}
+
 }  // namespace
 
 std::string ScalingJson(const ScalingReport& report) {
@@ -86,7 +129,8 @@ std::string ScalingJson(const ScalingReport& report) {
                    {"stages", ListOf(report.stages)},
                    {"predictions", ListOf(report.predictions)},
                    {"weak_scaling", ListOf(report.weak)},
-                   {"assumptions", JsonOf(report.assumptions)}});
+                   {"assumptions", JsonOf(report.assumptions)},
+                   {"study", report.study ? JsonOf(*report.study) : Json(nullptr)}});
 }
 
 }  // namespace orbweave

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/scaling/engine_study.h"
+
 namespace orbweave {
 
 /// A job that was really run.
@@ -82,6 +84,7 @@ struct ScalingReport {
   std::vector<ScalingPrediction> predictions{};  ///< the measured job, then those extrapolated
   std::vector<ScalingWeakPoint> weak{};          ///< by workers; empty where growth is not known
   ScalingAssumptions assumptions{};
+  std::optional<EngineStudy> study{};  ///< where an engine ran jobs on more and more nodes
 };
 
 }  // namespace orbweave

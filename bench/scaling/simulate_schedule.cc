@@ -16,7 +16,7 @@ namespace {
 double TransferSeconds(double bytes, double gbit_per_s) { return 8e-9 * bytes / gbit_per_s; }
 
 double TaskSeconds(const PartLoad& part, uint32_t at_once, const FleetModel& model) {
-  return model.task_overhead_s + part.compute_s +
+  return model.task_overhead_s + part.compute_s / model.processors_per_slot +
          TransferSeconds(part.bytes, model.worker_gbit_per_s / at_once);
 }
 

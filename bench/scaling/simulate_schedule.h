@@ -38,6 +38,7 @@ struct FleetModel {
   double stage_overhead_s = 0.0;         ///< from the end of a run to the start of the next
   double coordinator_s_per_task = 0.0;   ///< of the coordinator's own time, one task after another
   uint32_t slots = 1;                    ///< of each worker
+  double processors_per_slot = 1.0;      ///< a slot with less takes so much longer to compute
   WorkerOffers offers{};                 ///< of each worker
 };
 
@@ -49,7 +50,7 @@ struct Schedule {
 /// List scheduling of the runs, one after the other, on `workers` equal workers: the next part in
 /// order goes to the worker that has room for it first, for
 ///
-///   task_overhead_s + compute_s + 8 bytes n / worker_gbit_per_s,
+///   task_overhead_s + compute_s / processors_per_slot + 8 bytes n / worker_gbit_per_s,
 ///
 /// where n tasks of that run have room on a worker at a time (TasksAtOnce) and share its link. A
 /// run that has room nowhere never ends.

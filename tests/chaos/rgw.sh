@@ -5,7 +5,8 @@
 #   tests/chaos/rgw.sh [PANORAMAS [REPEATS]]
 #
 # `orbweave store check`, then the same job by a coordinator and two workers that share its folder and by ones that have
-# only the store, whose workers have no keys to it, in turns; at last with the images in the store too (`submit s3://`).
+# only the store, whose workers have no keys to it, in turns; once with all blobs in parts; at last with the images in the
+# store too (`submit s3://`).
 # Prints a table in Markdown; 1 if a row failed: other bytes, images copied, more than 3 objects a panorama, or more than
 # 1.15 times the time of the folder (medians). Needs Debian's radosgw,
 # ceph-mon, ceph-osd and curl: 77 without them. ORBWEAVE: the program (build/release/cli/orbweave). Takes two minutes.
@@ -198,6 +199,10 @@ for ((turn = 1; turn <= repeats; ++turn)); do
   objects=$(($(objects_of_store) - before - 1)) # one says whose the store is
   same_model "$lab/folder1/model" "$lab/store$turn/model" || { echo "turn $turn: other bytes" >&2; failures=1; }
 done
+# Every blob that goes to the store goes in parts.
+fleet_does_the_job parts -- --store "s3://blobs/parts?endpoint=$endpoint" --store-keys "$lab/store.keys" --store-put-limit 64KiB --store-part 5MiB
+parts_s=$seconds
+same_model "$lab/folder1/model" "$lab/parts/model" || { echo "blobs in parts: other bytes" >&2; failures=1; }
 upload_images || { echo "the images cannot be put into the store" >&2; failures=1; }
 images=("s3://blobs/city/images?endpoint=$endpoint" --store-keys "$lab/store.keys")
 fleet_does_the_job images -- --root "city=s3://blobs/city?endpoint=$endpoint" --store-keys "$lab/store.keys"
@@ -213,6 +218,7 @@ echo "|---|---|---|"
 echo "| shared folder | $(median "${folder_s[@]}") (${folder_s[*]}) | |"
 echo "| object store | $(median "${store_s[@]}") (${store_s[*]}) | $per_panorama |"
 echo "| ratio | $ratio | |"
+echo "| object store, all blobs in parts | $parts_s | |"
 echo "| images in the store | $images_s | $copies copied |"
 (($(echo "$ratio <= 1.15 && $per_panorama <= 3 && $objects >= $panoramas" | bc))) || failures=1
 exit $((failures > 0))

@@ -12,7 +12,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
+#include "absl/strings/match.h"
+#include "absl/strings/str_split.h"
 #include "cli/exit_code.h"
 #include "tests/support/command.h"
 
@@ -147,6 +150,68 @@ TEST_F(SlurmScripts, TheCoordinatorSubmitsNoneWhileSlurmDoesNotAnswer) {
   EXPECT_THAT(Calls(), Not(HasSubstr("sbatch")));
 }
 
+/// How often the script slept for 30 s before each line of `calls` that begins with `begin`.
+std::vector<size_t> PausesBefore(const std::string& calls, const std::string& begin) {
+  std::vector<size_t> pauses;
+  size_t sleeps = 0;
+  for (const absl::string_view line : absl::StrSplit(calls, '\n')) {
+    if (absl::StartsWith(line, "sleep 30")) ++sleeps;
+    if (absl::StartsWith(line, begin)) pauses.push_back(std::exchange(sleeps, 0));
+  }
+  return pauses;
+}
+
+TEST_F(SlurmScripts, WorkersAreSubmittedOnceAMinuteAtMost) {
+  launch_.max_nodes = 8;
+  Program("orbweave",
+          "[ $1 = status ] && { echo 100; exit; }; until [ $(grep -c ^squeue '" +
+              (folder_ / "calls") + "') -ge 4 ]; do /bin/sleep 0.02; done");
+  std::vector<std::string> batch = Batch(CoordinatorScript(launch_));
+  Program("sleep", "exec /bin/sleep 0.02");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  const std::vector<size_t> pauses = PausesBefore(Calls(), "squeue --noheader --array");
+  ASSERT_GE(pauses.size(), 4U) << Calls();
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(pauses[i], 2U) << Calls();
+}
+
+TEST_F(SlurmScripts, TheCoordinatorLooksEveryHalfMinuteWhileNobodyIsMissing) {
+  Write("queue", "12_1\n12_2\n12_3\n");
+  Program(
+      "orbweave",
+      "until [ $(grep -c ^squeue '" + (folder_ / "calls") + "') -ge 4 ]; do /bin/sleep 0.02; done");
+  std::vector<std::string> batch = Batch(CoordinatorScript(launch_));
+  Program("sleep", "exec /bin/sleep 0.02");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  const std::vector<size_t> pauses = PausesBefore(Calls(), "squeue --noheader --array");
+  ASSERT_GE(pauses.size(), 4U) << Calls();
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(pauses[i], 1U) << Calls();
+}
+
+TEST_F(SlurmScripts, TheCoordinatorBacksOffWhileSlurmTakesNoWorkers) {
+  Program("sbatch", "exit 1");
+  Program(
+      "orbweave",
+      "until [ $(grep -c ^sbatch '" + (folder_ / "calls") + "') -ge 4 ]; do /bin/sleep 0.02; done");
+  std::vector<std::string> batch = Batch(CoordinatorScript(launch_));
+  Program("sleep", "exec /bin/sleep 0.02");
+  EXPECT_EQ(testing::RunCommand(batch).exit_code, kExitOk);
+  const std::vector<size_t> pauses = PausesBefore(Calls(), "sbatch");
+  ASSERT_GE(pauses.size(), 4U) << Calls();
+  EXPECT_THAT(std::vector<size_t>(pauses.begin(), pauses.begin() + 4),
+              ::testing::ElementsAre(0, 2, 4, 8))
+      << Calls();
+}
+
+TEST_F(SlurmScripts, WithAStoreWorkersLeaveTheFolderAlone) {
+  EXPECT_THAT(WorkersScript(launch_), HasSubstr("--blobs"));
+  for (const std::vector<std::string>& given :
+       {std::vector<std::string>{"images", "--store", "s3://b/p"},
+        std::vector<std::string>{"images", "--store=s3://b/p"}}) {
+    launch_.run_arguments = given;
+    EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--blobs")));
+  }
+}
+
 TEST_F(SlurmScripts, SigtermIsHandedOnAndTheJobRequeued) {
   Program("orbweave", "trap 'echo told >>calls; exit 75' TERM; while :; do /bin/sleep 0.05; done");
   for (const std::string& script : {CoordinatorScript(launch_), WorkersScript(launch_)}) {
@@ -160,6 +225,32 @@ TEST_F(SlurmScripts, SigtermIsHandedOnAndTheJobRequeued) {
     const std::string calls = Calls();
     EXPECT_EQ(calls.find("told"), calls.rfind("told")) << "once";
     EXPECT_THAT(calls, HasSubstr("scontrol requeue 7"));
+  }
+}
+
+TEST_F(SlurmScripts, TheCoordinatorStaysWhileWorkersThatEndWithItHandIn) {
+  Program("orbweave",
+          "trap 'echo told >>\"" + (folder_ / "calls") +
+              "\"; exit 75' TERM; while :; do /bin/sleep 0.05; done");
+  // The time that is left, and how many seconds of it the script sleeps before it hands SIGTERM on.
+  for (const auto& [left_s, most, least] : {std::tuple(55, 40, 1), {10, 0, 0}, {3000, 0, 0}}) {
+    Write("calls", "");
+    Program("scontrol",
+            "echo \"JobId=7 EndTime=$(date -d '" + std::to_string(left_s) +
+                " seconds' +%Y-%m-%dT%H:%M:%S) X=1\"");
+    const std::vector<std::string> arguments = Batch(CoordinatorScript(launch_));
+    Program("sleep", "exec /bin/sleep 0.01");
+    Command batch(arguments);
+    ASSERT_TRUE(WaitUntil([&] { return Calls().find("orbweave ") != std::string::npos; }, 20.0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    batch.Signal(SIGTERM);
+    EXPECT_EQ(batch.Wait().exit_code, kExitStopped);
+    const std::string calls = Calls();
+    int slept = 0;
+    for (const absl::string_view line : absl::StrSplit(calls.substr(0, calls.find("told")), '\n'))
+      slept += line == "sleep 1" ? 1 : 0;
+    EXPECT_LE(slept, most) << calls;
+    EXPECT_GE(slept, least) << calls;
   }
 }
 
@@ -188,7 +279,9 @@ TEST_F(SlurmScripts, AWorkerIsToldWhenItsMachineIsTakenBack) {
   Program("scontrol",
           "echo 'JobId=7 StartTime=2026-11-23T17:00:00 EndTime=2026-11-23T18:00:00 X=1'");
   EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitOk);
-  EXPECT_THAT(Calls(), HasSubstr("--until 2026-11-23T18:00:00"));
+  const std::string end =
+      testing::RunCommand({"/bin/date", "-d", "2026-11-23T17:59:50", "+%s"}).out;
+  EXPECT_THAT(Calls(), HasSubstr("--until " + end.substr(0, end.size() - 1) + " --grace 50"));
   EXPECT_THAT(Calls(), HasSubstr("--join @" + launch_.Folder() + "/coordinator.json"));
   Write("calls", "");
   Program("scontrol", "echo 'JobId=7 EndTime=Unknown'");
@@ -207,6 +300,29 @@ TEST_F(SlurmScripts, SayWhatTheSiteWants) {
   EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--partition")));
   EXPECT_THAT(CoordinatorScript(launch_), HasSubstr("\n#SBATCH --partition=long\n"));
   EXPECT_THAT(CoordinatorScript(launch_), Not(HasSubstr("--mem")));
+}
+
+TEST_F(SlurmScripts, WorkersKeepCopiesOfBlobsWhereTheNodeSays) {
+  Program("orbweave", "exit 0");
+  EXPECT_THAT(WorkersScript(launch_), Not(HasSubstr("--scratch")));
+  launch_.scratch = "$TMPDIR/a b";
+  launch_.scratch_size = "50GiB";
+  EXPECT_EQ(testing::RunCommand(Batch(WorkersScript(launch_))).exit_code, kExitOk);
+  EXPECT_THAT(Calls(), HasSubstr("--scratch " + folder_.Path() + "/a b --scratch-size 50GiB"));
+}
+
+TEST(ShellWordWithNames, ExpandsNamesAndNothingElse) {
+  const auto echo = [](const std::string& text) {
+    return testing::RunCommand({"/usr/bin/env",
+                                "NODE=n 7",
+                                "/bin/bash",
+                                "-c",
+                                "printf %s " + ShellWordWithNames(text)})
+        .out;
+  };
+  EXPECT_EQ(echo("/scratch/$NODE/${NODE}x"), "/scratch/n 7/n 7x");
+  for (const std::string text : {"$(id)", "`id`", "a\"b", "\\", "$1$", "it's", "a\\$ b", ""})
+    EXPECT_EQ(echo(text), text);
 }
 
 TEST(ShellWord, IsOneWordWhateverIsInIt) {

@@ -15,6 +15,7 @@
 #include "tests/support/command.h"
 #include "tests/support/failing_journal.h"
 #include "tests/support/manual_clock.h"
+#include "tests/support/memory_objects.h"
 #include "tests/support/toy_job.h"
 #include "tests/support/wait_for_end.h"
 
@@ -103,6 +104,21 @@ TEST_F(CoordinatorHealth, LivesNoMoreWhenItsThreadsStandStillForALease) {
               HasSubstr("has not moved for 20 s"));
   is_stuck_ = false;
   EXPECT_TRUE(WaitUntil([this] { return IsLive(); }, 20.0));
+}
+
+TEST_F(CoordinatorHealth, LivesAndIsNotReadyWhileTheObjectStoreTakesNothing) {
+  const auto store = std::make_shared<testing::MemoryObjects>();
+  const TemporaryFolder folder;
+  const auto coordinator = Coordinator::Open(
+      {.state_dir = folder.Path(), .find_plan = testing::FindToyPlan, .objects = store}, clock_);
+  ASSERT_TRUE(coordinator.ok()) << coordinator.status();
+  EXPECT_TRUE((*coordinator)->CheckReady().ok());
+  store->is_read_only = true;
+  const absl::Status not_ready = (*coordinator)->CheckReady();
+  EXPECT_THAT(std::string(not_ready.message()), HasSubstr("object store"));
+  const int asked = store->calls;
+  EXPECT_TRUE((*coordinator)->CheckLive().ok());
+  EXPECT_EQ(store->calls, asked) << "the store is not asked";
 }
 
 TEST_F(CoordinatorHealth, LivesWhileTheJournalIsAway) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "coordinator/postgres_journal.h"
@@ -425,6 +426,38 @@ TEST(PostgresJournal, WhoLostTheServerAndWasSucceededWritesNoMore) {
   }
   EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, kTask, {})))
       << "the lock is free, but the generation is another's";
+}
+
+TEST(PostgresJournal, WhoIsTakenOverInTheMiddleOfItsCommitsLosesNoneThatItWasTold) {
+  if (Server() == nullptr) GTEST_SKIP() << "PostgreSQL's server is not installed";
+  const std::string url = Server()->MakeDatabase("taken_over");
+  uint64_t told = 0;  // results of which somebody was told that they are saved
+  for (int turn = 0; turn < 5; ++turn) {
+    auto deposed = OpenPostgresJournal(url);
+    ASSERT_TRUE(deposed.ok()) << deposed.status();
+    std::atomic<uint64_t> saved{told};
+    std::jthread saving([&] {
+      while (true) {
+        const Digest task = DigestOf("task" + std::to_string(saved.load()));
+        if (!(*deposed)->SaveResult(saved + 1, task, {.report_json = "r"}).ok()) return;
+        ++saved;
+      }
+    });
+    ASSERT_TRUE(testing::WaitUntil([&] { return saved >= told + 20; }, 60.0));
+    Server()->CutOff("taken_over");  // whatever it is doing
+    saving.join();
+    Server()->LetIn("taken_over");
+    const auto successor = OpenPostgresJournal(url);
+    ASSERT_TRUE(successor.ok()) << successor.status();
+    EXPECT_TRUE(absl::IsFailedPrecondition((*deposed)->SaveResult(1, DigestOf("late"), {})));
+    told = saved;
+    std::vector<Digest> tasks;
+    for (uint64_t i = 0; i < told; ++i) tasks.push_back(DigestOf("task" + std::to_string(i)));
+    const auto results = (*successor)->LoadResults(tasks);
+    ASSERT_TRUE(results.ok()) << results.status();
+    for (uint64_t i = 0; i < told; ++i) EXPECT_TRUE(results->at(i).has_value()) << i;
+    EXPECT_FALSE((*successor)->LoadResults({DigestOf("late")})->at(0).has_value());
+  }
 }
 
 TEST(PostgresJournal, RefusesAPasswordOnTheCommandLine) {

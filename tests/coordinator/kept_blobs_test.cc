@@ -46,7 +46,7 @@ TEST_F(KeptBlobsTest, SmallOnesStayAndLargeOnesGoToTheStore) {
   const Digest digest = DigestOf("a");
   EXPECT_EQ(WhereTo(blobs, {digest, kLeastObjectBytes - 1}, GrantVerb::kPut), Where::kCoordinator);
   EXPECT_EQ(WhereTo(blobs, {digest, kLeastObjectBytes}, GrantVerb::kPut), Where::kObject);
-  EXPECT_EQ(WhereTo(blobs, {digest, kMostObjectBytes + 1}, GrantVerb::kPut), Where::kCoordinator);
+  EXPECT_EQ(WhereTo(blobs, {digest, kMostPutBytes + 1}, GrantVerb::kPut), Where::kParts);
 }
 
 TEST_F(KeptBlobsTest, WhatIsStoredIsNotPutAgain) {

@@ -181,5 +181,26 @@ TEST_F(ObjectShelfTest, ARemovalThatFailsIsAnError) {
   EXPECT_TRUE(shelf->Use(digest));
 }
 
+TEST_F(ObjectShelfTest, IsReadyWhenBytesCanBePutAndRead) {
+  const auto shelf = *Open();
+  const size_t objects = store_->objects.size();
+  EXPECT_TRUE(shelf->Probe("one").ok());
+  EXPECT_TRUE(shelf->Probe("another").ok());
+  EXPECT_EQ(store_->objects.size(), objects + 1) << "probes do not pile up";
+  EXPECT_EQ(shelf->List().size(), 0U) << "and are no blobs";
+  store_->is_away = true;
+  EXPECT_TRUE(absl::IsUnavailable(shelf->Probe("a third")));
+}
+
+TEST_F(ObjectShelfTest, AStoreThatAnswersAndTakesNothingIsNotReady) {
+  const auto shelf = *Open();
+  store_->is_read_only = true;
+  EXPECT_TRUE(store_->Head("coordinator").ok());
+  EXPECT_TRUE(absl::IsPermissionDenied(shelf->Probe("one")));
+  store_->is_read_only = false;
+  store_->loses_bytes = true;
+  EXPECT_TRUE(absl::IsDataLoss(shelf->Probe("one")));
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -8,6 +8,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <random>
 
 #include "core/io/sqlite_connection.h"
 #include "tests/support/command.h"
@@ -63,6 +65,82 @@ TEST_F(SqliteJournal, NoticesACutFile) {
   FillJournal();
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
   ExpectDamaged();
+}
+
+/// The files of a journal that is open, as a machine that loses power leaves them.
+class DamagedLog : public SqliteJournal {
+ protected:
+  static constexpr uint64_t kResults = 60;
+
+  static Digest TaskOf(uint64_t i) { return DigestOf("task" + std::to_string(i)); }
+  static std::string ReportOf(uint64_t i) { return std::to_string(i) + std::string(700, 'x'); }
+
+  void SetUp() override {
+    auto journal = OpenSqliteJournal(path_);
+    ASSERT_TRUE(journal.ok()) << journal.status();
+    for (uint64_t i = 0; i < kResults; ++i)
+      ASSERT_TRUE((*journal)->SaveResult(i, TaskOf(i), {.report_json = ReportOf(i)}).ok());
+    database_ = testing::ReadAll(path_);
+    log_ = testing::ReadAll(path_ + "-wal");
+    ASSERT_GT(log_.size(), 100'000U) << "all is in the log still";
+  }
+
+  /// Opens a copy with this log: how many results it has, each as it was saved, the first ones
+  /// without a gap; nothing when it is refused, which says what to do.
+  std::optional<uint64_t> ResultsWith(const std::string& log) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "journal.db";
+    testing::WriteAll(path, database_);
+    testing::WriteAll(path + "-wal", log);
+    auto journal = OpenSqliteJournal(path);
+    if (!journal.ok()) {
+      EXPECT_TRUE(absl::IsDataLoss(journal.status())) << journal.status();
+      EXPECT_THAT(std::string(journal.status().message()), HasSubstr(path));
+      return std::nullopt;
+    }
+    std::vector<Digest> tasks;
+    for (uint64_t i = 0; i < kResults; ++i) tasks.push_back(TaskOf(i));
+    const auto results = (*journal)->LoadResults(tasks);
+    EXPECT_TRUE(results.ok()) << results.status();
+    uint64_t known = 0;
+    bool has_gap = false;
+    for (uint64_t i = 0; results.ok() && i < kResults; ++i) {
+      if (!results->at(i)) {
+        has_gap = true;
+        continue;
+      }
+      EXPECT_FALSE(has_gap) << "result " << i << " outlived one that was saved before it";
+      EXPECT_EQ(results->at(i)->report_json, ReportOf(i));
+      ++known;
+    }
+    return known;
+  }
+
+  std::string database_;
+  std::string log_;
+};
+
+TEST_F(DamagedLog, LosesWhatCameAfterTheDamageAndInventsNothing) {
+  EXPECT_EQ(ResultsWith(log_), kResults);
+  std::mt19937 random(17);
+  uint64_t lost_some = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    std::string log = log_;
+    const size_t where = random() % log.size();
+    const size_t length = std::min<size_t>(log.size() - where, 1 + random() % 64);
+    for (size_t i = 0; i < length; ++i) log[where + i] = static_cast<char>(random());
+    if (ResultsWith(log).value_or(0) < kResults) ++lost_some;
+  }
+  EXPECT_GT(lost_some, 100U) << "damage was where it matters";
+}
+
+TEST_F(DamagedLog, OneThatIsCutLosesItsEnd) {
+  std::mt19937 random(18);
+  for (int trial = 0; trial < 50; ++trial) {
+    const size_t size = random() % log_.size();
+    EXPECT_TRUE(ResultsWith(log_.substr(0, size)).has_value());
+  }
+  EXPECT_EQ(ResultsWith(""), 0U);
 }
 
 TEST_F(SqliteJournal, AResultWhoseBytesWereChangedCountsAsNone) {

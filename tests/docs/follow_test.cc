@@ -108,6 +108,8 @@ TEST(Docs, OperationsIsWhatAnOperatorCanDo) {
       {.command =
            "orbweave serve --listen 0.0.0.0:7000 --tls keys/coordinator --state state --root",
        .reason = "likewise"},
+      {.command = "orbweave run street/images --gnss street/gnss.csv --output model --store",
+       .reason = "likewise"},
       {.command = "orbweave submit --coordinator coordinator.example:7000 --tls keys/client",
        .reason = "likewise"},
       {.command = "orbweave work --join coordinator.example:7000 --tls keys/w2",

@@ -35,9 +35,14 @@ void AddMessageSeeds(Seeds& seeds) {
   add("lease", Lease{digest, uint64_t{1} << 33, {"stage", "1", {digest}, "o.p=1\n", 4}, 3});
   add("heartbeat_reply", HeartbeatReply{{digest}, true});
   add("blob_question", BlobQuestion{{{digest, uint64_t{1} << 33}}, GrantVerb::kPut});
+  add("blob_question",
+      BlobQuestion{{{digest, uint64_t{1} << 33, {"upload", 3, digest, 1 << 26}}},
+                   GrantVerb::kPutPart});
+  add("upload_end", UploadEnd{digest, "upload", {"\"tag\"", "other"}});
   add("blob_grants",
       std::vector<BlobGrant>{{BlobGrant::Where::kObject, {"https://store/key?a=b", {"x: y"}}},
-                             {BlobGrant::Where::kNowhere}});
+                             {BlobGrant::Where::kNowhere},
+                             {BlobGrant::Where::kParts, {}, "upload", 1 << 26}});
   seeds["message_channel"] = {ByteWriter()
                                   .Put(uint64_t{5})
                                   .Put(uint64_t{3})

@@ -52,6 +52,11 @@ void AddTextSeeds(Seeds& seeds) {
       "Contents><IsTruncated>true</IsTruncated><NextContinuationToken>a&amp;b</"
       "NextContinuationToken></ListBucketResult>",
       "<ListBucketResult><IsTruncated>false</IsTruncated></ListBucketResult>"};
+  seeds["upload_list"] = {
+      "<ListMultipartUploadsResult><EncodingType>url</EncodingType><Upload><Key>a%2Fb</Key>"
+      "<UploadId>u&amp;1</UploadId><Initiated>2009-10-12T17:50:30.000Z</Initiated></Upload>"
+      "</ListMultipartUploadsResult>",
+      "<InitiateMultipartUploadResult><UploadId>u</UploadId></InitiateMultipartUploadResult>"};
   seeds["s3_address"] = {"s3://city-blobs/orbweave/a?region=eu-central-1&style=host",
                          "s3://blobs?endpoint=http%3A//127.0.0.1:9000&plain=yes"};
   seeds["s3_keys"] = {

@@ -207,6 +207,78 @@ TEST(ObjectStoreJob, ACoordinatorWithoutKeysOrStoreSaysSo) {
   EXPECT_EQ(misspelt.exit_code, 2);
 }
 
+/// `orbweave run` into `output` with these options besides.
+CommandOutcome RunStreet(const std::string& images,
+                         const std::string& output,
+                         const std::vector<std::string>& options) {
+  std::vector<std::string> command = {ORBWEAVE_BINARY,
+                                      "run",
+                                      images,
+                                      "--gnss",
+                                      StreetFolder() + "/gnss.csv",
+                                      "--output",
+                                      output,
+                                      "--workers",
+                                      "1"};
+  command.insert(command.end(), options.begin(), options.end());
+  return RunCommand(command);
+}
+
+TEST(ObjectStoreRun, LeavesTheSameBytesAndIsFoundAgainByWhoReadsTheResults) {
+  FaultStore store;
+  const TemporaryFolder folder;
+  const std::string keys = KeysFile(folder, store);
+  const std::string output = folder / "model";
+  const CommandOutcome run = RunStreet(
+      StreetFolder() + "/images", output, {"--store", store.Url("street"), "--store-keys", keys});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ExpectSameModel(ModelOfAFolder(), output);
+  EXPECT_GT(store.Objects().size(), kPanoramas) << "its own workers have large blobs there";
+  EXPECT_THAT(run.out + run.err, Not(HasSubstr(store.keys().secret_key)));
+  const CommandOutcome exported =
+      RunCommand({ORBWEAVE_BINARY, "export", output, "--database", folder / "model.db"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.err;
+  const size_t puts = store.Count("PUT");
+  const CommandOutcome again = RunStreet(StreetFolder() + "/images", output, {});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(ComputedTasks(output), 0U) << "the store that it had is known";
+  EXPECT_EQ(store.Count("PUT"), puts);
+}
+
+TEST(ObjectStoreRun, ReadsImagesWhereTheyLieBeneathARoot) {
+  FaultStore store;
+  const TemporaryFolder folder;
+  for (const auto& file : std::filesystem::directory_iterator(StreetFolder() + "/images"))
+    store.SetObject("city/images/" + file.path().filename().string(), ReadAll(file.path()));
+  const std::string output = folder / "model";
+  const CommandOutcome run =
+      RunStreet(store.Url("city/images"),
+                output,
+                {"--root", "city=" + store.Url("city"), "--store-keys", KeysFile(folder, store)});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ExpectSameModel(ModelOfAFolder(), output);
+  EXPECT_EQ(store.Count("PUT"), 0U);
+  const std::string bytes = ReadAll(
+      StreetFolder() + "/images/" +
+      std::filesystem::directory_iterator(StreetFolder() + "/images")->path().filename().string());
+  const std::string name = DigestOf(bytes).ToHex();
+  EXPECT_FALSE(
+      std::filesystem::exists(output + "/.orbweave/blobs/" + name.substr(0, 2) + "/" + name))
+      << "images are not copied";
+}
+
+TEST(ObjectStoreRun, SaysWhatIsWrongWithAStore) {
+  FaultStore store;
+  const TemporaryFolder folder;
+  const CommandOutcome misspelt = RunStreet(
+      StreetFolder() + "/images", folder / "a", {"--store", "s3:/b", "--store-keys", "k"});
+  EXPECT_EQ(misspelt.exit_code, 2) << misspelt.err;
+  const CommandOutcome keyless =
+      RunStreet(StreetFolder() + "/images", folder / "b", {"--store", store.Url("a")});
+  EXPECT_NE(keyless.exit_code, 0);
+  EXPECT_THAT(keyless.err, HasSubstr("AWS_ACCESS_KEY_ID"));
+}
+
 /// Images of the street in a store, and who may read them.
 class ObjectImagesJob : public ::testing::Test {
  protected:

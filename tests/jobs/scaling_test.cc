@@ -106,6 +106,100 @@ TEST(BenchScaling, APageHasNothingOutsideIt) {
     EXPECT_THAT(page, Not(HasSubstr(outside)));
 }
 
+std::vector<std::string> StudyBy(const std::string& engine, const std::string& output) {
+  return {ORBWEAVE_BINARY,
+          "bench",
+          "scaling",
+          "--engine",
+          engine,
+          "--nodes",
+          "1,2",
+          "--strong",
+          "40",
+          "--weak",
+          "20",
+          "--set",
+          "partition.cluster_size=16",
+          "--output",
+          output};
+}
+
+/// What every engine leaves.
+void ExpectStudy(const nlohmann::json& study, const std::string& engine) {
+  ASSERT_TRUE(study.is_object());
+  EXPECT_EQ(study["engine"], engine);
+  ASSERT_EQ(study["points"].size(), 4U) << "one and two nodes, strong and weak";
+  for (const nlohmann::json& point : study["points"]) {
+    EXPECT_EQ(point["panoramas"], point["scaling"] == "strong" || point["nodes"] == 2 ? 40 : 20);
+    EXPECT_GT(point["wall_s"], 0.0);
+    EXPECT_GT(point["efficiency"], 0.0);
+    EXPECT_GT(point["simulated_s"], 0.0);
+    EXPECT_GT(point["coordinator_cpu_s"], 0.0);
+    EXPECT_GT(point["read_bytes"], 0);
+    double slots_s = 0.0;
+    for (const auto& [cause, seconds] : point["slot_s"].items()) slots_s += seconds.get<double>();
+    const double all_s = point["nodes"].get<double>() * point["wall_s"].get<double>();
+    EXPECT_NEAR(slots_s, all_s, 0.05 * all_s) << "every second has a cause";
+  }
+  EXPECT_THAT(study["simulator"].get<std::string>(),
+              ::testing::AnyOf(HasSubstr("of 4 runs"), HasSubstr("All 4 runs")));
+}
+
+TEST(BenchScaling, AStudyRunsMoreAndMoreLocalNodes) {
+  const TemporaryFolder folder;
+  const CommandOutcome bench = RunCommand(StudyBy("local", folder.Path()));
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  ExpectStudy(ScalingOf(folder.Path())["study"], "local");
+  EXPECT_THAT(bench.out, HasSubstr("| weak | 2 | 40 |"));
+  const std::string page = ReadAll(folder / "scaling.html");
+  EXPECT_THAT(page, HasSubstr("Strong scaling, measured"));
+  for (const char* outside : {"http:", "https:", "src=", "<link", "<script"})
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
+}
+
+TEST(BenchScaling, AStudyRunsNodesInNamespacesAndCountsTheirBytes) {
+  if (RunCommand({"/bin/sh", "-c", "ip netns add orbweave-try && ip netns delete orbweave-try"})
+          .exit_code != 0)
+    GTEST_SKIP() << "only root makes network namespaces, and not everywhere";
+  const TemporaryFolder folder;
+  std::vector<std::string> command = StudyBy("netns", folder.Path());
+  command.insert(command.end(), {"--node-processors", "0.5", "--link-mbit", "100"});
+  Command running(command);
+  const std::string own = "orbweave-" + std::to_string(running.Pid()) + "-";
+  const CommandOutcome bench = running.Wait();
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  const nlohmann::json study = ScalingOf(folder.Path())["study"];
+  ExpectStudy(study, "netns");
+  EXPECT_EQ(study["processors_per_slot"], 0.5);
+  EXPECT_NEAR(study["link_gbit_per_s"].get<double>(), 0.1, 1e-9);
+  for (const nlohmann::json& point : study["points"]) {
+    ASSERT_EQ(point["links"].size(), point["nodes"]);
+    for (const nlohmann::json& link : point["links"]) {
+      EXPECT_GT(link["in_bytes"], 100'000) << "matches and the program's greetings";
+      EXPECT_GT(link["out_bytes"], 10'000);
+    }
+  }
+  EXPECT_THAT(RunCommand({"/bin/sh", "-c", "ip netns list"}).out, Not(HasSubstr(own)))
+      << "nothing is left of it";
+}
+
+TEST(BenchScaling, AStudySaysWhatItNeeds) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command = {
+        ORBWEAVE_BINARY, "bench", "scaling", "--output", folder.Path()};
+    command.insert(command.end(), more.begin(), more.end());
+    return RunCommand(command);
+  };
+  const CommandOutcome sizeless = run({"--engine", "local"});
+  EXPECT_EQ(sizeless.exit_code, 2);
+  EXPECT_THAT(sizeless.err, HasSubstr("--strong or --weak"));
+  EXPECT_EQ(run({"--engine", "cloud", "--strong", "20"}).exit_code, 2);
+  EXPECT_EQ(run({"--engine", "local", "--strong", "20", "--panoramas", "20"}).exit_code, 2);
+  EXPECT_EQ(run({"--engine", "local", "--strong", "20", "--cpus", "2"}).exit_code, 2);
+  EXPECT_EQ(run({"--strong", "20"}).exit_code, 2);
+}
+
 TEST(BenchScaling, SaysWhatIsMissing) {
   const TemporaryFolder folder;
   EXPECT_EQ(RunCommand({ORBWEAVE_BINARY, "bench", "scaling"}).exit_code, 2);

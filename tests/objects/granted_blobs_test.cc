@@ -30,6 +30,7 @@ class GrantedBlobsTest : public ::testing::Test {
   void Start() {
     CoordinatorOptions options{.state_dir = folder_ / "state", .find_plan = testing::FindToyPlan};
     options.objects = *S3Store::Make(*ParseS3Address(store_.Url("state")), store_.keys());
+    options.object_limits = limits_;
     options.object_roots["s3://blobs/street"] =
         *S3Store::Make(*ParseS3Address(store_.Url("street")), store_.keys());
     auto opened = Coordinator::Open(options, clock_);
@@ -67,9 +68,13 @@ class GrantedBlobsTest : public ::testing::Test {
     }
   }
 
+  explicit GrantedBlobsTest(testing::FaultStoreOptions options = {}, ObjectLimits limits = {})
+      : store_(std::move(options)), limits_(limits) {}
+
   const std::string large_ = std::string(200'000, 'a') + "b";
   TemporaryFolder folder_;
   FaultStore store_;
+  const ObjectLimits limits_;
   SteadyClock clock_;
   std::unique_ptr<Coordinator> coordinator_;
   std::unique_ptr<GrpcServer> server_;
@@ -220,6 +225,125 @@ TEST_F(GrantedBlobsTest, AnotherCoordinatorIsRefused) {
   EXPECT_TRUE(absl::IsFailedPrecondition(Coordinator::Open(options, clock_).status()));
   options.objects = *S3Store::Make(*ParseS3Address(store_.Url("other")), store_.keys());
   EXPECT_TRUE(Coordinator::Open(options, clock_).ok());
+}
+
+/// A store that takes less by one request than blobs have.
+class BlobsInParts : public GrantedBlobsTest {
+ protected:
+  explicit BlobsInParts(testing::FaultStoreOptions options = {})
+      : GrantedBlobsTest(Small(std::move(options)), {.put_bytes = 150'000, .part_bytes = 66'000}) {}
+
+  static testing::FaultStoreOptions Small(testing::FaultStoreOptions options) {
+    options.most_put_bytes = 150'000;
+    options.least_part_bytes = 66'000;
+    return options;
+  }
+  /// Bytes that are nowhere the same.
+  static std::string Bytes(size_t size) {
+    std::string bytes;
+    for (uint32_t i = 0; bytes.size() < size; ++i) bytes += std::to_string(i) + " ";
+    return bytes.substr(0, size);
+  }
+  void ExpectStored(const std::string& bytes) {
+    const auto digest = client_->Put(bytes);
+    ASSERT_TRUE(digest.ok()) << digest.status();
+    EXPECT_EQ(store_.Objects().at(KeyOf(*digest)), bytes);
+    EXPECT_EQ(store_.CountUploads(), 0U) << "nothing is left half done";
+    ASSERT_TRUE(coordinator_->SubmitJob({.kind = "toy", .inputs = {*digest}}).ok());
+    EXPECT_EQ(*client_->Get(*digest), bytes);
+  }
+};
+
+TEST_F(BlobsInParts, AreOneObjectInTheEnd) {
+  ExpectStored(Bytes(200'001));
+  EXPECT_EQ(store_.Count("PUT"), 1U + 4U) << "whose the store is, and four parts";
+  ExpectStored(Bytes(198'000));  // whole parts
+  EXPECT_EQ(store_.Count("PUT"), 1U + 4U + 3U);
+  ExpectStored(Bytes(150'000));  // what one request takes
+  EXPECT_EQ(store_.Count("PUT"), 1U + 4U + 3U + 1U);
+  EXPECT_EQ(coordinator_->blob_traffic().bytes_in, 0U);
+}
+
+TEST_F(BlobsInParts, APartThatFailsIsTriedAgainByItself) {
+  store_.FailNext("PUT", {StoreFault::kSlowDown, StoreFault::kCutBody, StoreFault::kServerError});
+  ExpectStored(Bytes(300'000));
+  EXPECT_EQ(store_.Count("PUT"), 1U + 5U + 3U);
+}
+
+TEST_F(BlobsInParts, WhatIsNotWhatItIsNamedLeavesNothing) {
+  const std::string bytes = Bytes(300'000);
+  const absl::Status other = client_->Write(DigestOf("another"), bytes.size(), PiecesOf(bytes));
+  EXPECT_TRUE(absl::IsDataLoss(other)) << other;
+  const absl::Status shorter = client_->Write(DigestOf(bytes), bytes.size() + 1, PiecesOf(bytes));
+  EXPECT_TRUE(absl::IsDataLoss(shorter)) << shorter;
+  EXPECT_EQ(CountBlobs(), 0U);
+  EXPECT_EQ(store_.CountUploads(), 0U);
+}
+
+TEST_F(BlobsInParts, WhoeverBringsItThatBreaksOffLeavesNothing) {
+  int pieces = 0;
+  const absl::Status broken =
+      client_->Write(DigestOf("x"), 300'000, [&]() -> absl::StatusOr<std::string_view> {
+        if (++pieces > 100) return absl::CancelledError("enough");
+        return "1000 bytes or so";
+      });
+  EXPECT_TRUE(absl::IsCancelled(broken)) << broken;
+  EXPECT_EQ(store_.CountUploads(), 0U);
+}
+
+TEST_F(BlobsInParts, AStoreThatIsAwayForLongIsUnavailable) {
+  store_.FailNext("PUT", std::vector<StoreFault>(6, StoreFault::kSlowDown));
+  EXPECT_TRUE(absl::IsUnavailable(client_->Put(Bytes(300'000)).status()));
+  EXPECT_EQ(store_.CountUploads(), 0U);
+  ExpectStored(Bytes(300'000));
+}
+
+TEST_F(BlobsInParts, GarbageIsWhatCameOfUploadsThatNobodyEnded) {
+  const auto store = *S3Store::Make(*ParseS3Address(store_.Url("state")), store_.keys());
+  ASSERT_TRUE(store->BeginUpload(DigestOf("a").ToHex()).ok());
+  EXPECT_TRUE(client_->CollectGarbage({}).ok());
+  EXPECT_EQ(store_.CountUploads(), 1U) << "it may be going on";
+  store_.AgeUploads(100'000);
+  const auto other = *S3Store::Make(*ParseS3Address(store_.Url("other")), store_.keys());
+  ASSERT_TRUE(other->BeginUpload("theirs").ok());
+  store_.AgeUploads(100'000);
+  EXPECT_TRUE(client_->CollectGarbage({.dry_run = true}).ok());
+  EXPECT_EQ(store_.CountUploads(), 2U);
+  EXPECT_TRUE(client_->CollectGarbage({}).ok());
+  EXPECT_EQ(store_.CountUploads(), 1U) << "that of another prefix";
+}
+
+TEST_F(BlobsInParts, TwoMayBringTheSame) {
+  const auto store = *S3Store::Make(*ParseS3Address(store_.Url("state")), store_.keys());
+  const std::string bytes = Bytes(300'000);
+  const std::string key = DigestOf(bytes).ToHex();
+  const std::string upload = *store->BeginUpload(key);
+  ASSERT_TRUE(client_->Put(bytes).ok());
+  EXPECT_EQ(store_.CountUploads(), 1U);
+  EXPECT_TRUE(store->FinishUpload(key, upload, {}).ok()) << "the other was first";
+  EXPECT_EQ(store_.CountUploads(), 0U);
+  EXPECT_TRUE(store->FinishUpload(key, upload, {}).ok()) << "an answer that was lost";
+  EXPECT_TRUE(absl::IsNotFound(store->FinishUpload("nothing", upload, {})));
+  EXPECT_EQ(store_.Objects().at(KeyOf(DigestOf(bytes))), bytes);
+}
+
+class BlobsInPartsWithFaults : public BlobsInParts {
+ protected:
+  BlobsInPartsWithFaults()
+      : BlobsInParts({.knows_conditions = false, .slow_down_share = 0.1, .cut_share = 0.05}) {}
+};
+
+TEST_F(BlobsInPartsWithFaults, ComeThrough) {
+  for (size_t size = 200'000; size < 220'000; size += 1000) ExpectStored(Bytes(size));
+  EXPECT_GT(store_.Faults(), 5U);
+}
+
+TEST(ObjectLimits, PartsAreAsManyAsAServerTakes) {
+  const ObjectLimits usual;
+  EXPECT_EQ(usual.PartBytesOf(usual.put_bytes + 1), uint64_t{64} << 20);
+  const uint64_t most = uint64_t{5} << 40;
+  EXPECT_LE(most / usual.PartBytesOf(most), kMostParts);
+  EXPECT_LE(usual.PartBytesOf(most), kMostPutBytes);
 }
 
 }  // namespace

@@ -116,6 +116,45 @@ TEST(ParseObjectPage, RefusesWhatIsHalf) {
   }
 }
 
+constexpr char kUploads[] =
+    "<ListMultipartUploadsResult><EncodingType>url</EncodingType><Upload><Key>a%2Fb</Key>"
+    "<UploadId>VXBsb2Fk&amp;x</UploadId><Initiated>2009-10-12T17:50:30.000Z</Initiated></Upload>"
+    "</ListMultipartUploadsResult>";
+
+TEST(ParseUploads, TakesNamesAndTimes) {
+  const std::vector<UploadInfo> uploads = *ParseUploads(kUploads);
+  ASSERT_EQ(uploads.size(), 1U);
+  EXPECT_EQ(uploads[0].key, "a/b");
+  EXPECT_EQ(uploads[0].upload, "VXBsb2Fk&x");
+  EXPECT_EQ(uploads[0].begun_unix_s, 1255369830);
+  EXPECT_TRUE(ParseUploads("<ListMultipartUploadsResult></ListMultipartUploadsResult>")->empty());
+}
+
+TEST(ParseUploads, RefusesWhatIsHalf) {
+  EXPECT_FALSE(ParseUploads("<html>a proxy</html>").ok());
+  for (const char* needed :
+       {"<UploadId>VXBsb2Fk&amp;x</UploadId>", "<Initiated>2009-10-12T17:50:30.000Z</Initiated>"}) {
+    std::string without = kUploads;
+    without.erase(without.find(needed), std::string(needed).size());
+    EXPECT_TRUE(absl::IsDataLoss(ParseUploads(without).status())) << needed;
+  }
+  EXPECT_EQ(*ParseUpload("<R><UploadId>7</UploadId></R>"), "7");
+  EXPECT_TRUE(absl::IsDataLoss(ParseUpload("<R></R>").status()));
+}
+
+TEST(PartsXml, NamesPartsInOrder) {
+  EXPECT_EQ(PartsXml({"\"a\"", "<&>"}),
+            "<CompleteMultipartUpload><Part><PartNumber>1</PartNumber><ETag>\"a\"</ETag></Part>"
+            "<Part><PartNumber>2</PartNumber><ETag>&lt;&amp;&gt;</ETag></Part>"
+            "</CompleteMultipartUpload>");
+}
+
+TEST(StatusOfFinish, AnErrorMayComeAfterTheHead) {
+  EXPECT_TRUE(StatusOfFinish({.status = 200, .body = "<R><ETag>x</ETag></R>"}, "x").ok());
+  EXPECT_TRUE(absl::IsUnavailable(
+      StatusOfFinish({.status = 200, .body = "  <Error><Code>InternalError</Code></Error>"}, "x")));
+}
+
 TEST(ParseHttpTime, TakesBothForms) {
   EXPECT_EQ(*ParseHttpTime(kDate), kDate_s);
   EXPECT_EQ(*ParseHttpTime("2009-10-12T17:50:30.000Z"), 1255369830);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "orbweave/v1/coordinator.grpc.pb.h"
+#include "tests/support/tcp_talk.h"
 #include "tests/support/tls_server.h"
 #include "worker/grpc_channel.h"
 
@@ -224,6 +225,20 @@ TEST(Limits, AWorkerHasSlotsWithinReason) {
     EXPECT_TRUE(absl::IsInvalidArgument(node->Join(WideWorker(slots)).status())) << slots;
   const uint64_t session = node->Join(WideWorker(2))->session;
   EXPECT_TRUE(absl::IsInvalidArgument(node->LeaseTask(session, 2, 0.0).status()));
+}
+
+TEST(Limits, WhoNeverEndsAHandshakeKeepsNobodyOut) {
+  const TlsServer server;
+  // What a greeting in TLS begins with; the rest never comes.
+  const std::string greeting("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
+  std::vector<std::unique_ptr<testing::TcpTalk>> silent;
+  for (int i = 0; i < 400; ++i) {
+    silent.push_back(std::make_unique<testing::TcpTalk>(server.address()));
+    ASSERT_TRUE(silent.back()->IsOpen()) << i;
+    if (i % 2 == 0) silent.back()->Say(greeting.substr(0, 1 + i % greeting.size()));
+  }
+  EXPECT_TRUE(server.As("client")->ListJobs().ok());
+  EXPECT_TRUE(server.As("node")->Join(Worker("node")).ok());
 }
 
 }  // namespace

@@ -6,6 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <vector>
+
 #include "security/handshake_probe.h"
 #include "security/secret_file.h"
 #include "tests/support/tls_server.h"
@@ -45,6 +51,92 @@ TEST(Revoked, IsRefusedAtItsNextCallThoughItIsConnected) {
   EXPECT_TRUE(absl::IsPermissionDenied(node->Put("bytes").status()));
   EXPECT_TRUE(absl::IsPermissionDenied(node->Join(Worker("node")).status()));
   EXPECT_TRUE(server.As("other")->Join(Worker("other")).ok());
+}
+
+TEST(Revoked, IsToldSoWhileItWaitsForATask) {
+  TlsServer server;
+  const auto node = server.As("node");
+  const uint64_t session = node->Join(Worker("node"))->session;
+  absl::Status told;
+  std::jthread waiting([&] { told = node->LeaseTask(session, 0, 3600.0).status(); });
+  const auto other = server.As("other");
+  const uint64_t others = other->Join(Worker("other"))->session;
+  ASSERT_TRUE(Revoke(server.keys(), {.names = {"node"}}).ok());
+  waiting.join();  // an hour before its time
+  EXPECT_TRUE(absl::IsPermissionDenied(told)) << told;
+  const auto client = server.As("client");
+  ASSERT_TRUE(client->SubmitJob(*testing::PrepareToyJob(*client, "1")).ok());
+  EXPECT_TRUE((*other->LeaseTask(others, 0, 30.0)).has_value())
+      << "others are given tasks as before";
+}
+
+TEST(Revoked, LosesStreamsThatHaveBegun) {
+  TlsServer server;
+  const auto client = server.As("client");
+  const Digest blob = *client->Put(std::string(8 << 20, 'y'));
+  const auto node = server.As("node");
+  absl::Status read = absl::OkStatus();
+  absl::Status wrote = absl::OkStatus();
+  std::atomic<bool> reads{false};
+  std::atomic<bool> writes{false};
+  std::atomic<bool> has_lost_one{false};
+  std::jthread reader([&] {
+    read = node->Read(blob, [&](std::string_view) {
+      reads = true;
+      testing::WaitUntil([&] { return has_lost_one.load(); }, 300.0);
+      return absl::OkStatus();
+    });
+  });
+  ASSERT_TRUE(testing::WaitUntil([&] { return reads.load(); }, 60.0));
+  // A byte at a time, and never to an end.
+  std::jthread writer([&] {
+    wrote = node->Write(DigestOf("x"), 1 << 30, [&]() -> absl::StatusOr<std::string_view> {
+      writes = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return "x";
+    });
+    has_lost_one = true;
+  });
+  ASSERT_TRUE(testing::WaitUntil([&] { return writes.load(); }, 60.0));
+  ASSERT_TRUE(Revoke(server.keys(), {.names = {"node"}}).ok());
+  writer.join();
+  reader.join();
+  EXPECT_FALSE(wrote.ok());
+  EXPECT_FALSE(read.ok());
+  EXPECT_TRUE(client->Get(blob).ok()) << "others are not disturbed";
+}
+
+TEST(Revoked, LosesAllOfHundredsOfCallsAndDisturbsNobodyElse) {
+  constexpr uint32_t kWaiting = 150;
+  TlsServer server;
+  const auto node = server.As("node");
+  WorkerInfo many = Worker("node");
+  many.slots = kWaiting;
+  const uint64_t session = node->Join(many)->session;
+  std::atomic<uint32_t> refused{0};
+  std::vector<std::jthread> calls;
+  for (uint32_t slot = 0; slot < kWaiting; ++slot) {
+    calls.emplace_back([&, slot] {
+      if (absl::IsPermissionDenied(node->LeaseTask(session, slot, 3600.0).status())) ++refused;
+    });
+  }
+  const auto busy = server.As("node");
+  std::atomic<bool> is_busy_refused{false};
+  calls.emplace_back([&] {  // and calls that come all the while
+    while (!absl::IsPermissionDenied(busy->Heartbeat(session, {}).status())) {
+    }
+    is_busy_refused = true;
+  });
+  const auto other = server.As("other");
+  const uint64_t others = other->Join(Worker("other"))->session;
+  const auto client = server.As("client");
+  ASSERT_TRUE(Revoke(server.keys(), {.names = {"node"}}).ok());
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(other->Heartbeat(others, {}).ok());
+  calls.clear();  // joins: an hour before their time
+  EXPECT_EQ(refused, kWaiting);
+  EXPECT_TRUE(is_busy_refused);
+  ASSERT_TRUE(client->SubmitJob(*testing::PrepareToyJob(*client, "1")).ok());
+  EXPECT_TRUE((*other->LeaseTask(others, 0, 30.0)).has_value());
 }
 
 TEST(Revoked, StaysOutAfterARestartAndGetsNoNewCertificate) {

@@ -191,8 +191,11 @@ class FaultStoreTalk {
     if (!question.path.starts_with(kBucketPath))
       return Refuse({404, "NoSuchBucket", "there is no such bucket"});
     const std::string rest = question.path.substr(std::string(kBucketPath).size());
+    if (rest.empty() && question.query.contains("uploads")) return ListUploads(question);
     if (rest.empty()) return List(question);
     const std::string key = *UriDecode(rest.substr(1));
+    if (question.query.contains("uploads")) return BeginUpload(key);
+    if (question.query.contains("uploadId")) return RespondToUpload(key, request, question);
     switch (request.method()) {
       case http::verb::put:
         return Put(key, request);
@@ -242,11 +245,95 @@ class FaultStoreTalk {
     const bool has_condition = request.count(http::field::if_none_match) > 0;
     if (has_condition && !store_.options_.knows_conditions)
       return Refuse({501, "NotImplemented", "no conditions"});
+    if (request.body().size() > store_.options_.most_put_bytes)
+      return Refuse({400, "EntityTooLarge", "more than one request may bring"});
     const std::lock_guard lock(store_.mutex_);
     if (has_condition && store_.objects_.contains(key))
       return Refuse({412, "PreconditionFailed", "it is there"});
     store_.objects_[key] = {request.body(), UnixNow()};
     return Response(http::status::ok, 11);
+  }
+
+  Response BeginUpload(const std::string& key) {
+    const std::lock_guard lock(store_.mutex_);
+    const std::string upload = absl::StrCat("upload~/+", ++store_.begun_uploads_);
+    store_.uploads_[upload] = {.key = key, .begun_unix_s = UnixNow()};
+    Response response(http::status::ok, 11);
+    response.body() = absl::StrCat("<InitiateMultipartUploadResult><UploadId>",
+                                   upload,
+                                   "</UploadId></InitiateMultipartUploadResult>");
+    return response;
+  }
+
+  Response RespondToUpload(const std::string& key,
+                           const Request& request,
+                           const Question& question) {
+    const std::lock_guard lock(store_.mutex_);
+    const auto upload = store_.uploads_.find(question.query.at("uploadId"));
+    if (upload == store_.uploads_.end() || upload->second.key != key)
+      return Refuse({404, "NoSuchUpload", "there is no such upload"});
+    if (request.method() == http::verb::put) {
+      upload->second.parts[std::stoi(question.query.at("partNumber"))] = request.body();
+      Response response(http::status::ok, 11);
+      response.set(http::field::etag, EtagOf(request.body()));
+      return response;
+    }
+    if (request.method() == http::verb::delete_) {
+      store_.uploads_.erase(upload);
+      return Response(http::status::no_content, 11);
+    }
+    return Complete(key, request, upload);
+  }
+
+  Response Complete(const std::string& key,
+                    const Request& request,
+                    std::map<std::string, FaultStore::Upload>::iterator upload) {
+    if (request.count(http::field::if_none_match) > 0) {
+      if (!store_.options_.knows_conditions)
+        return Refuse({501, "NotImplemented", "no conditions"});
+      if (store_.objects_.contains(key)) return Refuse({412, "PreconditionFailed", "it is there"});
+    }
+    std::string bytes;
+    std::string expected = "<CompleteMultipartUpload>";
+    size_t left = upload->second.parts.size();
+    for (const auto& [number, part] : upload->second.parts) {
+      absl::StrAppend(&expected,
+                      "<Part><PartNumber>",
+                      number,
+                      "</PartNumber><ETag>",
+                      EtagOf(part),
+                      "</ETag></Part>");
+      bytes += part;
+      if (--left > 0 && part.size() < store_.options_.least_part_bytes)
+        return Refuse({400, "EntityTooSmall", "a part is too small"});
+    }
+    if (request.body() != expected + "</CompleteMultipartUpload>")
+      return Refuse({400, "InvalidPart", "other parts"});
+    store_.objects_[key] = {bytes, UnixNow()};
+    store_.uploads_.erase(upload);
+    Response response(http::status::ok, 11);
+    response.body() = "<CompleteMultipartUploadResult></CompleteMultipartUploadResult>";
+    return response;
+  }
+
+  Response ListUploads(const Question& question) {
+    const auto prefix = question.query.find("prefix");
+    std::string xml = "<ListMultipartUploadsResult><EncodingType>url</EncodingType>";
+    const std::lock_guard lock(store_.mutex_);
+    for (const auto& [name, upload] : store_.uploads_) {
+      if (prefix != question.query.end() && !upload.key.starts_with(prefix->second)) continue;
+      absl::StrAppend(&xml,
+                      "<Upload><Key>",
+                      UriEncode(upload.key, true),
+                      "</Key><UploadId>",
+                      name,
+                      "</UploadId><Initiated>",
+                      FormatTime(upload.begun_unix_s, "%Y-%m-%dT%H:%M:%S.000Z"),
+                      "</Initiated></Upload>");
+    }
+    Response response(http::status::ok, 11);
+    response.body() = xml + "</ListMultipartUploadsResult>";
+    return response;
   }
 
   Response Get(const std::string& key, const Request& request) {
@@ -409,6 +496,16 @@ void FaultStore::SetObject(const std::string& key, const std::string& bytes) {
 void FaultStore::RemoveObject(const std::string& key) {
   const std::lock_guard lock(mutex_);
   objects_.erase(key);
+}
+
+size_t FaultStore::CountUploads() {
+  const std::lock_guard lock(mutex_);
+  return uploads_.size();
+}
+
+void FaultStore::AgeUploads(int64_t age_s) {
+  const std::lock_guard lock(mutex_);
+  for (auto& [name, upload] : uploads_) upload.begun_unix_s = UnixNow() - age_s;
 }
 
 void FaultStore::Age(const std::string& key, int64_t age_s) {

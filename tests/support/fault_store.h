@@ -36,6 +36,8 @@ struct FaultStoreOptions {
   double slow_down_share = 0.0;  ///< of requests
   double cut_share = 0.0;        ///< of requests with a body in the question or the answer
   double delay_s = 0.0;          ///< before each answer
+  size_t most_put_bytes = size_t{1} << 30;  ///< by one request; more is EntityTooLarge
+  size_t least_part_bytes = 0;              ///< of all parts but the last; less is EntityTooSmall
 };
 
 /// An S3 server for tests, with one bucket "blobs" in memory: presigned requests are held against
@@ -56,6 +58,10 @@ class FaultStore {
   [[nodiscard]] std::map<std::string, std::string> Objects();
   void SetObject(const std::string& key, const std::string& bytes);
   void RemoveObject(const std::string& key);
+  /// Uploads in parts that were begun and not ended.
+  [[nodiscard]] size_t CountUploads();
+  /// As if all of them had been begun so long ago.
+  void AgeUploads(int64_t age_s);
   /// As if it had been put so long ago.
   void Age(const std::string& key, int64_t age_s);
   /// Requests with this method so far, refused ones among them.
@@ -73,8 +79,16 @@ class FaultStore {
     int64_t modified_unix_s = 0;
   };
 
+  struct Upload {
+    std::string key{};
+    std::map<int, std::string> parts{};
+    int64_t begun_unix_s = 0;
+  };
+
   FaultStoreOptions options_;
   std::mutex mutex_;
+  std::map<std::string, Upload> uploads_;
+  uint64_t begun_uploads_ = 0;
   std::map<std::string, Object> objects_;
   std::map<std::string, uint64_t> counts_;
   std::map<std::string, std::deque<StoreFault>> next_faults_;

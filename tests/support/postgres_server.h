@@ -49,6 +49,15 @@ class PostgresServer {
     return "host=" + Data() + " user=test dbname=" + name;
   }
 
+  /// Cuts off whoever uses a database, whatever they are doing, and lets nobody in until LetIn.
+  void CutOff(const std::string& name) const {
+    Order("ALTER DATABASE " + name + " ALLOW_CONNECTIONS false",
+          "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = '" + name + "'");
+  }
+  void LetIn(const std::string& name) const {
+    Order("ALTER DATABASE " + name + " ALLOW_CONNECTIONS true", "SELECT 1");
+  }
+
   /// Ends it as an operator would: connections are cut, what was committed is kept.
   void Stop() {
     if (!process_) return;
@@ -71,6 +80,22 @@ class PostgresServer {
 
  private:
   PostgresServer() = default;
+
+  /// One after the other.
+  void Order(const std::string& first, const std::string& second) const {
+    const CommandOutcome done = Run({programs_ + "/psql",
+                                     "-h",
+                                     Data(),
+                                     "-U",
+                                     "test",
+                                     "-d",
+                                     "postgres",
+                                     "-c",
+                                     first,
+                                     "-c",
+                                     second});
+    if (done.exit_code != 0) fprintf(stderr, "%s\n", done.err.c_str());
+  }
 
   [[nodiscard]] std::string Data() const { return folder_ / "data"; }
 
