@@ -11,11 +11,11 @@
 #include <span>
 
 #include "core/mapping/centre_by_lengths.h"
-#include "core/mapping/drive_places.h"
 #include "core/mapping/find_gap_shift.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/measure_gap_lengths.h"
 #include "core/mapping/measure_pair_lengths.h"
+#include "core/mapping/registered_sequence.h"
 
 namespace orbweave {
 namespace {
@@ -92,7 +92,7 @@ class Pieces {
   }
 
   const MappingState& state_;
-  DrivePlaces places_;
+  RegisteredSequence places_;
 };
 
 class ShiftLister {

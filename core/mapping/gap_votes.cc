@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/base/quantile.h"
-#include "core/mapping/drive_places.h"
 #include "core/mapping/ray_depths.h"
+#include "core/mapping/registered_sequence.h"
 
 namespace orbweave {
 namespace {
@@ -94,7 +94,7 @@ class Collector {
   }
 
   const AskedRays& asked_;
-  DrivePlaces places_;
+  RegisteredSequence places_;
   std::vector<GapVotes> votes_;  ///< behind each place
 };
 

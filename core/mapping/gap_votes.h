@@ -32,8 +32,8 @@ struct GapVotes {
 /// side, the median of them, which a tear leaves as they are. Pairs lead across that have no more
 /// than two images of the drive between theirs: longer ones hide a step.
 ///
-/// Pairs and votes may be none. Of drives in order, of images as they were taken (DrivePlaces);
-/// votes in order of rays.
+/// Pairs and votes may be none. Of drives in order, of images as they were taken
+/// (RegisteredSequence); votes in order of rays.
 [[nodiscard]] std::vector<GapVotes> CollectGapVotes(const AskedRays& asked);
 
 }  // namespace orbweave

@@ -17,7 +17,7 @@ namespace orbweave {
 /// (TellsEnough): where the scale jumps, what is behind agrees with itself, and what is before does
 /// not. Another length is that of the side which more clearly wants one (FindGapShift).
 ///
-/// Of drives in order, of images as they were taken (DrivePlaces).
+/// Of drives in order, of images as they were taken (RegisteredSequence).
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked);
 
 /// Matches of the pairs that lead across, and those that agree (GapLength::matches).

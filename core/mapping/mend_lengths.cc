@@ -24,6 +24,8 @@ namespace orbweave {
 namespace {
 
 constexpr int kMaxMoves = 12;
+/// Each asks all rays of the cluster: a street that is wrong everywhere is not worth more.
+constexpr int kMaxTries = 150;
 /// Centres told by rays are right to some hundredths of a step, points to less than a pixel.
 constexpr double kSlack = 3.0;
 
@@ -63,10 +65,14 @@ constexpr std::array<Remedy, 2> kRemedies = {
      {ListShifts, CountAgreeingRays}}};
 
 /// Makes the one move with which most agrees, if more does than now. Poses alone are moved.
-bool MakeBestMove(const Remedy& remedy, const MappingOptions& options, MappingState& state) {
+bool MakeBestMove(const Remedy& remedy,
+                  const MappingOptions& options,
+                  int& tries_left,
+                  MappingState& state) {
   double most = remedy.count(state, options);
   std::optional<CandidateMove> best;
   for (const CandidateMove& move : remedy.list(state, options)) {
+    if (tries_left-- <= 0) break;
     const CandidateMove back = PosesNow(state, move);
     PutAt(state, move);
     const double agreeing = remedy.count(state, options);
@@ -84,8 +90,9 @@ absl::StatusOr<int> MakeMoves(const MappingOptions& options,
                               const StageContext& context,
                               MappingState& state) {
   int num_moves = 0;
+  int tries_left = kMaxTries;
   for (const Remedy& remedy : kRemedies) {
-    for (int i = 0; i < kMaxMoves && MakeBestMove(remedy, options, state); ++i) {
+    for (int i = 0; i < kMaxMoves && MakeBestMove(remedy, options, tries_left, state); ++i) {
       ++num_moves;
       ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     }

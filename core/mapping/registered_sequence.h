@@ -11,9 +11,9 @@ namespace orbweave {
 
 /// Registered images, drive by drive, as they were taken (ClusterImage::rank_in_drive; where that
 /// is one, in order of their ids), and where in this order each is.
-class DrivePlaces {
+class RegisteredSequence {
  public:
-  explicit DrivePlaces(const MappingState& state);
+  explicit RegisteredSequence(const MappingState& state);
 
   [[nodiscard]] size_t size() const { return images_.size(); }
   [[nodiscard]] ImageSlot At(size_t place) const { return images_[place]; }

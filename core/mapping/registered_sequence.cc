@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/mapping/drive_places.h"
+#include "core/mapping/registered_sequence.h"
 
 #include <algorithm>
 #include <tuple>
 
 namespace orbweave {
 
-DrivePlaces::DrivePlaces(const MappingState& state) : place_(state.Graph().NumImages()) {
+RegisteredSequence::RegisteredSequence(const MappingState& state)
+    : place_(state.Graph().NumImages()) {
   for (ImageSlot image = 0; image < state.Graph().NumImages(); ++image) {
     if (state.IsRegistered(image)) images_.push_back(image);
   }
