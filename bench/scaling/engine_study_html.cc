@@ -112,7 +112,7 @@ std::string ShareBar(const TimeShares& shares) {
                     SeriesColor(color++),
                     "\"></div>");
   }
-  return "<div style=\"display:flex\">" + bar + "</div>";
+  return "<div style=\"display:flex;min-width:10em\">" + bar + "</div>";
 }
 
 std::string TimeOfSlots(const EngineStudy& study) {
@@ -131,11 +131,9 @@ std::string TimeOfSlots(const EngineStudy& study) {
   return Section(
       "Where the time of slots went",
       "Of all slots from submission to end. Transfer: a task waits for blobs, or for a processor "
-      "that "
-      "others have. Lease: a slot waits though there are tasks, or hands one in. Barrier: others "
-      "do "
-      "the last tasks of a stage. Serial stage: another does its one task. Repeated: attempts that "
-      "came to nothing.",
+      "that others have. Lease: a slot waits though there are tasks, or hands one in. Barrier: "
+      "others do the last tasks of a stage. Serial stage: another does its one task. Repeated: "
+      "attempts that came to nothing.",
       Table(head, rows) + LineKeyHtml(key));
 }
 
