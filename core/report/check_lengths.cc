@@ -59,13 +59,14 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
   char text[256];
   if (fault.kind == LengthFaultKind::kElsewhere) {
     const double here = fault.agreement.agreeing;
-    std::snprintf(text,
-                  sizeof text,
-                  "of the rays that tell how long steps are %.0f say another length than the model "
-                  "has %s, and %.0f the model's",
-                  fault.agreement.told - here,
-                  PlaceOf(fault, manifest).c_str(),
-                  here);
+    std::snprintf(
+        text,
+        sizeof text,
+        "of the rays that tell how long steps are, %.0f say another length than the model "
+        "has %s, and %.0f the model's",
+        fault.agreement.told - here,
+        PlaceOf(fault, manifest).c_str(),
+        here);
   } else if (fault.kind == LengthFaultKind::kHinge) {
     std::snprintf(
         text,
@@ -77,7 +78,7 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
   } else {
     std::snprintf(text,
                   sizeof text,
-                  "of the rays that tell how long steps are only %d %% agree with the model %s",
+                  "of the rays that tell how long steps are, only %d %% agree with the model %s",
                   Percent(fault.agreement.Share()),
                   PlaceOf(fault, manifest).c_str());
   }
