@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/mapping/find_length_faults.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/told_lengths.h"
 
@@ -45,6 +46,13 @@ class Crossings {
       if (log_lengths.size() < kFewestRaysOfPair) continue;
       Add(state_.Graph().pairs[asked.pairs[pair]], std::move(log_lengths));
     }
+  }
+
+  [[nodiscard]] bool AreEnough() const {
+    size_t rays = 0;
+    for (const Crossing& crossing : crossings_) rays += crossing.told.NumRays();
+    return TellsEnough({.told = static_cast<double>(rays)},
+                       static_cast<uint32_t>(crossings_.size()));
   }
 
   [[nodiscard]] double CountAgreeing(double shift) const {
@@ -104,6 +112,7 @@ GapShift FindGapShift(const AskedRays& asked,
                       const GapVotes& gap,
                       std::span<const LengthVote> votes) {
   const Crossings crossings(asked, gap, votes);
+  if (!crossings.AreEnough()) return {};
   GapShift best{.here = crossings.CountAgreeing(0.0)};
   best.elsewhere = best.here;
   for (const double candidate : crossings.Candidates()) {

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <set>
+#include <vector>
+
 #include "core/geometry/sim3.h"
 #include "core/mapping/find_gap_shift.h"
 #include "core/mapping/measure_pair_lengths.h"
@@ -121,6 +125,21 @@ TEST(GapShift, IsNoneWhereNobodySaysAnything) {
   EXPECT_EQ(shift.shift, 0.0);
   EXPECT_EQ(shift.here, 0.0);
   EXPECT_EQ(shift.elsewhere, 0.0);
+}
+
+TEST(GapShift, IsNoneWhereTwoPairsSayIt) {
+  const TornStreet street;
+  const MappingState torn = Torn(street, 4.0);
+  const AskedRays asked(torn, {});
+  const GapVotes gap = CollectGapVotes(asked)[6];
+  std::vector<LengthVote> of_two = gap.before;
+  std::set<uint32_t> pairs;
+  for (const LengthVote& vote : of_two) pairs.insert(vote.pair);
+  ASSERT_GT(pairs.size(), 2U);
+  const uint32_t third = *std::next(pairs.begin(), 2);
+  std::erase_if(of_two, [&](const LengthVote& vote) { return vote.pair >= third; });
+  EXPECT_NE(FindGapShift(asked, gap, gap.before).shift, 0.0);
+  EXPECT_EQ(FindGapShift(asked, gap, of_two).elsewhere, 0.0);
 }
 
 /// What is behind the jump agrees with itself.
