@@ -220,8 +220,9 @@ std::vector<CandidateMove> ListTurns(const MappingState& state, const MappingOpt
   std::vector<CandidateMove> turns;
   for (const GapVotes& gap : CollectGapVotes(asked)) {
     if (!IsAskew(MatchesAcross(asked, gap))) continue;
+    const std::vector<ImageSlot> piece = pieces.From(gap.next);
     for (const uint32_t pair : StrongestOf(state, gap.pairs)) {
-      CandidateMove turn = TurnedBy(state, state.Graph().pairs[pair], pieces.From(gap.next));
+      CandidateMove turn = TurnedBy(state, state.Graph().pairs[pair], piece);
       if (!turn.empty()) turns.push_back(std::move(turn));
     }
   }

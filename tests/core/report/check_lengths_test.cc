@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace orbweave {
 namespace {
 
@@ -82,36 +84,33 @@ TEST(CheckLengths, ATearIsDoubtful) {
   EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood) << "gaps between two models";
 }
 
-TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
-  JobResults results = Drive();
-  GapLength& gap = results.clusters[0].gap_lengths[20];
-  gap.here = 60.0;
-  gap.elsewhere = 132.0;
+/// Of a drive whose first cluster has that gap behind image 20; a second one finds nothing wrong.
+void ExpectDoubtWhicheverClusterSaysSo(JobResults results, const std::string& sentence) {
   results.clusters.push_back(Drive().clusters[0]);
-  for (const size_t torn : {0U, 1U}) {
+  for (const size_t says_so : {0U, 1U}) {
     const CrossCheck check = CheckLengths(results);
-    EXPECT_EQ(check.level, CheckLevel::kDoubtful) << torn;
+    EXPECT_EQ(check.level, CheckLevel::kDoubtful) << says_so;
     EXPECT_LT(check.value, check.limit);
-    EXPECT_THAT(check.sentence,
-                HasSubstr("132 say another length than the model has between 20.jpg and 21.jpg, "
-                          "and 60 the model's"));
+    EXPECT_THAT(check.sentence, HasSubstr(sentence));
     std::swap(results.clusters[0], results.clusters[1]);
   }
+}
+
+TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
+  JobResults results = Drive();
+  results.clusters[0].gap_lengths[20].here = 60.0;
+  results.clusters[0].gap_lengths[20].elsewhere = 132.0;
+  ExpectDoubtWhicheverClusterSaysSo(
+      results,
+      "132 say another length than the model has between 20.jpg and 21.jpg, and 60 the model's");
 }
 
 TEST(CheckLengths, AHingeIsDoubtfulWhicheverClusterSaysSo) {
   JobResults results = Drive();
   results.clusters[0].gap_lengths[20].matches = {.told = 582.0, .agreeing = 62.0};
-  results.clusters.push_back(Drive().clusters[0]);
-  for (const size_t first : {0U, 1U}) {
-    const CrossCheck check = CheckLengths(results);
-    EXPECT_EQ(check.level, CheckLevel::kDoubtful) << first;
-    EXPECT_LT(check.value, check.limit);
-    EXPECT_THAT(check.sentence,
-                HasSubstr("only 11 % agree with the model between 20.jpg and 21.jpg, whose two "
-                          "sides stand askew"));
-    std::swap(results.clusters[0], results.clusters[1]);
-  }
+  ExpectDoubtWhicheverClusterSaysSo(
+      results,
+      "only 11 % agree with the model between 20.jpg and 21.jpg, whose two sides stand askew");
 }
 
 TEST(CheckLengths, TheClusterThatSpeaksForAPairLessJudgesIt) {
