@@ -22,18 +22,18 @@ struct JudgedPairs {
 /// unlike an epipolar plane a point tells a facade from its likeness further down a straight
 /// street.
 ///
-/// A pair is *explained* when more of its matches are than chance leaves: the model's own pose of
-/// the two images is verified by them, whatever else the pair's matches show (moving things,
-/// patterns that repeat within one room). It is *contradicted* when no more are than chance, there
-/// are at least options.min_inliers of them, and those the model tears apart are in several places
-/// of both panoramas: one poster, one bus or one plane that fits several poses is no evidence.
-/// Places that look alike make such pairs; in a model folded onto itself the right pairs are among
-/// them.
+/// A pair is *explained* when a third of its matches are, and more than chance leaves: the model's
+/// own pose of the two images is verified by them, whatever else the pair's matches show (moving
+/// things, patterns that repeat within one room). It is *contradicted* when no more are than chance
+/// or clearly fewer than a third (by two standard deviations of the count), there are at least
+/// options.min_inliers of them, and those the model tears apart are in several places of both
+/// panoramas: one poster, one bus or one plane that fits several poses is no evidence. Places that
+/// look alike make such pairs; in a model folded onto itself the right pairs are among them.
 ///
 /// An image that stands on the wrong side of its neighbour, or far from where it was, takes the
 /// points of the pair away and with them this evidence. So a pair is contradicted too when it has
-/// 2 options.min_inliers matches, no more of all of them than chance lie in the epipolar planes of
-/// the model's pose and in front of both images, and the others are in several places of both.
+/// 2 options.min_inliers matches, as few of all of them lie in the epipolar planes of the model's
+/// pose and in front of both images, and the others are in several places of both.
 /// Pairs of one centre or one plane are not asked. All others are neither.
 [[nodiscard]] JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options);
 

@@ -14,13 +14,16 @@ std::string CountOf(size_t part, size_t whole) {
   return part == whole ? "" : absl::StrCat(" of ", part, " of ", whole, " registered panoramas");
 }
 
+/// Loose images hold nothing: no length rests on them.
+bool IsSupported(const ReportImage& image) { return image.registered && !image.loose; }
+
 /// Registered images of drives without capture times.
 size_t CountWithoutTimes(const JobResults& results, const JobReport& report) {
   size_t count = 0;
   for (const auto& [drive, sequence] : SequenceOfDrives(results.manifest)) {
     if (HaveTimes(results.manifest, sequence)) continue;
     count += static_cast<size_t>(std::ranges::count_if(
-        sequence, [&](ImageId image) { return report.images[image.value].registered; }));
+        sequence, [&](ImageId image) { return IsSupported(report.images[image.value]); }));
   }
   return count;
 }
@@ -32,7 +35,7 @@ std::vector<std::string> ListUnchecked(const JobResults& results, const JobRepor
   std::vector<std::string> unchecked;
   const auto without_gnss =
       static_cast<size_t>(std::ranges::count_if(report.images, [&report](const ReportImage& image) {
-        return image.registered && !report.IsGeoreferenced(image);
+        return IsSupported(image) && !report.IsGeoreferenced(image);
       }));
   if (without_gnss > 0) {
     unchecked.push_back(absl::StrCat(

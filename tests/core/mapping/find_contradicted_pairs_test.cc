@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/sphere_cells.h"
+#include "core/mapping/mapping_schedule.h"
+#include "core/mapping/triangulate_tracks.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {
@@ -56,6 +58,33 @@ TEST(JudgePairs, TracksOfOneThingThatNeverMetAreNoContradiction) {
   const JudgedPairs judged = JudgePairs(state, {});
   EXPECT_TRUE(judged.contradicted.empty());
   EXPECT_EQ(judged.explained.size(), whole.pairs.size());
+}
+
+/// What is said of the pair of the first two images when only `num_true` of 100 of its matches are.
+JudgedPairs JudgedWithTrueMatches(size_t num_true) {
+  StreetFixture street({.centres = StraightWalk(6, 3.0), .points_per_metre = 60});
+  std::vector<FeatureMatch>& inliers = street.world.problem.pairs.front().inliers;
+  EXPECT_GE(inliers.size(), 200U);
+  std::vector<FeatureMatch> matches(inliers.begin(), inliers.begin() + num_true);
+  for (size_t i = 0; matches.size() < 100; ++i)
+    matches.push_back({inliers[100 + i].a, inliers[199 - i].b});
+  const MappingState truth = street.TriangulatedStateWith(FirstImages(6));
+  ClusterProblem problem = street.world.problem;
+  problem.pairs.front().inliers = matches;
+  const CorrespondenceGraph graph = BuildCorrespondenceGraph(problem).value();
+  MappingState state(problem, graph);
+  for (const ImageSlot image : FirstImages(6)) {
+    state.Register(image, truth.CamFromWorld(image));
+    TriangulateImage(state, image, LimitsOf({}));
+  }
+  return JudgePairs(state, {});
+}
+
+TEST(JudgePairs, AFewTrueMatchesDoNotMakeUpForTheRest) {
+  const ImagePair first =
+      StreetFixture({.centres = StraightWalk(6, 3.0)}).world.problem.pairs[0].pair;
+  EXPECT_THAT(JudgedWithTrueMatches(18).contradicted, Contains(first));
+  EXPECT_THAT(JudgedWithTrueMatches(50).explained, Contains(first));
 }
 
 TEST(JudgePairs, OnePosterIsNoEvidence) {
