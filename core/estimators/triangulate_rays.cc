@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "absl/container/inlined_vector.h"
 #include "core/base/status.h"
@@ -35,6 +36,18 @@ double MaxTriangulationAngle(const Vector3d& point_in_world, std::span<const Vec
     }
   }
   return 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(max_squared_chord)));
+}
+
+double RangeGap(const Vector3d& point_in_world, std::span<const Vector3d> centres) {
+  if (centres.size() < 2) return 1.0;
+  double nearest = std::numeric_limits<double>::infinity();
+  double second = nearest;
+  for (const Vector3d& centre : centres) {
+    const double range = (centre - point_in_world).norm();
+    second = std::min(second, std::max(range, nearest));
+    nearest = std::min(nearest, range);
+  }
+  return second / nearest;
 }
 
 }  // namespace orbweave

@@ -21,6 +21,17 @@ namespace orbweave {
 [[nodiscard]] double MaxTriangulationAngle(const Eigen::Vector3d& point_in_world,
                                            std::span<const Eigen::Vector3d> centres);
 
+/// How many times further the second nearest of the centres is from the point than the nearest:
+/// infinite for a point in a centre, 1 for fewer than two centres.
+[[nodiscard]] double RangeGap(const Eigen::Vector3d& point_in_world,
+                              std::span<const Eigen::Vector3d> centres);
+
+/// Beyond it one camera would see a feature in more than four octaves of the size that all others
+/// see it in, which no descriptor matches over. Such a point is a wrong match whose rays happen to
+/// meet in a camera: any bearing of that one agrees with it, and it nails the camera to the others'
+/// rays with a precision of the bearing's times its own tiny distance.
+inline constexpr double kMaxRangeGap = 16.0;
+
 struct RobustTriangulation {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
   std::vector<uint8_t> is_inlier{};  ///< per ray

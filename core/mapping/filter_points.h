@@ -9,8 +9,8 @@
 namespace orbweave {
 
 /// Removes observations further than limits.max_error_px from their point (so also those whose
-/// point lies behind the bearing), then points left with fewer than two observations or with no two
-/// that see them under limits.min_angle_deg. Returns the number of observations removed.
+/// point lies behind the bearing), then points left with fewer than two observations or that are
+/// not well seen (IsWellSeen, limits.min_angle_deg). Returns the number of observations removed.
 uint32_t FilterPoints(MappingState& state,
                       std::span<const PointIndex> points,
                       const TrackLimits& limits);

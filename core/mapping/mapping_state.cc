@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "absl/container/inlined_vector.h"
 #include "core/bundle/bearing_error.h"
+#include "core/estimators/triangulate_rays.h"
 
 namespace orbweave {
 
@@ -123,13 +125,14 @@ bool IsWellSeen(const MappingState& state,
                 const Eigen::Vector3d& position,
                 std::span<const Node> nodes,
                 double min_angle_rad) {
-  const auto& image_of_node = state.Graph().image_of_node;
+  absl::InlinedVector<Eigen::Vector3d, 16> centres;
+  for (const Node node : nodes) centres.push_back(state.Centre(state.Graph().image_of_node[node]));
+  if (!(RangeGap(position, centres) <= kMaxRangeGap)) return false;
   const double max_abs_cos = std::cos(min_angle_rad);
-  for (size_t i = 1; i < nodes.size(); ++i) {
-    const Eigen::Vector3d ray_i = (position - state.Centre(image_of_node[nodes[i]])).normalized();
+  for (size_t i = 1; i < centres.size(); ++i) {
+    const Eigen::Vector3d ray_i = (position - centres[i]).normalized();
     for (size_t j = 0; j < i; ++j) {
-      const Eigen::Vector3d ray_j = (position - state.Centre(image_of_node[nodes[j]])).normalized();
-      if (std::abs(ray_i.dot(ray_j)) <= max_abs_cos) return true;
+      if (std::abs(ray_i.dot((position - centres[j]).normalized())) <= max_abs_cos) return true;
     }
   }
   return false;

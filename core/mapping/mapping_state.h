@@ -115,7 +115,8 @@ class MappingState {
 
 /// Whether some two of the nodes' cameras see `position` under an angle in
 /// [min_angle_rad, pi - min_angle_rad]: on a sphere a point between two cameras is as ill
-/// determined along their baseline as one far away.
+/// determined along their baseline as one far away. Nor may one of them be so much closer than the
+/// others that it cannot see the same thing (kMaxRangeGap).
 [[nodiscard]] bool IsWellSeen(const MappingState& state,
                               const Eigen::Vector3d& position,
                               std::span<const Node> nodes,

@@ -54,7 +54,8 @@ bool IsGood(const Judges& judges, const Track& track, double min_angle_rad) {
   for (const Observation& seen : track.observations) {
     centres.push_back(judges.Of(seen.ref.image).centre);
   }
-  return MaxTriangulationAngle(track.point_in_world, centres) >= min_angle_rad;
+  return MaxTriangulationAngle(track.point_in_world, centres) >= min_angle_rad &&
+         RangeGap(track.point_in_world, centres) <= kMaxRangeGap;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "tests/support/random_world.h"
@@ -112,6 +113,13 @@ TEST(TriangulateRays, RefusesRaysFromOneCentre) {
   const std::vector<Rigid3> cams(2, Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {3, 1, 2}));
   const std::vector<Vector3d> bearings = {Vector3d::UnitX(), Vector3d::UnitZ()};
   EXPECT_FALSE(TriangulateRays(cams, bearings).has_value());
+}
+
+TEST(RangeGap, IsOfTheTwoNearest) {
+  const std::vector<Vector3d> centres = {{8, 0, 0}, {0, 2, 0}, {0, 0, -100}};
+  EXPECT_DOUBLE_EQ(RangeGap(Vector3d::Zero(), centres), 4.0);
+  EXPECT_EQ(RangeGap(Vector3d::Zero(), std::span(centres).first(1)), 1.0);
+  EXPECT_EQ(RangeGap(centres[0], centres), std::numeric_limits<double>::infinity());
 }
 
 TEST(MaxTriangulationAngle, IsTheWidestOfAllPairs) {

@@ -57,5 +57,15 @@ TEST(FilterPoints, RemovesPointsUnderSmallAngles) {
   }
 }
 
+TEST(IsWellSeen, OneImageAloneMayNotSeeItFromCloseUp) {
+  const StreetFixture street({.centres = StraightWalk(2, 3.0)});
+  const MappingState state = street.TriangulatedStateWith({0, 1});
+  const std::vector<Node> both = state.Point(0).nodes;
+  const Eigen::Vector3d aside = (state.Centre(1) - state.Centre(0)).unitOrthogonal();
+  EXPECT_TRUE(IsWellSeen(state, state.Centre(0) + 0.3 * aside, both, 0.1));
+  EXPECT_FALSE(IsWellSeen(state, state.Centre(0) + 0.1 * aside, both, 0.1));
+  EXPECT_FALSE(IsWellSeen(state, state.Centre(0), both, 0.1));
+}
+
 }  // namespace
 }  // namespace orbweave
