@@ -35,7 +35,8 @@ std::string Row(const std::string& what, double position, double rotation_deg, d
 std::string UncertaintyFrameText(const ReportUncertainty& uncertainty) {
   if (!uncertainty.known) return "unknown: " + uncertainty.reason;
   if (uncertainty.held_image.empty()) {
-    return "absolute: the frame is held by GNSS, whose errors count as alike as they are found along "
+    return "absolute: the frame is held by GNSS, whose errors count as alike as they are found "
+           "along "
            "the street; an offset that all positions share shows nowhere, and is not in it";
   }
   std::string text = "relative to " + uncertainty.held_image + ", whose pose is held";

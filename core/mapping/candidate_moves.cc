@@ -13,6 +13,7 @@
 #include "core/mapping/centre_by_lengths.h"
 #include "core/mapping/find_gap_shift.h"
 #include "core/mapping/log_length_of_pair.h"
+#include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_gap_lengths.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/registered_sequence.h"
@@ -49,17 +50,19 @@ std::vector<ToldGap> FindToldGaps(const AskedRays& asked) {
 /// Which images move together.
 class Pieces {
  public:
-  explicit Pieces(const MappingState& state) : state_(state), places_(state) {}
+  Pieces(const MappingState& state, const MappingOptions& options)
+      : state_(state), places_(state, kMatchTolerance * options.max_error_px) {}
 
-  /// From `first` to `last` of one drive, and what goes with them of others.
+  /// From `first` to `last` of one line, and what goes with them of others.
   [[nodiscard]] std::vector<ImageSlot> Between(ImageSlot first, ImageSlot last) const {
     std::vector<ImageSlot> piece;
     for (size_t place = 0; place < places_.size(); ++place) {
       const ImageSlot image = places_.At(place);
-      const std::optional<ImageSlot> on_drive =
-          DriveOf(image) == DriveOf(first) ? image : NearestOf(DriveOf(first), image);
-      if (!on_drive) continue;
-      const size_t stands = places_.PlaceOf(*on_drive);
+      const std::optional<ImageSlot> on_line = places_.LineOf(image) == places_.LineOf(first)
+                                                   ? image
+                                                   : NearestOf(places_.LineOf(first), image);
+      if (!on_line) continue;
+      const size_t stands = places_.PlaceOf(*on_line);
       if (places_.PlaceOf(first) <= stands && stands <= places_.PlaceOf(last))
         piece.push_back(image);
     }
@@ -67,22 +70,24 @@ class Pieces {
   }
   [[nodiscard]] std::vector<ImageSlot> From(ImageSlot first) const {
     size_t last = places_.PlaceOf(first);
-    while (last + 1 < places_.size() && DriveOf(places_.At(last + 1)) == DriveOf(first)) ++last;
+    while (last + 1 < places_.size() && AreOfOneLine(places_.At(last + 1), first)) ++last;
     return Between(first, places_.At(last));
+  }
+  [[nodiscard]] bool AreOfOneLine(ImageSlot one, ImageSlot other) const {
+    return places_.LineOf(one) == places_.LineOf(other);
   }
 
  private:
-  [[nodiscard]] uint32_t DriveOf(ImageSlot image) const {
-    return state_.Problem().images[image].drive;
-  }
-  /// The image of a drive with which one of another has most matches.
-  [[nodiscard]] std::optional<ImageSlot> NearestOf(uint32_t drive, ImageSlot image) const {
+  /// The image of a line with which one of another has most matches.
+  [[nodiscard]] std::optional<ImageSlot> NearestOf(uint32_t line, ImageSlot image) const {
     std::optional<ImageSlot> nearest;
     size_t most = 0;
     for (const uint32_t p : state_.Graph().pairs_of_image[image]) {
       const LinkedPair& pair = state_.Graph().pairs[p];
       const ImageSlot other = pair.a == image ? pair.b : pair.a;
-      if (DriveOf(other) != drive || !LogLengthOfPair(state_, pair)) continue;
+      if (!state_.IsRegistered(other) || places_.LineOf(other) != line ||
+          !LogLengthOfPair(state_, pair))
+        continue;
       const size_t matches = state_.Problem().pairs[pair.index].inliers.size();
       if (matches <= most) continue;
       most = matches;
@@ -98,7 +103,7 @@ class Pieces {
 class ShiftLister {
  public:
   ShiftLister(const MappingState& state, const MappingOptions& options)
-      : state_(state), options_(options), pieces_(state) {}
+      : state_(state), options_(options), pieces_(state, options) {}
 
   std::vector<CandidateMove> Run() {
     const std::vector<ToldGap> gaps = FindToldGaps({state_, options_});
@@ -121,10 +126,9 @@ class ShiftLister {
   void AddShifts(const ToldGap& gap, double shift, const ToldGap* following) {
     const Vector3d by = shift * WayOf(gap);
     Add(pieces_.From(gap.next), by);
-    const bool is_of_drive =
-        following != nullptr &&
-        state_.Problem().images[following->image].drive == state_.Problem().images[gap.image].drive;
-    if (is_of_drive) Add(pieces_.Between(gap.next, following->image), by);
+    const bool is_of_line =
+        following != nullptr && pieces_.AreOfOneLine(following->image, gap.image);
+    if (is_of_line) Add(pieces_.Between(gap.next, following->image), by);
     Add({gap.next}, by);
     Add({gap.image}, -by);
   }
@@ -216,7 +220,7 @@ std::vector<CandidateMove> ListShifts(const MappingState& state, const MappingOp
 
 std::vector<CandidateMove> ListTurns(const MappingState& state, const MappingOptions& options) {
   const AskedRays asked(state, options);
-  const Pieces pieces(state);
+  const Pieces pieces(state, options);
   std::vector<CandidateMove> turns;
   for (const GapVotes& gap : CollectGapVotes(asked)) {
     if (!IsAskew(MatchesAcross(asked, gap))) continue;

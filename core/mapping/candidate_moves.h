@@ -13,13 +13,13 @@ namespace orbweave {
 /// Registered images that may stand elsewhere, and where.
 using CandidateMove = std::map<ImageSlot, Rigid3>;  ///< cam_from_world
 
-/// What would mend the lengths that rays contradict. At each way between neighbours of a drive of
+/// What would mend the lengths that rays contradict. At each way between neighbours of a line of
 /// which clearly more rays say another length (FindGapShift, IsToldElsewhere), along the way and as
 /// far as they say: everything behind it; the piece from there to the next such way; the image
 /// behind it alone, and the one before it alone, backwards. Where its two sides say different
 /// lengths, everything behind it on the scale with which they say the same. Each image at such a
 /// way or at a fault (FindLengthFaults), alone, to where the rays of those around it put it
-/// (CentreByLengths). Images of other drives go with that image of the drive with which they have
+/// (CentreByLengths). Images of other lines go with that image of the line with which they have
 /// most matches.
 ///
 /// In order of the ways, then of the images.
@@ -27,7 +27,7 @@ using CandidateMove = std::map<ImageSlot, Rigid3>;  ///< cam_from_world
                                                     const MappingOptions& options);
 
 /// What would mend ways whose two sides stand askew (IsAskew): everything behind one, with what
-/// goes with it of other drives, turned and set as each of the two pairs of most matches that lead
+/// goes with it of other lines, turned and set as each of the two pairs of most matches that lead
 /// across has it, at the distance that its images have. In order of the ways.
 [[nodiscard]] std::vector<CandidateMove> ListTurns(const MappingState& state,
                                                    const MappingOptions& options);

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "core/base/quantile.h"
+#include "core/mapping/matches_in_planes.h"
 #include "core/mapping/ray_depths.h"
 #include "core/mapping/registered_sequence.h"
+#include "core/mapping/street_lines.h"
 
 namespace orbweave {
 namespace {
-
-constexpr size_t kReach = 3;  // places from one image of a pair to the other
 
 /// A pair of a ray, seen from the image of the ray.
 struct Sight {
@@ -26,7 +26,9 @@ struct Sight {
 class Collector {
  public:
   explicit Collector(const AskedRays& asked)
-      : asked_(asked), places_(asked.state), votes_(places_.size()) {
+      : asked_(asked),
+        places_(asked.state, kMatchTolerance * asked.max_error_px),
+        votes_(places_.size()) {
     const std::vector<LinkedPair>& pairs = asked.state.Graph().pairs;
     for (uint32_t p = 0; p < pairs.size(); ++p) AddPair(p, pairs[p]);
   }
@@ -38,19 +40,19 @@ class Collector {
     const size_t here = places_.PlaceOf(own);
     for (const Sight& sight : sights) {
       const auto [first, last] = std::minmax(here, sight.other);
-      if (last - first > kReach) continue;
+      if (last - first > kReachAlongLine) continue;
       for (size_t gap = first; gap < last; ++gap) Ask(here, sight, gap, sights);
     }
   }
 
-  /// Without those where a drive ends.
+  /// Without those where a line ends.
   [[nodiscard]] std::vector<GapVotes> Take() {
     std::vector<GapVotes> gaps;
     for (size_t place = 0; place + 1 < places_.size(); ++place) {
       GapVotes& gap = votes_[place];
       gap.image = places_.At(place);
       gap.next = places_.At(place + 1);
-      if (DriveOf(gap.image) == DriveOf(gap.next)) gaps.push_back(std::move(gap));
+      if (places_.LineOf(gap.image) == places_.LineOf(gap.next)) gaps.push_back(std::move(gap));
     }
     return gaps;
   }
@@ -59,23 +61,19 @@ class Collector {
   void AddPair(uint32_t index, const LinkedPair& pair) {
     const MappingState& state = asked_.state;
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) return;
-    if (DriveOf(pair.a) != DriveOf(pair.b)) return;
+    if (places_.LineOf(pair.a) != places_.LineOf(pair.b)) return;
     const auto [first, last] = std::minmax({places_.PlaceOf(pair.a), places_.PlaceOf(pair.b)});
-    if (last - first > kReach) return;
+    if (last - first > kReachAlongLine) return;
     for (size_t gap = first; gap < last; ++gap) votes_[gap].pairs.push_back(index);
   }
 
-  [[nodiscard]] uint32_t DriveOf(ImageSlot image) const {
-    return asked_.state.Problem().images[image].drive;
-  }
-
-  /// Those with images of the same drive.
+  /// Those with images of the same line.
   [[nodiscard]] std::vector<Sight> SightsOf(ImageSlot own, std::span<const RayDepth> depths) const {
     std::vector<Sight> sights;
     for (const RayDepth& depth : depths) {
       const LinkedPair& pair = asked_.state.Graph().pairs[asked_.pairs[depth.pair]];
       const ImageSlot other = pair.a == own ? pair.b : pair.a;
-      if (DriveOf(other) == DriveOf(own))
+      if (places_.LineOf(other) == places_.LineOf(own))
         sights.push_back({depth.pair, places_.PlaceOf(other), depth.log_depth});
     }
     return sights;

@@ -15,7 +15,7 @@ struct LengthVote {
   double log_length = 0.0;
 };
 
-/// A way between two registered images that follow each other in a drive, and how long the pairs
+/// A way between two registered images that follow each other in a line, and how long the pairs
 /// that lead across it are as each side of it has it.
 struct GapVotes {
   ImageSlot image = 0;
@@ -25,15 +25,15 @@ struct GapVotes {
   std::vector<LengthVote> behind{};
 };
 
-/// Votes across each way from a registered image of a drive to the next. Where a street is torn,
-/// everything behind the tear stands a house, or half of one, too far along: pairs that lead across
-/// are all too long, bear each other out, and outnumber those beside it. Therefore a ray tells the
-/// length of a pair that leads across by those of its pairs alone that stay on its own image's
-/// side, the median of them, which a tear leaves as they are. Pairs lead across that have no more
-/// than two images of the drive between theirs: longer ones hide a step.
+/// Votes across each way from a registered image of a line (FindStreetLines) to the next. Where a
+/// street is torn, everything behind the tear stands a house, or half of one, too far along: pairs
+/// that lead across are all too long, bear each other out, and outnumber those beside it. Therefore
+/// a ray tells the length of a pair that leads across by those of its pairs alone that stay on its
+/// own image's side, the median of them, which a tear leaves as they are. Pairs lead across that
+/// have no more than two images of the line between theirs: longer ones hide a step.
 ///
-/// Pairs and votes may be none. Of drives in order, of images as they were taken
-/// (RegisteredSequence); votes in order of rays.
+/// Pairs and votes may be none. Of lines in order, of images along them (RegisteredSequence); votes
+/// in order of rays.
 [[nodiscard]] std::vector<GapVotes> CollectGapVotes(const AskedRays& asked);
 
 }  // namespace orbweave

@@ -10,14 +10,14 @@
 
 namespace orbweave {
 
-/// How far rays bear out the way from each registered image of a drive to the next, by what lies on
+/// How far rays bear out the way from each registered image of a line to the next, by what lies on
 /// one side of it (CollectGapVotes), and whether they say that it has another length.
 ///
 /// Of the two sides the agreement of that one is returned that agrees less, if it tells enough
 /// (TellsEnough): where the scale jumps, what is behind agrees with itself, and what is before does
 /// not. Another length is that of the side which more clearly wants one (FindGapShift).
 ///
-/// Of drives in order, of images as they were taken (RegisteredSequence).
+/// Of lines in order, of images along them (RegisteredSequence).
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked);
 
 /// Matches of the pairs that lead across, and those that agree (GapLength::matches).

@@ -3,21 +3,21 @@
 
 #include "core/mapping/registered_sequence.h"
 
-#include <algorithm>
-#include <tuple>
+#include "core/mapping/street_lines.h"
 
 namespace orbweave {
 
-RegisteredSequence::RegisteredSequence(const MappingState& state)
-    : place_(state.Graph().NumImages()) {
-  for (ImageSlot image = 0; image < state.Graph().NumImages(); ++image) {
-    if (state.IsRegistered(image)) images_.push_back(image);
+RegisteredSequence::RegisteredSequence(const MappingState& state, double tolerance_px)
+    : place_(state.Graph().NumImages()), line_(place_.size()) {
+  uint32_t number = 0;
+  for (const StreetLine& line : FindStreetLines(state, tolerance_px)) {
+    for (const ImageSlot image : line) {
+      place_[image] = images_.size();
+      line_[image] = number;
+      images_.push_back(image);
+    }
+    ++number;
   }
-  const auto& known = state.Problem().images;
-  std::ranges::sort(images_, {}, [&](ImageSlot image) {
-    return std::tuple(known[image].drive, known[image].rank_in_drive, known[image].id);
-  });
-  for (size_t i = 0; i < images_.size(); ++i) place_[images_[i]] = i;
 }
 
 }  // namespace orbweave

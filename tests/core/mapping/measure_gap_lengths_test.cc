@@ -182,16 +182,32 @@ TEST(GapLengths, FollowTheDriveWhateverItsImagesAreCalled) {
   EXPECT_EQ(faults[0].next, ImageId(6));
 }
 
-TEST(GapLengths, EndWithTheDrive) {
-  const TornStreet street;
+/// The street in a model, torn at image 7, its images of drives 0 and 1.
+std::vector<GapLength> OfTwoDrives(const TornStreet& street, bool (*is_of_second)(uint32_t image)) {
   ClusterProblem problem = street.Fixture().world.problem;
-  for (ClusterImage& image : problem.images) image.drive = image.id.value < 7 ? 0 : 1;
+  for (ClusterImage& image : problem.images) image.drive = is_of_second(image.id.value) ? 1 : 0;
   MappingState state(problem, street.Fixture().graph);
+  const MappingState torn = Torn(street, 3.0);
   for (ImageSlot image = 0; image < kImages; ++image)
-    state.Register(image, street.Right().CamFromWorld(image));
-  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
+    state.Register(image, torn.CamFromWorld(image));
+  return MeasureGapLengths({state, {}});
+}
+
+TEST(GapLengths, LeadFromOneDayToTheNext) {
+  const std::vector<GapLength> gaps =
+      OfTwoDrives(TornStreet(), [](uint32_t image) { return image >= 7; });
+  ASSERT_EQ(gaps.size(), kImages - 1);
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(6));
+  EXPECT_EQ(faults[0].next, ImageId(7));
+}
+
+TEST(GapLengths, EndWithTheLine) {
+  const std::vector<GapLength> gaps =
+      OfTwoDrives(TornStreet(), [](uint32_t image) { return image % 2 == 1; });
   ASSERT_EQ(gaps.size(), kImages - 2);
-  EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(7), ImageId(8)}));
+  EXPECT_EQ(gaps[7].between, (ImagePair{ImageId(1), ImageId(3)}));
 }
 
 TEST(GapLengths, ThereAreNoneOfNoModel) {
