@@ -40,6 +40,7 @@ struct Triple {
   double after = 0.0;
   Eigen::Vector3d bend = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> gnss_bend{};
+  double gnss_jump = 0.0;  ///< by how much one of its two steps is longer by GNSS than in the model
 };
 
 std::vector<Stop> StopsOf(const std::vector<ImageId>& drive,
@@ -87,8 +88,10 @@ void AddTriples(const std::vector<Stop>& stops, std::vector<Triple>& triples) {
     triple.detour = triple.before + triple.after - (n.centre - p.centre).norm();
     triple.step = StepAround(stops, i);
     triple.bend = stops[i].centre - 0.5 * (p.centre + n.centre);
-    if (p.gnss && stops[i].gnss && n.gnss)
-      triple.gnss_bend = *stops[i].gnss - 0.5 * (*p.gnss + *n.gnss);
+    if (!p.gnss || !stops[i].gnss || !n.gnss) continue;
+    triple.gnss_bend = *stops[i].gnss - 0.5 * (*p.gnss + *n.gnss);
+    triple.gnss_jump = std::max((*stops[i].gnss - *p.gnss).norm() - triple.before,
+                                (*n.gnss - *stops[i].gnss).norm() - triple.after);
   }
 }
 
@@ -114,8 +117,8 @@ std::optional<Displacement> DisplacementOf(const Triple& triple, double limit_by
     if (apart < 0.5 * bend) return std::nullopt;
     // Less than a step leaves the order of the images as it is.
     const double limit = std::max(limit_by_gnss, triple.step);
-    if (triple.step > 0.0 && apart > limit && bend > triple.gnss_bend->norm())
-      return Displacement{apart, limit};
+    const bool is_jump_of_gnss = triple.gnss_jump > limit || bend <= triple.gnss_bend->norm();
+    if (triple.step > 0.0 && apart > limit && !is_jump_of_gnss) return Displacement{apart, limit};
   }
   if (triple.step > 0.0 && triple.detour > kDetourSteps * triple.step)
     return Displacement{bend, 0.5 * kDetourSteps * triple.step};

@@ -130,6 +130,15 @@ TEST(CheckSequenceSteps, AJumpOfGnssIsNotTheModels) {
   EXPECT_EQ(drive.Check(true).level, CheckLevel::kGood);
 }
 
+TEST(CheckSequenceSteps, AJumpOfGnssWhereADriveLeftOffIsNotTheModels) {
+  // Round a corner while another day went on, and the last position before it is off.
+  std::vector<double> steps(30, 3.0);
+  steps[14] = 29.0;
+  Drive drive = DriveAlong(Way(steps, {{14, 50.0}}), 0.3);
+  *drive.manifest.images[14].prior.position_in_enu += Eigen::Vector3d(11.0, 6.0, 0.0);
+  EXPECT_EQ(drive.Check(true).level, CheckLevel::kGood) << drive.Check(true).sentence;
+}
+
 TEST(CheckSequenceSteps, ManyDisplacedPanoramasAreBad) {
   Drive drive = DriveAlong(Way(std::vector<double>(60, 3.0)));
   for (const uint32_t i : {10U, 20U, 30U, 40U}) drive.Move(i, {0.0, 12.0, 0.0});
