@@ -105,6 +105,7 @@ std::vector<PatchMatchRound> PlanRounds(int count, PatchMatchRound first, bool c
     first.tilt *= 0.5F;
     first.fresh = std::max(0, first.fresh - 1);
   }
+  rounds.back().frees_slopes = true;
   return rounds;
 }
 

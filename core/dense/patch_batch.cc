@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/dense/depth_sigma.h"
+#include "core/dense/free_slopes.h"
 
 namespace orbweave {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr int kApron = PlaneField::kApron_px;
 constexpr int kSamples = 3;
 constexpr float kLeastFacing = 0.06F;  // cosine between normal and ray
+constexpr float kSlopeSigma = 2.5F;    // of the tangent between normal and ray
 /// Weights of a pixel's costs, ascending: a source that an occluder hides counts little.
 constexpr std::array<float, kMaxViews> kCostWeights = {1.0F, 1.0F, 0.5F, 0.25F};
 
@@ -104,6 +106,45 @@ void PatchBatch::Refine() {
     held_cost_[k] = minimum.cost;
     field_.sigma[at_ + k] = minimum.sigma;
   }
+  if (round_.frees_slopes) FreeSlopes(steps);
+}
+
+void PatchBatch::FreeSlopes(const LaneFloats& steps) {
+  const ReferenceRaster& raster = context_.scale.raster;
+  const uint8_t* const middle =
+      &raster.levels[static_cast<size_t>(place_.face)]
+                    [static_cast<size_t>(place_.row * raster.Stride() + place_.column)];
+  const TextureMoments moments =
+      MomentsOfTexture(middle, raster.Stride(), patches_, Directions(), noise_variance_);
+  const float pixel_rad = 1.5707963F / static_cast<float>(field_.FacePx());
+  for (size_t k = 0; k < lanes_; ++k) {
+    float& sigma = field_.sigma[at_ + k];
+    if (!std::isfinite(sigma)) continue;
+    const float parallax_px = round_.refine_px / steps[k];
+    const float variance_px2 = sigma * sigma * parallax_px * parallax_px;
+    const float slope = kSlopeSigma * pixel_rad * parallax_px;
+    sigma = std::sqrt(FreeSlopeVariance(moments, k, variance_px2, slope)) / parallax_px;
+  }
+}
+
+ParallaxDirections PatchBatch::Directions() const {
+  const float x = patches_.x[kMatchLanes / 2];
+  const float y = patches_.y;
+  ParallaxDirections sums;
+  float trace = 0.0F;
+  for (int k = 0; k < views_->count; ++k) {
+    const Eigen::Vector3f& centre =
+        context_.scale
+            .centres[views_->source[static_cast<size_t>(k)]][static_cast<size_t>(place_.face)];
+    const float column = (centre.x() - x * centre.z()) / patches_.dx[kMatchLanes / 2];
+    const float row = (centre.y() - y * centre.z()) / patches_.dy;
+    sums.columns += column * column;
+    sums.both += column * row;
+    sums.rows += row * row;
+    trace += column * column + row * row;
+  }
+  if (!(trace > 0.0F)) return {0.5F, 0.0F, 0.5F};
+  return {sums.columns / trace, sums.both / trace, sums.rows / trace};
 }
 
 void PatchBatch::Store() {

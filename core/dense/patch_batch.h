@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/dense/free_slopes.h"
 #include "core/dense/patch_match_round.h"
 #include "core/dense/planar_prior.h"
 #include "core/dense/plane_field.h"
@@ -68,6 +69,13 @@ class PatchBatch {
 
   /// Largest distance of a chosen source from the line of sight.
   float Baseline() const;
+
+  /// What the sigmas are when slopes are not known; `steps`: of the inverse range, as shares, that
+  /// make round_.refine_px of parallax.
+  void FreeSlopes(const LaneFloats& steps);
+
+  /// In which the chosen sources see pixels move.
+  [[nodiscard]] ParallaxDirections Directions() const;
 
   /// The share of the inverse range that makes `step_px` of parallax.
   float RelativeStep(size_t k, float step_px) const;

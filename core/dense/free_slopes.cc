@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/dense/free_slopes.h"
+
+#include <algorithm>
+
+namespace orbweave {
+namespace {
+
+/// Adds one tap of each lane, `at` being that of the first.
+void AddTap(const uint8_t* at,
+            int stride,
+            int row,
+            int column,
+            const LaneFloats& weights,
+            const ParallaxDirections& directions,
+            float noise,
+            TextureMoments& sums) {
+  const auto r = static_cast<float>(row);
+  const auto c = static_cast<float>(column);
+  for (size_t k = 0; k < kMatchLanes; ++k) {
+    const uint8_t* const tap = at + 2 * k;
+    const auto gx = 0.5F * static_cast<float>(tap[1] - tap[-1]);
+    const auto gy = 0.5F * static_cast<float>(tap[stride] - tap[-stride]);
+    const float square = gx * gx * directions.columns + 2.0F * gx * gy * directions.both +
+                         gy * gy * directions.rows;
+    const float q = weights[k] * std::max(0.0F, square - noise);
+    sums.texture[k] += q;
+    sums.column[k] += q * c;
+    sums.row[k] += q * r;
+    sums.column_column[k] += q * (c * c);
+    sums.column_row[k] += q * (c * r);
+    sums.row_row[k] += q * (r * r);
+  }
+}
+
+void DivideByTexture(TextureMoments& sums) {
+  for (size_t k = 0; k < kMatchLanes; ++k) {
+    const float factor = sums.texture[k] > 0.0F ? 1.0F / sums.texture[k] : 0.0F;
+    for (LaneFloats* const sum :
+         {&sums.column, &sums.row, &sums.column_column, &sums.column_row, &sums.row_row})
+      (*sum)[k] *= factor;
+  }
+}
+
+}  // namespace
+
+TextureMoments MomentsOfTexture(const uint8_t* middle,
+                                int stride,
+                                const ReferencePatches& patches,
+                                const ParallaxDirections& directions,
+                                float noise_variance) {
+  TextureMoments sums;
+  const float noise = 0.5F * noise_variance;  // of half the difference of two levels
+  LaneFloats low;
+  LaneFloats high;
+  size_t pair = 0;
+  for (int row = -kPatchRadius_px; row <= kPatchRadius_px; row += 2) {
+    for (int column = -kPatchRadius_px; column < kPatchRadius_px; column += 4, ++pair) {
+      for (size_t k = 0; k < kMatchLanes; ++k) {
+        low[k] = static_cast<float>(patches.weights[pair][k] & 0xFFFF);
+        high[k] = static_cast<float>(patches.weights[pair][k] >> 16);
+      }
+      const uint8_t* const tap = middle + row * stride + column;
+      AddTap(tap, stride, row, column, low, directions, noise, sums);
+      AddTap(tap + 2, stride, row, column + 2, high, directions, noise, sums);
+    }
+  }
+  DivideByTexture(sums);
+  return sums;
+}
+
+float FreeSlopeVariance(const TextureMoments& moments,
+                        size_t lane,
+                        float variance_px2,
+                        float slope) {
+  const float c = moments.column[lane];
+  const float r = moments.row[lane];
+  const float loose = variance_px2 / (slope * slope);
+  const float cc = moments.column_column[lane] - c * c + loose;
+  const float rr = moments.row_row[lane] - r * r + loose;
+  const float cr = moments.column_row[lane] - c * r;
+  const float determinant = std::max(cc * rr - cr * cr, 1e-12F);
+  const float lever = (c * c * rr - 2.0F * c * r * cr + r * r * cc) / determinant;
+  return variance_px2 * (1.0F + lever);
+}
+
+}  // namespace orbweave
