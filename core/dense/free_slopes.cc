@@ -4,9 +4,12 @@
 #include "core/dense/free_slopes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace orbweave {
 namespace {
+
+constexpr float kBlur_px2 = 1.0F;  // second moment of an edge, which tells nothing of slopes
 
 /// Adds one tap of each lane, `at` being that of the first.
 void AddTap(const uint8_t* at,
@@ -23,8 +26,8 @@ void AddTap(const uint8_t* at,
     const uint8_t* const tap = at + 2 * k;
     const auto gx = 0.5F * static_cast<float>(tap[1] - tap[-1]);
     const auto gy = 0.5F * static_cast<float>(tap[stride] - tap[-stride]);
-    const float square = gx * gx * directions.columns + 2.0F * gx * gy * directions.both +
-                         gy * gy * directions.rows;
+    const float square =
+        gx * gx * directions.columns + 2.0F * gx * gy * directions.both + gy * gy * directions.rows;
     const float q = weights[k] * std::max(0.0F, square - noise);
     sums.texture[k] += q;
     sums.column[k] += q * c;
@@ -77,13 +80,20 @@ float FreeSlopeVariance(const TextureMoments& moments,
                         float slope) {
   const float c = moments.column[lane];
   const float r = moments.row[lane];
-  const float loose = variance_px2 / (slope * slope);
-  const float cc = moments.column_column[lane] - c * c + loose;
-  const float rr = moments.row_row[lane] - r * r + loose;
+  const float cc = moments.column_column[lane] - c * c;
+  const float rr = moments.row_row[lane] - r * r;
   const float cr = moments.column_row[lane] - c * r;
-  const float determinant = std::max(cc * rr - cr * cr, 1e-12F);
-  const float lever = (c * c * rr - 2.0F * c * r * cr + r * r * cc) / determinant;
-  return variance_px2 * (1.0F + lever);
+  // Along the two axes of the second moments.
+  const float mean = 0.5F * (cc + rr);
+  const float half = 0.5F * (cc - rr);
+  const float apart = std::sqrt(half * half + cr * cr);
+  const float away = c * c + r * r;
+  const float turned = apart > 1e-6F ? (half * (c * c - r * r) + 2.0F * cr * c * r) / apart : away;
+  const float loose = variance_px2 / (slope * slope);
+  const float wide = std::max(mean + apart - kBlur_px2, 0.0F) + loose;
+  const float narrow = std::max(mean - apart - kBlur_px2, 0.0F) + loose;
+  const float lever = 0.5F * ((away + turned) / wide + (away - turned) / narrow);
+  return variance_px2 * (1.0F + std::max(lever, 0.0F));
 }
 
 }  // namespace orbweave

@@ -34,9 +34,10 @@ struct TextureMoments {
                                               const ParallaxDirections& directions,
                                               float noise_variance);
 
-/// Variance of the parallax at the patch's middle when the slopes of its plane are not known either,
-/// but within `slope` (one sigma, pixels of parallax a pixel), from `variance_px2`, that of a patch
-/// whose slopes are known. With m the middle of the texture and S its second moments about m,
+/// Variance of the parallax at the patch's middle when the slopes of its plane are not known
+/// either, but within `slope` (one sigma, pixels of parallax a pixel), from `variance_px2`, that of
+/// a patch whose slopes are known. With m the middle of the texture and S its second moments about
+/// m, less one square pixel that every blurred edge has,
 ///
 ///   variance' = variance (1 + m^T (S + I variance / slope^2)^-1 m) :
 ///
