@@ -109,9 +109,15 @@ std::vector<PatchMatchRound> PlanRounds(int count, PatchMatchRound first, bool c
   return rounds;
 }
 
-constexpr PatchMatchRound kCoarse = {
-    .neighbours = 5, .fresh = 3, .perturbed = 3, .step_px = 4.0F, .tilt = 0.6F, .iteration = 0};
+constexpr PatchMatchRound kCoarse = {.neighbours = 5,
+                                     .fresh = 3,
+                                     .level = true,
+                                     .perturbed = 3,
+                                     .step_px = 4.0F,
+                                     .tilt = 0.6F,
+                                     .iteration = 0};
 constexpr PatchMatchRound kMiddle = {.neighbours = 4,
+                                     .level = true,
                                      .perturbed = 2,
                                      .step_px = 2.0F,
                                      .refine_px = 0.8F,

@@ -85,6 +85,21 @@ void PatchBatch::TryRandom() {
     }
     Accept();
   }
+  if (round_.level) TryLevel();
+}
+
+void PatchBatch::TryLevel() {
+  const Eigen::Vector3f down = FaceFromCamera(place_.face).col(1).cast<float>();
+  bool any = false;
+  for (size_t k = 0; k < lanes_; ++k) {
+    const RayPlane held = Held(k);
+    const float along = down.x() * patches_.x[k] + down.y() * patches_.y + down.z();
+    const float factor = held.InverseDepth(patches_.x[k], patches_.y) / along;
+    const bool slants = std::abs(along) > kLeastFacing * ray_[k];
+    any |= slants;
+    Propose(k, slants ? RayPlane{down.x() * factor, down.y() * factor, down.z() * factor} : held);
+  }
+  if (any) Accept();
 }
 
 void PatchBatch::Refine() {

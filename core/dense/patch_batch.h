@@ -70,6 +70,9 @@ class PatchBatch {
   /// Largest distance of a chosen source from the line of sight.
   float Baseline() const;
 
+  /// Roads lie flatter to the ray than random planes do. y of the camera frame points down.
+  void TryLevel();
+
   /// What the sigmas are when slopes are not known; `steps`: of the inverse range, as shares, that
   /// make round_.refine_px of parallax.
   void FreeSlopes(const LaneFloats& steps);

@@ -22,6 +22,7 @@ struct RangeLimits {
 struct PatchMatchRound {
   int neighbours = 4;         ///< planes of the best of 8 regions around
   int fresh = 0;              ///< random planes
+  bool level = false;         ///< the level plane through what it holds
   int perturbed = 2;          ///< random changes of what it holds
   float step_px = 1.0F;       ///< largest change of depth, in pixels of parallax
   float refine_px = 0.0F;     ///< tries so much nearer and farther, moves to the minimum; 0: not
