@@ -11,6 +11,16 @@ namespace {
 
 constexpr float kBlur_px2 = 1.0F;  // second moment of an edge, which tells nothing of slopes
 
+/// Difference of the levels of each lane at two places.
+LaneFloats Difference(const uint8_t* to, const uint8_t* from) {
+  std::array<int16_t, kMatchLanes> levels;
+  for (size_t k = 0; k < kMatchLanes; ++k)
+    levels[k] = static_cast<int16_t>(to[2 * k] - from[2 * k]);
+  LaneFloats difference;
+  for (size_t k = 0; k < kMatchLanes; ++k) difference[k] = static_cast<float>(levels[k]);
+  return difference;
+}
+
 /// Adds one tap of each lane, `at` being that of the first.
 void AddTap(const uint8_t* at,
             int stride,
@@ -22,13 +32,14 @@ void AddTap(const uint8_t* at,
             TextureMoments& sums) {
   const auto r = static_cast<float>(row);
   const auto c = static_cast<float>(column);
+  const LaneFloats across = Difference(at + 1, at - 1);
+  const LaneFloats down = Difference(at + stride, at - stride);
   for (size_t k = 0; k < kMatchLanes; ++k) {
-    const uint8_t* const tap = at + 2 * k;
-    const auto gx = 0.5F * static_cast<float>(tap[1] - tap[-1]);
-    const auto gy = 0.5F * static_cast<float>(tap[stride] - tap[-stride]);
     const float square =
-        gx * gx * directions.columns + 2.0F * gx * gy * directions.both + gy * gy * directions.rows;
-    const float q = weights[k] * std::max(0.0F, square - noise);
+        across[k] * (across[k] * directions.columns + 2.0F * down[k] * directions.both) +
+        down[k] * down[k] * directions.rows;
+    const float over = square - noise;
+    const float q = over > 0.0F ? weights[k] * over : 0.0F;
     sums.texture[k] += q;
     sums.column[k] += q * c;
     sums.row[k] += q * r;
@@ -55,7 +66,7 @@ TextureMoments MomentsOfTexture(const uint8_t* middle,
                                 const ParallaxDirections& directions,
                                 float noise_variance) {
   TextureMoments sums;
-  const float noise = 0.5F * noise_variance;  // of half the difference of two levels
+  const float noise = 2.0F * noise_variance;  // of the difference of two levels
   LaneFloats low;
   LaneFloats high;
   size_t pair = 0;

@@ -19,8 +19,9 @@ struct ParallaxDirections {
 };
 
 /// Where in each lane's patch the texture lies that tells its range: weighted moments of q =
-/// max(0, g^T D g - noise), g the gradient in levels a pixel, D the directions, about the patch's
-/// middle in pixels. `texture` is the sum itself; the others are divided by it, 0 without texture.
+/// max(0, g^T D g - noise), g the differences of levels two pixels apart, D the directions, about
+/// the patch's middle in pixels. `texture` is the sum itself; the others are divided by it, 0
+/// without texture.
 struct TextureMoments {
   LaneFloats texture{};
   LaneFloats column{}, row{};
