@@ -63,7 +63,7 @@ void PatchBatch::TryNeighbours() {
   FindRegions();
   for (int slot = 0; slot < round_.neighbours; ++slot) {
     for (size_t k = 0; k < lanes_; ++k) {
-      const auto& [cost, from] = regions_[k][static_cast<size_t>(slot)];
+      const uint32_t from = regions_[static_cast<size_t>(slot)][k];
       Propose(k, {field_.x[from], field_.y[from], field_.z[from]});
     }
     Accept();
@@ -334,7 +334,6 @@ void PatchBatch::Hold(size_t k, float cost) {
 
 void PatchBatch::FindRegions() {
   std::array<LaneFloats, kMatchRegions> best;
-  std::array<std::array<uint32_t, kMatchLanes>, kMatchRegions> from;
   for (size_t region = 0; region < kMatchRegions; ++region) {
     best[region].fill(4.0F);
     for (const Offset& offset : kOffsets[region]) {
@@ -344,17 +343,23 @@ void PatchBatch::FindRegions() {
       for (size_t k = 0; k < kMatchLanes; ++k) {
         const bool better = costs[k] < best[region][k];
         best[region][k] = better ? costs[k] : best[region][k];
-        from[region][k] = better ? static_cast<uint32_t>(first + k) : from[region][k];
+        regions_[region][k] = better ? static_cast<uint32_t>(first + k) : regions_[region][k];
       }
     }
   }
-  for (size_t k = 0; k < lanes_; ++k) {
-    for (size_t region = 0; region < kMatchRegions; ++region) {
-      std::pair<float, uint32_t> entry(best[region][k], from[region][k]);
-      size_t to = region;
-      for (; to > 0 && entry.first < regions_[k][to - 1].first; --to)
-        regions_[k][to] = regions_[k][to - 1];
-      regions_[k][to] = entry;
+  // The cheapest rise to the front, all lanes side by side; of equal ones the first stays first.
+  const auto slots = std::min(static_cast<size_t>(round_.neighbours), kMatchRegions - 1);
+  for (size_t slot = 0; slot < slots; ++slot) {
+    for (size_t to = kMatchRegions - 1; to > slot; --to) {
+      for (size_t k = 0; k < kMatchLanes; ++k) {
+        const bool rises = best[to][k] < best[to - 1][k];
+        const float cost = rises ? best[to][k] : best[to - 1][k];
+        const uint32_t from = rises ? regions_[to][k] : regions_[to - 1][k];
+        best[to][k] = rises ? best[to - 1][k] : best[to][k];
+        regions_[to][k] = rises ? regions_[to - 1][k] : regions_[to][k];
+        best[to - 1][k] = cost;
+        regions_[to - 1][k] = from;
+      }
     }
   }
 }

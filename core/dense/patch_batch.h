@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 
 #include "core/dense/free_slopes.h"
 #include "core/dense/patch_match_round.h"
@@ -113,7 +112,8 @@ class PatchBatch {
   /// Of the raster, without aprons.
   [[nodiscard]] size_t PixelOf(size_t k) const;
 
-  /// The cheapest pixel of each region around each lane, in order of cost.
+  /// The cheapest pixel of each region around each lane, the first round_.neighbours in order of
+  /// cost.
   void FindRegions();
 
   const PatchMatchContext& context_;
@@ -132,7 +132,7 @@ class PatchBatch {
   PlaneLanes tried_{};
   LaneFloats held_cost_{};
   std::array<LaneFloats, kMaxViews> costs_{};
-  std::array<std::array<std::pair<float, uint32_t>, kMatchRegions>, kMatchLanes> regions_{};
+  std::array<std::array<uint32_t, kMatchLanes>, kMatchRegions> regions_{};  ///< places in field_
 };
 
 }  // namespace orbweave
