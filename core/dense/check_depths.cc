@@ -81,8 +81,21 @@ struct Votes {
   int seen_through = 0;
   float sine = 0.0F;  // of the largest parallax
 
-  float weight = 0.0F;      // sum of 1 / sigma^2
-  float weighted_m = 0.0F;  // and of range / sigma^2
+  // Sums over own and agreeing ranges, less the own one.
+  float weight = 0.0F;       // 1 / sigma^2
+  float weighted_m = 0.0F;   // range / sigma^2
+  float weighted_m2 = 0.0F;  // range^2 / sigma^2
+
+  void Add(float range_m, float variance) {
+    weight += 1.0F / variance;
+    weighted_m += range_m / variance;
+    weighted_m2 += range_m * range_m / variance;
+  }
+  [[nodiscard]] float Mean() const { return weighted_m / weight; }
+  [[nodiscard]] float Sigma() const {
+    const float scatter = std::max(0.0F, weighted_m2 - weighted_m * weighted_m / weight);
+    return std::sqrt((kSharedError + scatter) / weight);
+  }
 };
 
 class Checker {
@@ -108,7 +121,8 @@ class Checker {
     const Eigen::Vector3f& bearing = bearings_[pixel];
     const float range_m = own_.range_m[pixel];
     const float own_variance = own_.sigma_m[pixel] * own_.sigma_m[pixel];
-    Votes votes{.weight = 1.0F / own_variance, .weighted_m = range_m / own_variance};
+    Votes votes;
+    votes.Add(0.0F, own_variance);
     for (const Neighbour& neighbour : neighbours_)
       Ask(neighbour, range_m, own_variance, bearing, votes);
     return votes;
@@ -172,9 +186,7 @@ class Checker {
     const float cut_m = (offset_m - normal.dot(neighbour.translation)) / slope;
     if (std::abs(cut_m - range_m) > 0.03F * range_m) return;
     const float along = here / slope * sigma_m;
-    const float weight = 1.0F / std::max(along * along, 1e-8F);
-    votes.weight += weight;
-    votes.weighted_m += weight * cut_m;
+    votes.Add(cut_m - range_m, std::max(along * along, 1e-8F));
   }
 
   const DepthMap& own_;
@@ -204,8 +216,8 @@ DepthMap CheckDepths(const DepthMap& own,
       checked.range_m[pixel] = 0.0F;
       continue;
     }
-    checked.range_m[pixel] = votes.weighted_m / votes.weight;
-    checked.sigma_m[pixel] = kSharedError / std::sqrt(votes.weight);
+    checked.range_m[pixel] = own.range_m[pixel] + votes.Mean();
+    checked.sigma_m[pixel] = votes.Sigma();
     checked.views[pixel] = static_cast<uint8_t>(votes.agreeing);
     checked.flags[pixel] |= kDepthChecked;
   }

@@ -25,9 +25,13 @@ struct NeighbourMap {
 /// have a depth there, look from less than twice the distance, and see nothing stand before it by a
 /// fifth of that: a point that two maps share and most deny is the errors of two. Surfaces of fewer
 /// than `min_speckle_px` connected pixels go. Ranges become the mean of own and agreeing ones,
-/// weighted by 1 / sigma^2; as neighbours match the same pixels, sigmas are 1.5 times what
-/// independent errors would leave. An empty map stays as it is; maps of another size count as
-/// absent.
+/// weighted by w = 1 / sigma^2, with
+///
+///   sigma^2 = (1.5 + sum w (range - mean)^2) / sum w :
+///
+/// half as much again as independent errors have, as neighbours match the same pixels; and of many
+/// that scatter as they claim, no less than what one of them claims. An empty map stays as it is;
+/// maps of another size count as absent.
 [[nodiscard]] DepthMap CheckDepths(const DepthMap& own,
                                    const std::vector<NeighbourMap>& neighbours,
                                    const DenseOptions& options);

@@ -105,12 +105,19 @@ std::vector<PatchMatchRound> PlanRounds(int count, PatchMatchRound first, bool c
     first.tilt *= 0.5F;
     first.fresh = std::max(0, first.fresh - 1);
   }
+  rounds.back().frees_slopes = true;
   return rounds;
 }
 
-constexpr PatchMatchRound kCoarse = {
-    .neighbours = 5, .fresh = 3, .perturbed = 3, .step_px = 4.0F, .tilt = 0.6F, .iteration = 0};
+constexpr PatchMatchRound kCoarse = {.neighbours = 5,
+                                     .fresh = 3,
+                                     .level = true,
+                                     .perturbed = 3,
+                                     .step_px = 4.0F,
+                                     .tilt = 0.6F,
+                                     .iteration = 0};
 constexpr PatchMatchRound kMiddle = {.neighbours = 4,
+                                     .level = true,
                                      .perturbed = 2,
                                      .step_px = 2.0F,
                                      .refine_px = 0.8F,

@@ -24,8 +24,10 @@ constexpr size_t kSamples = 6000;
 constexpr int kTrials = 200;
 constexpr size_t kMaxPlanes = 24;
 constexpr size_t kLeastInliers = 60;
-constexpr float kLeastCosine = 0.9F;    // between a pixel's normal and the plane's
-constexpr float kSameCosine = 0.9976F;  // between planes that may be one: 4 degrees
+constexpr float kLeastSigma_m = 0.002F;  // of a point, across its plane
+constexpr int kPixelsOfAPatch = 121;     // which share errors
+constexpr float kLeastCosine = 0.9F;     // between a pixel's normal and the plane's
+constexpr float kSameCosine = 0.9976F;   // between planes that may be one: 4 degrees
 
 float ToleranceAt(float range_m) { return 0.012F + 0.006F * range_m; }
 
@@ -34,13 +36,13 @@ size_t CountOn(std::span<const ReliablePoint> points, const FittedPlane& plane) 
       std::ranges::count_if(points, [&](const ReliablePoint& p) { return LiesOn(p, plane); }));
 }
 
-/// Sums for a plane through points by least squares, those far away counting less.
+/// Sums for a plane through points by least squares, each with the weight of its variance.
 class PlaneSums {
  public:
-  void Add(const Eigen::Vector3f& point) {
-    const Eigen::Vector3d x = point.cast<double>();
-    const double tolerance_m = ToleranceAt(point.norm());
-    const double weight = 1.0 / (tolerance_m * tolerance_m);
+  void Add(const ReliablePoint& p) {
+    const Eigen::Vector3d x = p.point.cast<double>();
+    const auto sigma_m = static_cast<double>(std::max(p.sigma_m, kLeastSigma_m));
+    const double weight = 1.0 / (sigma_m * sigma_m);
     weights_ += weight;
     sum_ += weight * x;
     squares_ += weight * x * x.transpose();
@@ -64,12 +66,31 @@ class PlaneSums {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
     Eigen::Vector3d normal = solver.eigenvectors().col(0);
     if (normal.dot(towards.cast<double>()) < 0.0) normal = -normal;
-    const double scatter_m = std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
-    return {
-        normal.cast<float>(), static_cast<float>(normal.dot(mean)), static_cast<float>(scatter_m)};
+    return {normal.cast<float>(),
+            static_cast<float>(normal.dot(mean)),
+            ErrorsOf(solver.eigenvalues(), solver.eigenvectors(), mean)};
   }
 
  private:
+  /// The scatter about a plane that is beyond the variances of its points is relief.
+  [[nodiscard]] PlaneErrors ErrorsOf(const Eigen::Vector3d& variances,
+                                     const Eigen::Matrix3d& axes,
+                                     const Eigen::Vector3d& mean) const {
+    const double of_points = static_cast<double>(count_) / weights_;
+    const double relief = std::max(0.0, variances[0] - of_points);
+    const double independent =
+        std::max(1.0, static_cast<double>(count_) / static_cast<double>(kPixelsOfAPatch));
+    PlaneErrors errors;
+    errors.relief_m = static_cast<float>(std::sqrt(relief));
+    errors.fit_m = static_cast<float>(std::sqrt((of_points + relief) / independent));
+    errors.middle = mean.cast<float>();
+    for (int k = 0; k < 2; ++k) {
+      const double spread = std::sqrt(std::max(variances[k + 1], 1e-6));
+      errors.axes.row(k) = (axes.col(k + 1) / spread).transpose().cast<float>();
+    }
+    return errors;
+  }
+
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
   double weights_ = 0.0;
@@ -80,7 +101,7 @@ class PlaneSums {
 FittedPlane Refit(std::span<const ReliablePoint> points, const FittedPlane& plane) {
   PlaneSums sums;
   for (const ReliablePoint& p : points) {
-    if (LiesOn(p, plane)) sums.Add(p.point);
+    if (LiesOn(p, plane)) sums.Add(p);
   }
   return sums.Fit(plane.normal);
 }
@@ -141,8 +162,7 @@ std::vector<PlaneSums> SumsOf(const std::vector<ReliablePoint>& points,
                               const std::vector<FittedPlane>& planes) {
   std::vector<PlaneSums> sums(planes.size());
   for (const ReliablePoint& p : points) {
-    if (const size_t plane = NearestPlane(p, planes); plane < planes.size())
-      sums[plane].Add(p.point);
+    if (const size_t plane = NearestPlane(p, planes); plane < planes.size()) sums[plane].Add(p);
   }
   return sums;
 }
@@ -195,7 +215,8 @@ std::vector<ReliablePoint> ReliablePoints(const ReferenceRaster& raster, const P
                                   1.0F);
         points.push_back({camera_from_face * (ray / q.dot(ray)),
                           camera_from_face * q.normalized(),
-                          static_cast<uint32_t>(pixels.Index(face, row, column))});
+                          static_cast<uint32_t>(pixels.Index(face, row, column)),
+                          field.sigma[at] / q.norm()});
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/dense/plane_errors.h"
 #include "core/dense/plane_field.h"
 #include "core/dense/reference_raster.h"
 
@@ -15,14 +16,15 @@ namespace orbweave {
 struct ReliablePoint {
   Eigen::Vector3f point;
   Eigen::Vector3f normal;
-  uint32_t pixel;  ///< of EquiangularRaster
+  uint32_t pixel;        ///< of EquiangularRaster
+  float sigma_m = 0.0F;  ///< across its own plane
 };
 
 /// n.x = d with unit n.
 struct FittedPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float distance_m = 0.0F;
-  float scatter_m = 0.0F;  ///< rms distance of the points on it
+  PlaneErrors errors{};
 
   /// q.x = 1.
   [[nodiscard]] Eigen::Vector3f InverseForm() const { return normal / distance_m; }
@@ -43,9 +45,10 @@ struct FittedPlane {
                                   const std::vector<FittedPlane>& planes);
 
 /// Sequential RANSAC (Fischler, Bolles 1981) over the points, each of which proposes its own plane.
-/// What errors of points far away cut into layers is one plane again. Only planes as roads and
-/// walls have them, within 12 degrees: level and below the camera, or upright. `y` of the camera
-/// frame points down.
+/// Fitted with the weights 1 / sigma^2 of the points, 121 of which (a patch) share errors; what
+/// they scatter beyond their sigmas is the plane's relief. What errors of points far away cut into
+/// layers is one plane again. Only planes as roads and walls have them, within 12 degrees: level
+/// and below the camera, or upright. `y` of the camera frame points down.
 [[nodiscard]] std::vector<FittedPlane> FindPlanes(const std::vector<ReliablePoint>& points,
                                                   uint64_t seed);
 

@@ -192,7 +192,7 @@ PlanarPrior LayOnPlanes(int face_px,
   PlanarPrior prior{.face_px = face_px};
   for (const FittedPlane& plane : planes) {
     prior.planes.emplace_back(plane.InverseForm());
-    prior.scatter_m.push_back(plane.scatter_m);
+    prior.errors.push_back(plane.errors);
   }
   std::vector<uint8_t> labels = LabelPoints(points, planes, pixels.NumPixels());
   const RoughPlaces rough = FindRoughPlaces(face_px, points, planes);

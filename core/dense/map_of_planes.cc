@@ -12,10 +12,9 @@ namespace orbweave {
 namespace {
 
 constexpr int kApron = PlaneField::kApron_px;
-constexpr float kPriorSigmas = 1.4F;  // of a plane's pixels, that one without a match may be off
-constexpr float kSameSigmas = 2.0F;   // between which two are one surface
-constexpr float kHeardCost = 0.7F;    // a match that correlates at 0.3 may contradict a plane
-constexpr float kLeastSlant = 0.1F;   // cosine between a plane's normal and the ray
+constexpr float kSameSigmas = 2.0F;  // between which two are one surface
+constexpr float kHeardCost = 0.7F;   // a match that correlates at 0.3 may contradict a plane
+constexpr float kLeastSlant = 0.1F;  // cosine between a plane's normal and the ray
 
 DepthMap BlankMap(int face_px) {
   DepthMap map{.face_px = face_px};
@@ -90,8 +89,8 @@ class FaceWriter {
     const float slant = normal.dot(in_cam.normalized());
     if (slant < kLeastSlant) return {};
     const float range_m = in_cam.norm() / plane.dot(in_cam);
-    return {
-        true, true, range_m, kPriorSigmas * prior_.scatter_m[label] / (slant * range_m), normal};
+    const float sigma_m = prior_.errors[label].SigmaAt(in_cam.normalized() * range_m) / slant;
+    return {true, true, range_m, sigma_m / range_m, normal};
   }
 
   void WriteOneOf(size_t pixel, const Found& own, const Found& prior, float texture) {

@@ -12,8 +12,8 @@ namespace orbweave {
 
 /// The depth map of a field of planes. A pixel may have a range of its own, where its plane
 /// correlates at least `min_zncc` (from 0.3 on it may contradict the prior, no more) and its sigma
-/// is at most `max_sigma` of the range, and one by the prior (of half the size), with 1.4 times the
-/// scatter of its plane as sigma. Where both agree within two sigmas it has their mean, weighted by
+/// is at most `max_sigma` of the range, and one by the prior (of half the size), with the sigma of
+/// its plane there (PlaneErrors). Where both agree within two sigmas it has their mean, weighted by
 /// variances; where not, the prior's if its texture is weak, else its own, and none where that is
 /// too weak. What the prior alone says, a weak
 /// match agreeing or not, is flagged kDepthPriorOnly. Ignored pixels, and all ranges

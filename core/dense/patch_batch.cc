@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/dense/depth_sigma.h"
+#include "core/dense/free_slopes.h"
 
 namespace orbweave {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr int kApron = PlaneField::kApron_px;
 constexpr int kSamples = 3;
 constexpr float kLeastFacing = 0.06F;  // cosine between normal and ray
+constexpr float kSlopeSigma = 2.5F;    // of the tangent between normal and ray
 /// Weights of a pixel's costs, ascending: a source that an occluder hides counts little.
 constexpr std::array<float, kMaxViews> kCostWeights = {1.0F, 1.0F, 0.5F, 0.25F};
 
@@ -61,7 +63,7 @@ void PatchBatch::TryNeighbours() {
   FindRegions();
   for (int slot = 0; slot < round_.neighbours; ++slot) {
     for (size_t k = 0; k < lanes_; ++k) {
-      const auto& [cost, from] = regions_[k][static_cast<size_t>(slot)];
+      const uint32_t from = regions_[static_cast<size_t>(slot)][k];
       Propose(k, {field_.x[from], field_.y[from], field_.z[from]});
     }
     Accept();
@@ -83,6 +85,21 @@ void PatchBatch::TryRandom() {
     }
     Accept();
   }
+  if (round_.level) TryLevel();
+}
+
+void PatchBatch::TryLevel() {
+  const Eigen::Vector3f down = FaceFromCamera(place_.face).col(1).cast<float>();
+  bool any = false;
+  for (size_t k = 0; k < lanes_; ++k) {
+    const RayPlane held = Held(k);
+    const float along = down.x() * patches_.x[k] + down.y() * patches_.y + down.z();
+    const float factor = held.InverseDepth(patches_.x[k], patches_.y) / along;
+    const bool slants = std::abs(along) > kLeastFacing * ray_[k];
+    any |= slants;
+    Propose(k, slants ? RayPlane{down.x() * factor, down.y() * factor, down.z() * factor} : held);
+  }
+  if (any) Accept();
 }
 
 void PatchBatch::Refine() {
@@ -104,6 +121,45 @@ void PatchBatch::Refine() {
     held_cost_[k] = minimum.cost;
     field_.sigma[at_ + k] = minimum.sigma;
   }
+  if (round_.frees_slopes) FreeSlopes(steps);
+}
+
+void PatchBatch::FreeSlopes(const LaneFloats& steps) {
+  const ReferenceRaster& raster = context_.scale.raster;
+  const uint8_t* const middle =
+      &raster.levels[static_cast<size_t>(place_.face)]
+                    [static_cast<size_t>(place_.row * raster.Stride() + place_.column)];
+  const TextureMoments moments =
+      MomentsOfTexture(middle, raster.Stride(), patches_, Directions(), noise_variance_);
+  const float pixel_rad = 1.5707963F / static_cast<float>(field_.FacePx());
+  for (size_t k = 0; k < lanes_; ++k) {
+    float& sigma = field_.sigma[at_ + k];
+    if (!std::isfinite(sigma)) continue;
+    const float parallax_px = round_.refine_px / steps[k];
+    const float variance_px2 = sigma * sigma * parallax_px * parallax_px;
+    const float slope = kSlopeSigma * pixel_rad * parallax_px;
+    sigma = std::sqrt(FreeSlopeVariance(moments, k, variance_px2, slope)) / parallax_px;
+  }
+}
+
+ParallaxDirections PatchBatch::Directions() const {
+  const float x = patches_.x[kMatchLanes / 2];
+  const float y = patches_.y;
+  ParallaxDirections sums;
+  float trace = 0.0F;
+  for (int k = 0; k < views_->count; ++k) {
+    const Eigen::Vector3f& centre =
+        context_.scale
+            .centres[views_->source[static_cast<size_t>(k)]][static_cast<size_t>(place_.face)];
+    const float column = (centre.x() - x * centre.z()) / patches_.dx[kMatchLanes / 2];
+    const float row = (centre.y() - y * centre.z()) / patches_.dy;
+    sums.columns += column * column;
+    sums.both += column * row;
+    sums.rows += row * row;
+    trace += column * column + row * row;
+  }
+  if (!(trace > 0.0F)) return {0.5F, 0.0F, 0.5F};
+  return {sums.columns / trace, sums.both / trace, sums.rows / trace};
 }
 
 void PatchBatch::Store() {
@@ -278,7 +334,6 @@ void PatchBatch::Hold(size_t k, float cost) {
 
 void PatchBatch::FindRegions() {
   std::array<LaneFloats, kMatchRegions> best;
-  std::array<std::array<uint32_t, kMatchLanes>, kMatchRegions> from;
   for (size_t region = 0; region < kMatchRegions; ++region) {
     best[region].fill(4.0F);
     for (const Offset& offset : kOffsets[region]) {
@@ -288,17 +343,23 @@ void PatchBatch::FindRegions() {
       for (size_t k = 0; k < kMatchLanes; ++k) {
         const bool better = costs[k] < best[region][k];
         best[region][k] = better ? costs[k] : best[region][k];
-        from[region][k] = better ? static_cast<uint32_t>(first + k) : from[region][k];
+        regions_[region][k] = better ? static_cast<uint32_t>(first + k) : regions_[region][k];
       }
     }
   }
-  for (size_t k = 0; k < lanes_; ++k) {
-    for (size_t region = 0; region < kMatchRegions; ++region) {
-      std::pair<float, uint32_t> entry(best[region][k], from[region][k]);
-      size_t to = region;
-      for (; to > 0 && entry.first < regions_[k][to - 1].first; --to)
-        regions_[k][to] = regions_[k][to - 1];
-      regions_[k][to] = entry;
+  // The cheapest rise to the front, all lanes side by side; of equal ones the first stays first.
+  const auto slots = std::min(static_cast<size_t>(round_.neighbours), kMatchRegions - 1);
+  for (size_t slot = 0; slot < slots; ++slot) {
+    for (size_t to = kMatchRegions - 1; to > slot; --to) {
+      for (size_t k = 0; k < kMatchLanes; ++k) {
+        const bool rises = best[to][k] < best[to - 1][k];
+        const float cost = rises ? best[to][k] : best[to - 1][k];
+        const uint32_t from = rises ? regions_[to][k] : regions_[to - 1][k];
+        best[to][k] = rises ? best[to - 1][k] : best[to][k];
+        regions_[to][k] = rises ? regions_[to - 1][k] : regions_[to][k];
+        best[to - 1][k] = cost;
+        regions_[to - 1][k] = from;
+      }
     }
   }
 }

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 
+#include "core/dense/free_slopes.h"
 #include "core/dense/patch_match_round.h"
 #include "core/dense/planar_prior.h"
 #include "core/dense/plane_field.h"
@@ -69,6 +69,16 @@ class PatchBatch {
   /// Largest distance of a chosen source from the line of sight.
   float Baseline() const;
 
+  /// Roads lie flatter to the ray than random planes do. y of the camera frame points down.
+  void TryLevel();
+
+  /// What the sigmas are when slopes are not known; `steps`: of the inverse range, as shares, that
+  /// make round_.refine_px of parallax.
+  void FreeSlopes(const LaneFloats& steps);
+
+  /// In which the chosen sources see pixels move.
+  [[nodiscard]] ParallaxDirections Directions() const;
+
   /// The share of the inverse range that makes `step_px` of parallax.
   float RelativeStep(size_t k, float step_px) const;
 
@@ -102,7 +112,8 @@ class PatchBatch {
   /// Of the raster, without aprons.
   [[nodiscard]] size_t PixelOf(size_t k) const;
 
-  /// The cheapest pixel of each region around each lane, in order of cost.
+  /// The cheapest pixel of each region around each lane, the first round_.neighbours in order of
+  /// cost.
   void FindRegions();
 
   const PatchMatchContext& context_;
@@ -121,7 +132,7 @@ class PatchBatch {
   PlaneLanes tried_{};
   LaneFloats held_cost_{};
   std::array<LaneFloats, kMaxViews> costs_{};
-  std::array<std::array<std::pair<float, uint32_t>, kMatchRegions>, kMatchLanes> regions_{};
+  std::array<std::array<uint32_t, kMatchLanes>, kMatchRegions> regions_{};  ///< places in field_
 };
 
 }  // namespace orbweave

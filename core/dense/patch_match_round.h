@@ -22,9 +22,11 @@ struct RangeLimits {
 struct PatchMatchRound {
   int neighbours = 4;         ///< planes of the best of 8 regions around
   int fresh = 0;              ///< random planes
+  bool level = false;         ///< the level plane through what it holds
   int perturbed = 2;          ///< random changes of what it holds
   float step_px = 1.0F;       ///< largest change of depth, in pixels of parallax
   float refine_px = 0.0F;     ///< tries so much nearer and farther, moves to the minimum; 0: not
+  bool frees_slopes = false;  ///< sigmas count that slopes are not known (FreeSlopeVariance)
   bool views_changed = true;  ///< costs of held planes are those of other sources
   float tilt = 0.3F;          ///< largest change of the normal, radians
   uint32_t iteration = 0;     ///< makes random numbers differ from those of other rounds

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/dense/plane_errors.h"
+
 namespace orbweave {
 
 /// Texture, in variances of noise, of which a match of its own says less than a plane around.
@@ -17,7 +19,7 @@ struct PlanarPrior {
 
   int face_px = 0;
   std::vector<Eigen::Vector3f> planes{};  ///< q.x = 1 in the camera frame
-  std::vector<float> scatter_m{};         ///< rms distance of their pixels from them
+  std::vector<PlaneErrors> errors{};      ///< of each
   std::vector<uint8_t> labels{};          ///< of the raster's pixels: index of a plane, or kNone
   std::vector<float> texture{};           ///< of its cells of 2 x 2 pixels (PlaneEvidence)
 };

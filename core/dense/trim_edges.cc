@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/dense/equiangular_raster.h"
@@ -41,17 +42,56 @@ struct Levels {
   }
 };
 
-/// One face of a map before anything was taken away.
+/// One face of a map before anything was taken away, continued by kAround_px pixels.
 class Face {
  public:
   Face(const ReferenceRaster& raster, const PlaneField& field, const DepthMap& map, int face)
-      : raster_(raster),
-        field_(field),
-        face_(face),
-        size_(map.face_px),
-        levels_(raster.levels[static_cast<size_t>(face)]),
-        ignored_(raster.ignored[static_cast<size_t>(face)]),
-        map_(map) {}
+      : field_(field), face_(face), size_(map.face_px), stride_(size_ + 2 * kAround_px), map_(map) {
+    const auto f = static_cast<size_t>(face);
+    for (int row = -kAround_px; row < size_ + kAround_px; ++row) {
+      for (int column = -kAround_px; column < size_ + kAround_px; ++column) {
+        const auto in_raster =
+            static_cast<size_t>((row + ReferenceRaster::kApron_px) * raster.Stride() + column +
+                                ReferenceRaster::kApron_px);
+        const bool is_ignored = !raster.ignored[f].empty() && raster.ignored[f][in_raster] != 0;
+        const float range = RangeAt(row, column);
+        levels_.push_back(raster.levels[f][in_raster]);
+        // Blank is behind all; what is ignored is on neither side.
+        ranges_.push_back(is_ignored ? kIgnored : range > 0.0F ? range : kBlank);
+      }
+    }
+    FindFarthest();
+  }
+
+  [[nodiscard]] bool IsCarriedOver(int row, int column) const {
+    const float range = map_.range_m[EquiangularRaster{size_}.Index(face_, row, column)];
+    const size_t middle = At(row, column);
+    if (!(range > 0.0F) || !(farthest_[middle] > (1.0F + kJump) * range)) return false;
+    Levels surface;
+    Levels behind;
+    const float nearest = (1.0F - kJump) * range;
+    const float farthest = (1.0F + kJump) * range;
+    for (int r = row - kAround_px; r <= row + kAround_px; ++r) {
+      const size_t first = At(r, column - kAround_px);
+      for (size_t k = first; k <= first + 2 * kAround_px; ++k) {
+        if (k == middle || ranges_[k] < nearest) continue;
+        (ranges_[k] > farthest ? behind : surface).Add(levels_[k]);
+      }
+    }
+    if (surface.count < kLeastPixels || behind.count < kLeastPixels) return false;
+    if (IsSure(row, column) && !AreToldApart(surface, behind)) return false;
+    const int level = levels_[middle];
+    return behind.Away(level) < surface.Away(level);
+  }
+
+ private:
+  static constexpr float kBlank = std::numeric_limits<float>::infinity();
+  static constexpr float kIgnored = 0.0F;
+
+  [[nodiscard]] bool IsWithin(int place) const { return place >= 0 && place < size_; }
+  [[nodiscard]] size_t At(int row, int column) const {
+    return static_cast<size_t>((row + kAround_px) * stride_ + column + kAround_px);
+  }
 
   /// Beyond the face's edges what other faces have there.
   [[nodiscard]] float RangeAt(int row, int column) const {
@@ -61,40 +101,20 @@ class Face {
     return map_.range_m[raster.Index(raster.PixelFromBearing(bearing))];
   }
 
-  [[nodiscard]] bool IsCarriedOver(int row, int column) const {
-    const float range = RangeAt(row, column);
-    if (!(range > 0.0F) || !HasBehind(row, column, range)) return false;
-    Levels surface;
-    Levels behind;
-    for (int r = row - kAround_px; r <= row + kAround_px; ++r) {
-      for (int c = column - kAround_px; c <= column + kAround_px; ++c) {
-        if (r == row && c == column) continue;
-        const Side side = SideOf(r, c, range);
-        if (side == Side::kSurface) surface.Add(LevelAt(r, c));
-        if (side == Side::kBehind) behind.Add(LevelAt(r, c));
-      }
+  /// Of the pixels within kBeyond_px of each pixel of the face.
+  void FindFarthest() {
+    const size_t reach = kBeyond_px;
+    const auto stride = static_cast<size_t>(stride_);
+    std::vector<float> along_rows(ranges_.size());
+    for (size_t k = reach; k + reach < ranges_.size(); ++k)
+      along_rows[k] = *std::max_element(&ranges_[k - reach], &ranges_[k + reach] + 1);
+    farthest_.resize(ranges_.size());
+    for (size_t k = reach * stride; k + reach * stride < ranges_.size(); ++k) {
+      float farthest = kIgnored;
+      for (size_t r = k - reach * stride; r <= k + reach * stride; r += stride)
+        farthest = std::max(farthest, along_rows[r]);
+      farthest_[k] = farthest;
     }
-    if (surface.count < kLeastPixels || behind.count < kLeastPixels) return false;
-    if (IsSure(row, column) && !AreToldApart(surface, behind)) return false;
-    const int level = LevelAt(row, column);
-    return behind.Away(level) < surface.Away(level);
-  }
-
- private:
-  enum class Side { kSurface, kBehind, kOther };
-
-  [[nodiscard]] bool IsWithin(int place) const { return place >= 0 && place < size_; }
-  [[nodiscard]] size_t InRaster(int row, int column) const {
-    return static_cast<size_t>((row + ReferenceRaster::kApron_px) * raster_.Stride() + column +
-                               ReferenceRaster::kApron_px);
-  }
-  [[nodiscard]] int LevelAt(int row, int column) const { return levels_[InRaster(row, column)]; }
-
-  [[nodiscard]] Side SideOf(int row, int column, float range) const {
-    if (!ignored_.empty() && ignored_[InRaster(row, column)] != 0) return Side::kOther;
-    const float other = RangeAt(row, column);
-    if (!(other > 0.0F) || other > (1.0F + kJump) * range) return Side::kBehind;
-    return other < (1.0F - kJump) * range ? Side::kOther : Side::kSurface;
   }
 
   [[nodiscard]] bool IsSure(int row, int column) const {
@@ -109,22 +129,14 @@ class Face {
     return contrast * contrast > a.Variance() + b.Variance();
   }
 
-  [[nodiscard]] bool HasBehind(int row, int column, float range) const {
-    for (int r = row - kBeyond_px; r <= row + kBeyond_px; ++r) {
-      for (int c = column - kBeyond_px; c <= column + kBeyond_px; ++c) {
-        if (SideOf(r, c, range) == Side::kBehind) return true;
-      }
-    }
-    return false;
-  }
-
-  const ReferenceRaster& raster_;
   const PlaneField& field_;
   int face_;
   int size_;
-  const std::vector<uint8_t>& levels_;
-  const std::vector<uint8_t>& ignored_;
+  int stride_;
   const DepthMap& map_;
+  std::vector<uint8_t> levels_{};
+  std::vector<float> ranges_{};
+  std::vector<float> farthest_{};
 };
 
 }  // namespace

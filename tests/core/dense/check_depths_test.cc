@@ -97,6 +97,26 @@ TEST(CheckDepths, AveragesNoiseAway) {
   EXPECT_LT(after, 0.5 * before);
 }
 
+double MedianSigma(const DepthMap& map) {
+  std::vector<double> sigmas;
+  for (size_t k = 0; k < map.size(); ++k) {
+    if (map.range_m[k] > 0.0F)
+      sigmas.push_back(static_cast<double>(map.sigma_m[k] / map.range_m[k]));
+  }
+  std::ranges::nth_element(sigmas, sigmas.begin() + static_cast<ptrdiff_t>(sigmas.size() / 2));
+  return sigmas[sigmas.size() / 2];
+}
+
+TEST(CheckDepths, BelievesRangesAsMuchAsTheyAgree) {
+  const auto sigma_at = [](double noise) {
+    const Maps maps(noise);
+    return MedianSigma(CheckDepths(maps.own, maps.Neighbours(), {}));
+  };
+  // Of five ranges of 1 %: what the weights say, and no less than what one of them claims.
+  EXPECT_LT(sigma_at(0.0), 0.007);
+  EXPECT_GT(sigma_at(1.0), 0.009);
+}
+
 TEST(CheckDepths, DropsWhatOneMapAloneSees) {
   Maps maps(0.0);
   const EquiangularRaster raster{kFace_px};

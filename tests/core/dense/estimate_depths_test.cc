@@ -89,18 +89,32 @@ const DepthMap& MapOfScene() {
   return kMap;
 }
 
+/// Turned so that no wall is level or upright, as planes of streets are.
+const BoxScene& TurnedScene() {
+  static const BoxScene kScene = [] {
+    Random random(5);
+    return BoxScene(kWidth_px, testing::RandomRotation(random));
+  }();
+  return kScene;
+}
+
+const DepthMap& MapOfTurnedScene() {
+  static const DepthMap kMap = EstimateDepths(TurnedScene().Problem(), {});
+  return kMap;
+}
+
 TEST(EstimateDepths, FindsWallsToAFractionOfAPixel) {
   const Errors errors = Compare(MapOfScene(), Scene().reference, Everywhere);
   EXPECT_GT(errors.Share(), 0.97);
   // A pixel of parallax is 1.2 degrees; with 0.5 m between panoramas, a tenth of it 1.3 % at 3 m.
   EXPECT_LT(QuantileOf(errors.relative, 0.5), 0.002);
   EXPECT_LT(QuantileOf(errors.relative, 0.95), 0.03);
-  EXPECT_LT(QuantileOf(errors.normals_deg, 0.5), 3.0);
+  EXPECT_LT(QuantileOf(errors.normals_deg, 0.5), 0.3);
 }
 
 TEST(EstimateDepths, IsWithinATwentiethOfAPixelAtEdgesOfFaces) {
-  const Errors all = Compare(MapOfScene(), Scene().reference, Everywhere);
-  const Errors edges = Compare(MapOfScene(), Scene().reference, NearFaceEdges);
+  const Errors all = Compare(MapOfTurnedScene(), TurnedScene().reference, Everywhere);
+  const Errors edges = Compare(MapOfTurnedScene(), TurnedScene().reference, NearFaceEdges);
   EXPECT_GT(edges.Share(), all.Share() - 0.03);
   EXPECT_LT(QuantileOf(edges.relative, 0.5), 0.006);
   EXPECT_LT(QuantileOf(edges.relative, 0.95), 2.0 * QuantileOf(all.relative, 0.95));
@@ -114,14 +128,12 @@ TEST(EstimateDepths, KnowsItsSigma) {
 }
 
 TEST(EstimateDepths, FindsTheSameWhicheverWayThePanoramaIsTurned) {
-  Random random(5);
-  const BoxScene turned(kWidth_px, testing::RandomRotation(random));
-  const DepthMap map = EstimateDepths(turned.Problem(), {});
-  const Errors errors = Compare(map, turned.reference, Everywhere);
+  const Errors errors = Compare(MapOfTurnedScene(), TurnedScene().reference, Everywhere);
   const Errors before = Compare(MapOfScene(), Scene().reference, Everywhere);
   EXPECT_GT(errors.Share(), before.Share() - 0.03);
   EXPECT_LT(QuantileOf(errors.relative, 0.5), 2.0 * QuantileOf(before.relative, 0.5));
-  EXPECT_LT(QuantileOf(errors.relative, 0.95), 1.5 * QuantileOf(before.relative, 0.95));
+  // Planes as streets have them are tried, too: a tenth of a pixel is what others keep.
+  EXPECT_LT(QuantileOf(errors.relative, 0.95), 0.013);
 }
 
 TEST(EstimateDepths, GivesTheSameBytesOnEveryInstructionSetAndEveryTime) {

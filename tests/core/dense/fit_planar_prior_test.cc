@@ -75,7 +75,7 @@ size_t CellOf(int face, int row, int column) {
 /// The box with a blank front, where a plane `front_m` away may be.
 struct BlankFront {
   explicit BlankFront(double front_m) {
-    planes.push_back({Eigen::Vector3f::UnitZ(), static_cast<float>(front_m), 0.01F});
+    planes.push_back({Eigen::Vector3f::UnitZ(), static_cast<float>(front_m), {.relief_m = 0.01F}});
     evidence = NoEvidence(planes.size());
   }
 
@@ -103,7 +103,7 @@ TEST(FindPlanes, JoinsTheLayersThatErrorsCutAPlaneInto) {
   const std::vector<FittedPlane> planes = FindPlanes(points, 1);
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_NEAR(planes[0].distance_m, 12.0F, 0.01F);
-  EXPECT_NEAR(planes[0].scatter_m, 0.08F, 0.02F);
+  EXPECT_NEAR(planes[0].errors.relief_m, 0.08F, 0.02F);
 }
 
 TEST(FindPlanes, KeepsKerbAndRoadApart) {
@@ -195,7 +195,7 @@ TEST(LayOnPlanes, FindsTheFloorAndTheFourWallsOfABox) {
     EXPECT_NEAR(normal.cwiseAbs().maxCoeff(&axis), 1.0F, 1e-4F);
     EXPECT_NEAR(1.0F / plane.norm(), testing::kBoxHalf_m[axis], 1e-3F);
   }
-  for (const float scatter_m : prior.scatter_m) EXPECT_LT(scatter_m, 1e-3F);
+  for (const PlaneErrors& errors : prior.errors) EXPECT_LT(errors.relief_m, 1e-3F);
 }
 
 TEST(LayOnPlanes, LaysBlankPatchesOnTheWallAroundThem) {

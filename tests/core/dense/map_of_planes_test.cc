@@ -29,7 +29,7 @@ struct Scene {
     std::ranges::fill(field.cost, cost);
     std::ranges::fill(field.sigma, kSigma);
     prior.planes = {Eigen::Vector3f(0.0F, 0.0F, 1.0F / prior_m)};
-    prior.scatter_m = {0.01F};
+    prior.errors = {{.relief_m = 0.014F}};
     prior.labels.assign(EquiangularRaster{kSize / 2}.NumPixels(), 0);
     prior.texture.assign(EquiangularRaster{kSize / 4}.NumPixels(), texture);
   }
