@@ -13,6 +13,7 @@
 #include "core/mapping/asked_rays.h"
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
+#include "core/mapping/find_small_motions.h"
 #include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/measure_gap_lengths.h"
@@ -127,6 +128,10 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   if (ScheduleOf(stated).weighs_pixels_alike) {
     if (const auto alike = WeighPixelsAlike(problem))
       return ReconstructCluster(*alike, stated, context);
+  }
+  if (ScheduleOf(stated).tightens) {
+    if (const auto told = FindSmallMotions(problem))
+      return ReconstructCluster(*told, stated, context);
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const CorrespondenceGraph graph, BuildCorrespondenceGraph(problem));
   const MappingOptions options =

@@ -136,6 +136,17 @@ TEST(ReconstructCluster, FollowsACameraThatHardlyMoves) {
   ExpectWellFormed(result.submodels[0]);
 }
 
+TEST(ReconstructCluster, FollowsACameraOfWhichEveryPairIsARotation) {
+  constexpr double kStep_m = 0.002;
+  const RayStreet world = MakeSlowStreet(12, kStep_m);
+  for (const TwoViewGeometry& pair : world.problem.pairs)
+    ASSERT_EQ(pair.kind, TwoViewKind::kPureRotation);
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.5 * kStep_m);
+}
+
 TEST(ReconstructCluster, HasNoSubmodelOfACameraThatNeverMoves) {
   const RayStreet world = MakeStreet({.centres = StraightWalk(6, 0.0), .points_per_metre = 80});
   ASSERT_FALSE(world.problem.pairs.empty());
