@@ -7,6 +7,7 @@
 
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/complete_tracks.h"
+#include "core/mapping/drop_near_points.h"
 #include "core/mapping/drop_two_view_points.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/mapping_schedule.h"
@@ -60,6 +61,7 @@ absl::Status AdjustInRounds(MappingState& state,
     const MappingOptions limits = rounds.tightens ? Tightened(state, options) : options;
     uint32_t changed = DensifyTracks(state, limits);
     if (rounds.tightens) changed += MergeCoincidentPoints(state, limits.max_error_px);
+    changed += DropNearPoints(state, state.Registered());
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, how, context));
     changed += FilterPoints(state, AllPoints(state), LimitsOf(limits));
     if (changed <= rounds.max_changed_share * state.NumObservations()) break;

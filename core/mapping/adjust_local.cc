@@ -8,6 +8,7 @@
 
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/complete_tracks.h"
+#include "core/mapping/drop_near_points.h"
 #include "core/mapping/filter_points.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/merge_points.h"
@@ -67,6 +68,7 @@ absl::Status AdjustLocally(MappingState& state,
   const BundleOptions how = {
       .loss = BundleLoss::kCauchy, .max_iterations = 10, .function_tolerance = 1e-3};
   const std::vector<ImageSlot> window = CovisibleWindow(state, image, options.local_window);
+  DropNearPoints(state, window);
   const std::vector<PointIndex> points = PointsOfWindow(state, window);
   ORBWEAVE_RETURN_IF_ERROR(AdjustPart(state, window, points, how, context).status());
   CompleteTracks(state, points, options.max_error_px);

@@ -9,9 +9,11 @@
 #include <string>
 
 #include "core/bundle/bearing_error.h"
+#include "core/mapping/adapt_to_parallax.h"
 #include "core/mapping/asked_rays.h"
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
+#include "core/mapping/find_small_motions.h"
 #include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/measure_gap_lengths.h"
@@ -120,14 +122,20 @@ void TakeSubmodel(const MappingState& state,
 }  // namespace
 
 absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& problem,
-                                                         const MappingOptions& options,
+                                                         const MappingOptions& stated,
                                                          const StageContext& context) {
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
-  if (ScheduleOf(options).weighs_pixels_alike) {
+  if (ScheduleOf(stated).weighs_pixels_alike) {
     if (const auto alike = WeighPixelsAlike(problem))
-      return ReconstructCluster(*alike, options, context);
+      return ReconstructCluster(*alike, stated, context);
+  }
+  if (ScheduleOf(stated).tightens) {
+    if (const auto told = FindSmallMotions(problem))
+      return ReconstructCluster(*told, stated, context);
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const CorrespondenceGraph graph, BuildCorrespondenceGraph(problem));
+  const MappingOptions options =
+      ScheduleOf(stated).tightens ? AdaptToParallax(problem, graph, stated) : stated;
   RegistrationLog log(problem.images.size());
   ClusterReconstruction result;
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MappingState> states,

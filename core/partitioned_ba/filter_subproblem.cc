@@ -7,11 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/bundle/bearing_error.h"
 #include "core/estimators/triangulate_rays.h"
 
 namespace orbweave {
 namespace {
+
+/// Of a slow camera, which sees all points under small angles, a share of those is enough.
+constexpr double kOfMedian = 0.25;
 
 /// What observations of an image are judged by.
 struct Judge {
@@ -48,14 +52,38 @@ uint32_t RemoveBadObservations(const Judges& judges, Track& track) {
   }));
 }
 
-bool IsGood(const Judges& judges, const Track& track, double min_angle_rad) {
-  if (track.observations.size() < 2) return false;
-  std::vector<Eigen::Vector3d> centres;
-  for (const Observation& seen : track.observations) {
-    centres.push_back(judges.Of(seen.ref.image).centre);
+/// The largest angle under which two observations see each track, radians; 0 where fewer are left,
+/// and where one image alone would see it from close up.
+std::vector<double> AnglesOf(const Judges& judges, const std::vector<Track>& tracks) {
+  std::vector<double> angles_rad;
+  angles_rad.reserve(tracks.size());
+  for (const Track& track : tracks) {
+    std::vector<Eigen::Vector3d> centres;
+    for (const Observation& seen : track.observations)
+      centres.push_back(judges.Of(seen.ref.image).centre);
+    const bool is_seen =
+        centres.size() > 1 && RangeGap(track.point_in_world, centres) <= kMaxRangeGap;
+    angles_rad.push_back(is_seen ? MaxTriangulationAngle(track.point_in_world, centres) : 0.0);
   }
-  return MaxTriangulationAngle(track.point_in_world, centres) >= min_angle_rad &&
-         RangeGap(track.point_in_world, centres) <= kMaxRangeGap;
+  return angles_rad;
+}
+
+/// Returns how many observations went with the tracks.
+uint32_t RemoveBadTracks(const Judges& judges, double min_angle_rad, std::vector<Track>& tracks) {
+  if (tracks.empty()) return 0;
+  const std::vector<double> angles_rad = AnglesOf(judges, tracks);
+  const double limit_rad = std::min(min_angle_rad, kOfMedian * UpperMedian(angles_rad));
+  uint32_t removed = 0;
+  size_t kept = 0;
+  for (size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks[i].observations.size() < 2 || angles_rad[i] < limit_rad) {
+      removed += static_cast<uint32_t>(tracks[i].observations.size());
+    } else {
+      std::swap(tracks[kept++], tracks[i]);
+    }
+  }
+  tracks.resize(kept);
+  return removed;
 }
 
 }  // namespace
@@ -67,12 +95,9 @@ FilteredSubproblem FilterSubproblem(Subproblem subproblem,
   FilteredSubproblem filtered;
   for (Track& track : subproblem.scene.tracks)
     filtered.removed_observations += RemoveBadObservations(judges, track);
-  filtered.removed_tracks =
-      static_cast<uint32_t>(std::erase_if(subproblem.scene.tracks, [&](const Track& track) {
-        if (IsGood(judges, track, min_angle_rad)) return false;
-        filtered.removed_observations += static_cast<uint32_t>(track.observations.size());
-        return true;
-      }));
+  const size_t num_tracks = subproblem.scene.tracks.size();
+  filtered.removed_observations += RemoveBadTracks(judges, min_angle_rad, subproblem.scene.tracks);
+  filtered.removed_tracks = static_cast<uint32_t>(num_tracks - subproblem.scene.tracks.size());
   subproblem.scene.SortTracks();  // a track is named by its first observation
   for (SplitTrack& track : subproblem.split)
     filtered.removed_observations += RemoveBadObservations(judges, track.part);

@@ -16,9 +16,9 @@ struct FilteredSubproblem {
 
 /// Removes observations whose ray is more than max_error_px (at the equator of the image's camera,
 /// (8)) from their bearing, and so those behind it; then tracks with fewer than two observations or
-/// no two rays at min_angle_rad or more, and those that one image alone would see from close up
-/// (kMaxRangeGap). Of split tracks, which no subproblem sees whole,
-/// observations alone. What remains stays sorted.
+/// no two rays at min_angle_rad or more, or at a quarter of the median of all tracks where that is
+/// less (AdaptToParallax), and those that one image alone would see from close up (kMaxRangeGap).
+/// Of split tracks, which no subproblem sees whole, observations alone. What remains stays sorted.
 [[nodiscard]] FilteredSubproblem FilterSubproblem(Subproblem subproblem,
                                                   double max_error_px,
                                                   double min_angle_rad);

@@ -25,18 +25,29 @@ std::string NameOf(size_t i) {
   return name;
 }
 
-/// cam_from_street of a carrier on the axis: forward along it, up to sway.
-Rigid3 PoseAt(const PathPlace& place, double tilt_sigma_deg, Random& random) {
+/// cam_from_street of a carrier on the axis: forward along it, up to sway. A slow one does not jump
+/// aside between two panoramas.
+Rigid3 PoseAt(const PathPlace& place, const StreetOptions& options, Random& random) {
+  const double aside_m = std::min(0.2, options.spacing_m);
+  const double up_m = std::min(0.03, 0.15 * options.spacing_m);
   Eigen::Matrix3d R;
   R.row(0) << place.direction.y(), -place.direction.x(), 0.0;  // right
   R.row(1) << 0.0, 0.0, -1.0;                                  // down
   R.row(2) << place.direction.x(), place.direction.y(), 0.0;   // forward
-  const double sigma_rad = tilt_sigma_deg * std::numbers::pi / 180.0;
+  const double sigma_rad = options.tilt_sigma_deg * std::numbers::pi / 180.0;
   const Eigen::Vector3d sway(random.Normal(), random.Normal(), random.Normal());
-  const Eigen::Vector2d ground = place.position + random.Uniform(-0.2, 0.2) * place.Left();
-  const Eigen::Vector3d centre(ground.x(), ground.y(), random.Uniform(-0.03, 0.03));
+  const Eigen::Vector2d ground = place.position + random.Uniform(-aside_m, aside_m) * place.Left();
+  const Eigen::Vector3d centre(ground.x(), ground.y(), random.Uniform(-up_m, up_m));
   const Eigen::Quaterniond tilt = RotationFromVector(sigma_rad * sway);
   return Rigid3::FromCentre((tilt * Eigen::Quaterniond(R)).normalized(), centre);
+}
+
+/// Whether a panorama is of the place of the one before.
+bool Stands(const StreetHardships& hardships, size_t i, size_t n) {
+  if (hardships.standing) return i > 0;
+  const auto stop = std::min(static_cast<size_t>(hardships.stop_panoramas), n);
+  const size_t begin = (n - stop) / 2;
+  return i > begin && i < begin + stop;
 }
 
 /// Arc lengths of the panoramas. A drive that closes the loop spaces them evenly round it.
@@ -49,10 +60,13 @@ std::vector<double> StationsOf(const StreetOptions& options, const StreetPath& a
                             : axis.length_m() / options.panoramas;
   Random random = RandomForStreet(options, "spacing");
   std::vector<double> stations_m;
+  double steps = 0.0;
   for (size_t i = 0; i < n; ++i) {
     // Places shift by up to half the spread, so that steps change by up to the whole of it.
     const double shift = 0.5 * options.hardships.spacing_spread * random.Uniform(-1.0, 1.0);
-    stations_m.push_back((static_cast<double>(i) + shift) * step_m);
+    const bool stands = Stands(options.hardships, i, n);
+    stations_m.push_back(stands ? stations_m.back() : (steps + shift) * step_m);
+    steps += stands ? 0.0 : 1.0;
   }
   return stations_m;
 }
@@ -75,9 +89,10 @@ std::vector<double> CaptureTimes(const Street& street, const StreetHardships& ha
   constexpr double kFirstDay_s = 1.7e9;
   constexpr double kDaysBetween_s = 86400.0 * 23.0;
   std::vector<double> times_s;
+  double stood_s = 0.0;
   for (size_t i = 0; i < street.stations_m.size(); ++i) {
-    const double since_start_s = hardships.standing ? 0.5 * static_cast<double>(i)
-                                                    : street.stations_m[i] / hardships.speed_mps;
+    if (Stands(hardships, i, street.stations_m.size())) stood_s += 0.5;
+    const double since_start_s = street.stations_m[i] / hardships.speed_mps + stood_s;
     times_s.push_back(kFirstDay_s + since_start_s +
                       (street.on_second_day[i] ? kDaysBetween_s : 0.0));
   }
@@ -122,9 +137,8 @@ Street MakeStreet(const StreetOptions& options) {
   for (size_t i = 0; i < n; ++i) {
     street.names.push_back(NameOf(i));
     const PathPlace place = street.world.layout.axis.At(street.stations_m[i]);
-    const bool moves = i == 0 || !options.hardships.standing;
-    cams_from_street.push_back(moves ? PoseAt(place, options.tilt_sigma_deg, sway)
-                                     : cams_from_street.front());
+    cams_from_street.push_back(Stands(options.hardships, i, n) ? cams_from_street.back()
+                                                               : PoseAt(place, options, sway));
     centres.push_back(cams_from_street.back().Centre());
   }
   street.measured_in_enu = MeasureStreet(street, centres, options);

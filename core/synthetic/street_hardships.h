@@ -32,6 +32,7 @@ struct EnumNames<NadirKind> {
 struct StreetHardships {
   bool room = false;
   bool standing = false;
+  int stop_panoramas = 0;
   double spacing_spread = 0.0;
   double plain_share = 0.0;
   double reflection = 0.0;
@@ -77,6 +78,10 @@ struct StreetHardships {
   static void VisitScene(Self& self, Visitor&& visit) {
     visit("room", self.room, "a furnished room instead of a street");
     visit("standing", self.standing, "the camera never moves");
+    visit("stop_panoramas",
+          self.stop_panoramas,
+          "panoramas that the camera stands for, half of the others later",
+          Range{0, 10000});
     visit("spacing_spread",
           self.spacing_spread,
           "largest change of a step, as a share of the spacing",

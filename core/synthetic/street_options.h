@@ -31,7 +31,7 @@ struct StreetOptions {
           self.width_px,
           "width of a panorama; its height is half of it",
           Range{64, 16384});
-    visit("spacing_m", self.spacing_m, "distance between panoramas", Range{0.2, 20});
+    visit("spacing_m", self.spacing_m, "distance between panoramas", Range{0.001, 20});
     visit(
         "tilt_sigma_deg", self.tilt_sigma_deg, "pitch, roll and yaw of the carrier", Range{0, 10});
     visit("exposure_spread",

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/mapping/cluster_problem.h"
@@ -13,6 +14,7 @@
 #include "core/synthetic/make_street.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/ray_street.h"
+#include "tests/core/mapping/slow_street.h"
 
 namespace orbweave {
 namespace {
@@ -116,6 +118,33 @@ TEST(ReconstructCluster, PassesAStopAtALight) {
   ASSERT_EQ(result.submodels.size(), 1U);
   EXPECT_EQ(result.submodels[0].images.size(), 32U);
   EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.02);
+}
+
+TEST(ReconstructCluster, FollowsACameraThatHardlyMoves) {
+  // 5 cm in all: of what is to be measured nearly everything is below max_error_px.
+  constexpr double kStep_m = 0.003;
+  const RayStreet world = MakeSlowStreet(16, kStep_m);
+  const auto rotations =
+      std::ranges::count(world.problem.pairs, TwoViewKind::kPureRotation, &TwoViewGeometry::kind);
+  ASSERT_GT(rotations, std::ssize(world.problem.pairs) / 2);
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 16U);
+  const ModelError error = ErrorOf(result.submodels[0], world.cams_from_world);
+  EXPECT_LT(error.position_rmse, 0.25 * kStep_m);
+  EXPECT_LT(error.max_rotation_rad, 1e-3);
+  ExpectWellFormed(result.submodels[0]);
+}
+
+TEST(ReconstructCluster, FollowsACameraOfWhichEveryPairIsARotation) {
+  constexpr double kStep_m = 0.002;
+  const RayStreet world = MakeSlowStreet(12, kStep_m);
+  for (const TwoViewGeometry& pair : world.problem.pairs)
+    ASSERT_EQ(pair.kind, TwoViewKind::kPureRotation);
+  const ClusterReconstruction result = Reconstruct(world);
+  ASSERT_EQ(result.submodels.size(), 1U);
+  EXPECT_EQ(result.submodels[0].images.size(), 12U);
+  EXPECT_LT(ErrorOf(result.submodels[0], world.cams_from_world).position_rmse, 0.5 * kStep_m);
 }
 
 TEST(ReconstructCluster, HasNoSubmodelOfACameraThatNeverMoves) {

@@ -63,6 +63,22 @@ TEST(FilterSubproblem, RemovesPointsUnderSmallAngles) {
   EXPECT_EQ(filtered.removed_observations, 4U);
 }
 
+TEST(FilterSubproblem, AsksForLessWhereAllIsSeenUnderSmallAngles) {
+  // Nothing is near, and the last of three points, at 5 km, is seen under a tenth of the usual
+  // angle.
+  Subproblem subproblem = MakeSubproblem();
+  std::vector<Track>& tracks = subproblem.scene.tracks;
+  tracks = {tracks[1], tracks[1], tracks[1]};
+  tracks[2].point_in_world.z() = 5000.0;
+  for (uint32_t t = 0; t < 3; ++t) {
+    for (Observation& seen : tracks[t].observations) seen.ref.feature = t;
+  }
+  const auto filtered = FilterSubproblem(subproblem, 4.0, kMinAngle_rad);
+  EXPECT_EQ(filtered.removed_tracks, 1U);
+  ASSERT_EQ(filtered.subproblem.scene.tracks.size(), 2U);
+  EXPECT_EQ(filtered.subproblem.scene.tracks[1].point_in_world.z(), 500.0);
+}
+
 TEST(FilterSubproblem, JudgesTheObservationsOfSplitTracksAlone) {
   Subproblem subproblem = MakeSubproblem();
   Track part = subproblem.scene.tracks[1];

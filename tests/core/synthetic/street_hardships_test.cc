@@ -232,6 +232,33 @@ TEST(StreetHardships, ACameraThatStandsSeesOtherTrafficFromTheSamePlace) {
   EXPECT_GT(moving, 20U);
 }
 
+TEST(StreetHardships, ADriveStopsAndGoesOn) {
+  const Street drive = MakeStreet(Tiny({}));
+  const Street street = MakeStreet(Tiny({.stop_panoramas = 10}));
+  ASSERT_EQ(street.cams_from_enu.size(), 24U);
+  for (size_t i = 1; i < 24; ++i) {
+    const bool stands = i > 7 && i < 17;
+    const double step_m =
+        (street.cams_from_enu[i].Centre() - street.cams_from_enu[i - 1].Centre()).norm();
+    EXPECT_EQ(step_m == 0.0, stands) << i;
+    EXPECT_GT(street.capture_times_s[i], street.capture_times_s[i - 1]) << i;
+  }
+  EXPECT_EQ(street.stations_m[7], drive.stations_m[7]);
+  EXPECT_EQ(street.stations_m[17], drive.stations_m[8]);
+}
+
+TEST(StreetHardships, ASlowCameraDoesNotJumpAside) {
+  StreetOptions options = Tiny({});
+  options.spacing_m = 0.01;
+  const Street street = MakeStreet(options);
+  for (size_t i = 1; i < street.cams_from_enu.size(); ++i) {
+    const double step_m =
+        (street.cams_from_enu[i].Centre() - street.cams_from_enu[i - 1].Centre()).norm();
+    EXPECT_GT(step_m, 0.005) << i;
+    EXPECT_LT(step_m, 0.025) << i;
+  }
+}
+
 TEST(StreetHardships, StepsSpreadAsAskedAndKeepTheirMean) {
   const Street street = MakeStreet(Tiny({.spacing_spread = 0.4}));
   double longest = 0.0;
@@ -253,7 +280,7 @@ TEST(RealisticStreet, HasEveryHardshipThatAPlainStreetCanHave) {
   EXPECT_TRUE(ValidateOptions("street", options.hardships).ok());
   // Scenes of their own, a matter of taste, and what half the repeated houses bring already.
   const std::set<std::string> others = {
-      "room", "standing", "bus_ahead", "daylight", "speed_mps", "equal_windows"};
+      "room", "standing", "stop_panoramas", "bus_ahead", "daylight", "speed_mps", "equal_windows"};
   const StreetHardships none;
   internal::ForEachField(
       options.hardships, [&](std::string_view name, auto& value, std::string_view, Range) {
