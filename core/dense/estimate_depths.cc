@@ -187,6 +187,11 @@ DepthMap EstimateDepths(const DepthProblem& problem,
   RunRounds(search, scale, PlanRounds(options.fine_rounds, kFine, false), field);
   DepthMap map = MapOfPlanes(scale.raster, field, prior, search.limits, options);
   TrimEdges(scale.raster, field, map);
+  if (std::ranges::none_of(map.range_m, [](float range_m) { return range_m > 0.0F; })) {
+    return {.problem =
+                "nothing in it is found in other panoramas at any distance: it shows the sky "
+                "alone, or surfaces without texture"};
+  }
   return map;
 }
 

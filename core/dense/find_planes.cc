@@ -24,10 +24,11 @@ constexpr size_t kSamples = 6000;
 constexpr int kTrials = 200;
 constexpr size_t kMaxPlanes = 24;
 constexpr size_t kLeastInliers = 60;
-constexpr float kLeastSigma_m = 0.002F;  // of a point, across its plane
-constexpr int kPixelsOfAPatch = 121;     // which share errors
-constexpr float kLeastCosine = 0.9F;     // between a pixel's normal and the plane's
-constexpr float kSameCosine = 0.9976F;   // between planes that may be one: 4 degrees
+constexpr float kLeastSigma_m = 0.002F;   // of a point, across its plane
+constexpr double kLeastRelief_m = 0.002;  // which points do not tell from their errors
+constexpr int kPixelsOfAPatch = 121;      // which share errors
+constexpr float kLeastCosine = 0.9F;      // between a pixel's normal and the plane's
+constexpr float kSameCosine = 0.9976F;    // between planes that may be one: 4 degrees
 
 float ToleranceAt(float range_m) { return 0.012F + 0.006F * range_m; }
 
@@ -77,7 +78,7 @@ class PlaneSums {
                                      const Eigen::Matrix3d& axes,
                                      const Eigen::Vector3d& mean) const {
     const double of_points = static_cast<double>(count_) / weights_;
-    const double relief = std::max(0.0, variances[0] - of_points);
+    const double relief = std::max(kLeastRelief_m * kLeastRelief_m, variances[0] - of_points);
     const double independent =
         std::max(1.0, static_cast<double>(count_) / static_cast<double>(kPixelsOfAPatch));
     PlaneErrors errors;

