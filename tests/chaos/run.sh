@@ -51,7 +51,7 @@ clean_up() {
 
 # The model that every other is compared with, and the state it left.
 undisturbed() {
-  "$orbweave" synth street --panoramas 12 --size 256x128 --output "$work/street" >"$work/synth.log" 2>&1 || return 1
+  "$orbweave" synth street --panoramas 12 --size 512x256 --output "$work/street" >"$work/synth.log" 2>&1 || return 1
   sha256sum "$work"/street/images/* | cut -d' ' -f1 >"$work/image_digests"
   start_fleet && start_submit "$work/undisturbed"
   finish_submit || return 1

@@ -28,13 +28,14 @@ silence_in_a_task() {
   return 1
 }
 
-# BEGIN: the same in a job of a fresh fleet, which may end before a worker is met: then another is begun.
+# BEGIN: the same in a job of a fresh fleet, which may end before a worker is met: then another is begun, and looked at
+# from its beginning.
 silence_in_a_job() {
   local try
   for try in 1 2 3 4 5; do
     if ((try > 1)); then judge && stop_fleet; fi
     start_fleet && start_submit "$fleet/model"
-    pause
+    ((try > 1)) || pause
     silence_in_a_task "$1" && return 0
   done
   return 1
