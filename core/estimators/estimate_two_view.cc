@@ -22,6 +22,7 @@
 #include "core/estimators/two_view_inliers.h"
 #include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
+#include "core/geometry/sphere_cells.h"
 
 namespace orbweave {
 namespace {
@@ -31,10 +32,14 @@ using Eigen::Vector3d;
 constexpr double kDegenerateShare = 0.9;  // of the inliers: a rotation or a plane explains the pair
 constexpr double kNotedShare = 0.1;       // of the matches: fewer that are fixed do no harm
 constexpr double kCarrierSpread = 0.25;   // the carrier covers no more of the sphere
-constexpr double kMostlySky = 0.5;        // of the inliers: the sky outvotes the scene
-constexpr double kLowFeatures = 0.1;      // of all features: a common scene has matches there
-constexpr double kStanding = 0.9;         // of what is far and high: no clouds, then
-constexpr double kFarBaselines = 5.0;     // houses lie within five steps of 5 m across a street
+// What moves by itself is seen within half of the horizon, where less than one inlier in a hundred
+// is by chance elsewhere: a scene has one place in eight, and five at least, in either half.
+constexpr double kEitherHalf = 0.125;
+constexpr uint32_t kFewestPlaces = 5;
+constexpr double kMostlySky = 0.5;     // of the inliers: the sky outvotes the scene
+constexpr double kLowFeatures = 0.1;   // of all features: a common scene has matches there
+constexpr double kStanding = 0.9;      // of what is far and high: no clouds, then
+constexpr double kFarBaselines = 5.0;  // houses lie within five steps of 5 m across a street
 // Clouds drift by half a degree a second: in the ten that neighbours are apart at most.
 constexpr double kMaxDrift_rad = 0.087;
 // Of what is no sky that many agree with its pose: it was not fitted to them, and one in a hundred
@@ -120,6 +125,15 @@ bool ShowsTheCarrierAlone(const TwoViewGeometry& geometry, double max_error_rad)
          RotationAngle(geometry.b_from_a.rotation) <= max_error_rad;
 }
 
+/// Whether the inliers lie all around the camera, as nothing does that drives by.
+bool IsAllAround(const TwoViewGeometry& geometry, std::span<const Vector3d> bearings_a) {
+  std::vector<Vector3d> inliers;
+  for (const FeatureMatch& match : geometry.inliers) inliers.push_back(bearings_a[match.a]);
+  const PlacesAround places = CountPlacesAround(inliers);
+  return places.of_emptier_half >= kFewestPlaces &&
+         places.of_emptier_half >= kEitherHalf * places.all;
+}
+
 /// Whether one pose may be the other a window further on: turned alike, but led elsewhere.
 bool MayBeAliases(const Rigid3& x, const Rigid3& y) {
   return AngleBetween(x.translation, y.translation) >= kOneDirection_rad &&
@@ -137,6 +151,16 @@ struct PairView {
 
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> From(std::span<const FeatureMatch> matches) const {
     return EstimateFrom(pair, bearings_a, bearings_b, matches, max_error_rad, options, context);
+  }
+
+  /// Whether what has moved is the scene, and what has not the carrier: it covers more of the
+  /// sphere; or it lies all around and has a pose of its own, in which most of what is fixed would
+  /// be elsewhere. A roof and the edge of what it hides cover more than the horizon does.
+  [[nodiscard]] bool IsTheScene(const TwoViewGeometry& moved, const MatchesByMotion& split) const {
+    if (moved.spread > split.fixed_spread) return true;
+    const auto explained = static_cast<double>(Agreeing(Arranged(split.fixed), moved).size());
+    return IsAllAround(moved, bearings_a) &&
+           explained < kSameScene * static_cast<double>(split.fixed.size());
   }
 
   /// The geometry of the scene where that of all matches is the sky's; none where the sky alone
@@ -301,7 +325,7 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
   if (static_cast<double>(split.fixed.size()) >= kNotedShare * static_cast<double>(num_putative)) {
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry moved, view.BelowSky(split.moved));
     moved.num_putative = num_putative;
-    if (moved.kind != TwoViewKind::kNone && moved.spread > split.fixed_spread) return moved;
+    if (moved.kind != TwoViewKind::kNone && view.IsTheScene(moved, split)) return moved;
   }
   ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, view.BelowSky(matches));
   ORBWEAVE_ASSIGN_OR_RETURN(geometry, view.BesidesPlane(std::move(geometry), matches));

@@ -17,4 +17,12 @@ constexpr int kSpreadCells = 8;  ///< bands and sectors of `SphereSpread`
 /// Share of the 8 x 8 cells that hold a bearing, 0 ... 1.
 [[nodiscard]] double SphereSpread(std::span<const Eigen::Vector3d> bearings);
 
+/// How bearings lie around an upright camera, in 32 x 32 cells of SphereCell.
+struct PlacesAround {
+  uint32_t all = 0;              ///< cells that hold a bearing
+  uint32_t of_emptier_half = 0;  ///< of them in that half of the horizon that has fewest
+};
+
+[[nodiscard]] PlacesAround CountPlacesAround(std::span<const Eigen::Vector3d> bearings);
+
 }  // namespace orbweave

@@ -15,12 +15,24 @@
 
 #include "core/mapping/matches_in_planes.h"
 #include "core/mapping/pair_witness.h"
+#include "core/scene/left_off.h"
 
 namespace orbweave {
 namespace {
 
 constexpr size_t kMaxSpan = 2 * kReachAlongLine;
 constexpr double kMinShareAbout = 0.9;
+// Of another drive over the same street two images are within half a step of one, four of two: a
+// way on which two drives are torn alike is none that a camera was carried elsewhere on.
+constexpr double kMuchNearer = 0.5;
+constexpr size_t kFewestNear = 2;
+constexpr size_t kManyNear = 5;
+
+/// Whether most of a pair's matches are where the model has them.
+bool Agrees(const MappingState& state, const LinkedPair& pair, double tolerance_px) {
+  const LengthAgreement agreement = AgreementOfMatches(state, pair, tolerance_px);
+  return agreement.agreeing > kAgreeingPairShare * agreement.told;
+}
 
 /// Registered images drive by drive.
 std::vector<ImageSlot> ByDrives(const MappingState& state) {
@@ -40,12 +52,69 @@ void ForEachPair(const MappingState& state, const Visit& visit) {
   }
 }
 
-/// Divided where the drive ends and where no pair leads on.
-std::vector<StreetLine> FindRuns(const MappingState& state) {
+/// Tells of images that follow each other in a drive which of them are no neighbours: a camera was
+/// carried to and fro, through a room say.
+class Apartness {
+ public:
+  Apartness(const MappingState& state, const std::vector<size_t>& place, double tolerance_px)
+      : state_(state), place_(place), tolerance_px_(tolerance_px) {}
+
+  /// Whether no pair joins the two, and both have others much nearer than each other, elsewhere in
+  /// the drives, to which pairs join them.
+  [[nodiscard]] bool AreApart(ImageSlot a, ImageSlot b) const {
+    if (HavePair(a, b)) return false;
+    const double near = kMuchNearer * (state_.Centre(a) - state_.Centre(b)).norm();
+    const size_t of_a = CountWithin(near, a);
+    const size_t of_b = CountWithin(near, b);
+    return std::min(of_a, of_b) >= kFewestNear && of_a + of_b >= kManyNear;
+  }
+
+ private:
+  [[nodiscard]] bool HavePair(ImageSlot a, ImageSlot b) const {
+    return std::ranges::any_of(state_.Graph().pairs_of_image[a], [&](uint32_t p) {
+      const LinkedPair& pair = state_.Graph().pairs[p];
+      return (pair.a == a ? pair.b : pair.a) == b;
+    });
+  }
+  [[nodiscard]] size_t CountWithin(double distance, ImageSlot image) const {
+    const auto& pairs = state_.Graph().pairs_of_image[image];
+    return static_cast<size_t>(std::ranges::count_if(pairs, [&](uint32_t p) {
+      const LinkedPair& pair = state_.Graph().pairs[p];
+      const ImageSlot other = pair.a == image ? pair.b : pair.a;
+      if (!state_.IsRegistered(other) ||
+          !((state_.Centre(image) - state_.Centre(other)).norm() < distance))
+        return false;
+      const auto [first, last] = std::minmax({place_[image], place_[other]});
+      return last - first > kReachAlongLine && Agrees(state_, pair, tolerance_px_);
+    }));
+  }
+
+  const MappingState& state_;
+  const std::vector<size_t>& place_;
+  double tolerance_px_;
+};
+
+/// Behind which images the drive goes on elsewhere.
+std::vector<uint8_t> EndsBehind(const MappingState& state,
+                                const std::vector<ImageSlot>& images,
+                                const Apartness& apartness) {
+  std::vector<const PosePrior*> priors;
+  for (const ImageSlot image : images) priors.push_back(&state.Problem().images[image].prior);
+  std::vector<uint8_t> ends = LeftOffBehind(priors);
+  for (size_t i = 0; i + 1 < images.size(); ++i) {
+    ends[i] = ends[i] != 0 || apartness.AreApart(images[i], images[i + 1]);
+  }
+  return ends;
+}
+
+/// Divided where the drive ends or goes on elsewhere, and where no pair leads on.
+std::vector<StreetLine> FindRuns(const MappingState& state, double tolerance_px) {
   const std::vector<ImageSlot> images = ByDrives(state);
   std::vector<size_t> place(state.Graph().NumImages());
   for (size_t i = 0; i < images.size(); ++i) place[images[i]] = i;
   const auto drive = [&](size_t at) { return state.Problem().images[images[at]].drive; };
+  const std::vector<uint8_t> ends =
+      EndsBehind(state, images, Apartness(state, place, tolerance_px));
   std::vector<uint8_t> leads_on(images.size(), 0);
   ForEachPair(state, [&](const LinkedPair& pair) {
     const auto [first, last] = std::minmax({place[pair.a], place[pair.b]});
@@ -56,7 +125,7 @@ std::vector<StreetLine> FindRuns(const MappingState& state) {
   });
   std::vector<StreetLine> runs;
   for (size_t i = 0; i < images.size(); ++i) {
-    if (i == 0 || leads_on[i - 1] == 0) runs.emplace_back();
+    if (i == 0 || leads_on[i - 1] == 0 || ends[i - 1] != 0) runs.emplace_back();
     runs.back().push_back(images[i]);
   }
   return runs;
@@ -132,8 +201,7 @@ std::vector<Meeting> FindMeetings(const MappingState& state,
   std::map<std::pair<size_t, size_t>, PairsBetween> between;
   ForEachPair(state, [&](const LinkedPair& pair) {
     if (run_of[pair.a] == run_of[pair.b]) return;
-    const LengthAgreement agreement = AgreementOfMatches(state, pair, tolerance_px);
-    if (!(agreement.agreeing > kAgreeingPairShare * agreement.told)) return;
+    if (!Agrees(state, pair, tolerance_px)) return;
     const bool in_order = run_of[pair.a] < run_of[pair.b];
     const ImageSlot one = in_order ? pair.a : pair.b;
     const ImageSlot other = in_order ? pair.b : pair.a;
@@ -207,7 +275,7 @@ class Joiner {
 }  // namespace
 
 std::vector<StreetLine> FindStreetLines(const MappingState& state, double tolerance_px) {
-  const std::vector<StreetLine> runs = FindRuns(state);
+  const std::vector<StreetLine> runs = FindRuns(state, tolerance_px);
   Joiner joiner(runs.size());
   for (const Meeting& meeting : FindMeetings(state, runs, tolerance_px)) joiner.Join(meeting);
   return joiner.Take(runs);

@@ -20,6 +20,7 @@ constexpr size_t kRun = 3;
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 
 bool FollowOneAnother(const PlacesInDrives& places, const ImagePair& pair) {
+  if (!places.AreOfOneStretch(pair)) return false;
   const std::optional<uint32_t> steps = places.StepsBetween(pair);
   return steps && *steps <= kNeighbours;
 }

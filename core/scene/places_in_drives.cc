@@ -4,18 +4,36 @@
 
 #include <algorithm>
 
+#include "core/scene/left_off.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
+namespace {
+
+/// For each image of a sequence, in which stretch of it.
+std::vector<uint32_t> StretchesOf(const std::vector<ImageId>& sequence,
+                                  const ImageManifest& manifest) {
+  std::vector<const PosePrior*> priors;
+  for (const ImageId image : sequence) priors.push_back(&manifest.At(image).prior);
+  const std::vector<uint8_t> left_off = LeftOffBehind(priors);
+  std::vector<uint32_t> stretches(sequence.size(), 0);
+  for (size_t i = 1; i < stretches.size(); ++i) stretches[i] = stretches[i - 1] + left_off[i - 1];
+  return stretches;
+}
+
+}  // namespace
 
 PlacesInDrives::PlacesInDrives(const ImageManifest& manifest)
     : sequences_(SequenceOfDrives(manifest)),
       drive_(manifest.images.size()),
-      place_(manifest.images.size()) {
+      place_(manifest.images.size()),
+      stretch_(manifest.images.size()) {
   for (const auto& [drive, sequence] : sequences_) {
+    const std::vector<uint32_t> stretches = StretchesOf(sequence, manifest);
     for (uint32_t place = 0; place < sequence.size(); ++place) {
       drive_[sequence[place].value] = drive;
       place_[sequence[place].value] = place;
+      stretch_[sequence[place].value] = stretches[place];
     }
   }
 }
@@ -32,6 +50,10 @@ std::optional<uint32_t> PlacesInDrives::StepsBetween(const ImagePair& pair) cons
   if (!AreOfOneDrive(pair)) return std::nullopt;
   const auto [first, last] = std::minmax({PlaceOf(pair.a), PlaceOf(pair.b)});
   return last - first;
+}
+
+bool PlacesInDrives::AreOfOneStretch(const ImagePair& pair) const {
+  return AreOfOneDrive(pair) && stretch_[pair.a.value] == stretch_[pair.b.value];
 }
 
 std::optional<ImageId> PlacesInDrives::Before(ImageId image) const {

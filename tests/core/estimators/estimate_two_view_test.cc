@@ -291,6 +291,46 @@ TEST(EstimateTwoView, IsNotMisledByACarrierThatMatchesMoreThanTheScene) {
   for (const FeatureMatch& match : geometry.inliers) EXPECT_LT(match.a, 100U);
 }
 
+/// A car's roof with what it hides: all around, from 25 degrees below the horizon on. It covers
+/// more of the sphere than the street does.
+void AddWideRoof(size_t count, TwoViewWorld& world) {
+  Random random(78);
+  for (size_t i = 0; i < count; ++i) {
+    Vector3d spot = RandomDirection(random);
+    while (spot.y() < 0.42) spot = RandomDirection(random);
+    world.bearings_a.push_back(WithNoise(random, spot, kSigmaRad));
+    world.bearings_b.push_back(WithNoise(random, spot, kSigmaRad));
+  }
+}
+
+/// Houses far to all sides of a crossing, seen up to ten degrees above the horizon.
+TwoViewWorld MakeCrossing(size_t count) {
+  TwoViewWorld world;
+  world.b_from_a =
+      Rigid3::FromCentre(RotationFromVector({0.01, 0.1, -0.02}), Vector3d(0.0, 0.0, 6.0));
+  world.b_from_a.translation.normalize();
+  Random random(9);
+  for (size_t i = 0; i < count; ++i) {
+    const double azimuth = random.Uniform(-3.14, 3.14);
+    const double range = random.Uniform(15.0, 40.0);
+    const Vector3d X(
+        range * std::sin(azimuth), random.Uniform(-0.17, 0.05) * range, range * std::cos(azimuth));
+    world.bearings_a.push_back(WithNoise(random, X.normalized(), kSigmaRad));
+    world.bearings_b.push_back(WithNoise(random, BearingOf(world.b_from_a, X / 6.0), kSigmaRad));
+  }
+  return world;
+}
+
+TEST(EstimateTwoView, IsNotMisledByARoofThatCoversMoreThanTheScene) {
+  TwoViewWorld world = MakeCrossing(150);
+  AddWideRoof(400, world);
+  const TwoViewGeometry geometry = Estimate(world);
+  EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral);
+  EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 2e-3);
+  EXPECT_LT(DirectionError(geometry, world), 0.05);
+  for (const FeatureMatch& match : geometry.inliers) EXPECT_LT(match.a, 150U);
+}
+
 TEST(EstimateTwoView, KnowsNothingOfAPairInWhichOnlyTheCarrierMatches) {
   TwoViewWorld world;
   AddRoof(200, world);

@@ -87,6 +87,49 @@ TEST(FindStreetLines, EndsWhereNoPairLeadsOn) {
       ElementsAre(ElementsAre(0, 1, 2, 3, 4, 5), ElementsAre(6, 7, 8, 9, 10, 11, 12, 13, 14, 15)));
 }
 
+/// Two stretches of a drive 100 m apart, with a pair of their ends that look alike.
+TEST(FindStreetLines, EndsWhereGnssHasTheDriveLeftOff) {
+  std::vector<Eigen::Vector3d> centres = StraightWalk(kImages, 4.0);
+  for (size_t i = 8; i < centres.size(); ++i) centres[i].x() += 100.0;
+  StreetFixture street({.centres = centres, .points_per_metre = 8, .reach_m = 30.0, .window = 3});
+  TwoViewGeometry& alike = street.world.problem.pairs.emplace_back();
+  alike.pair = {ImageId(7), ImageId(8)};
+  alike.kind = TwoViewKind::kGeneral;
+  for (uint32_t i = 0; i < 50; ++i) alike.inliers.push_back({i, i});
+  std::ranges::sort(street.world.problem.pairs, {}, &TwoViewGeometry::pair);
+  const auto lines = [&] {
+    street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+    return FindStreetLines(street.StateWith(FirstImages(kImages)), kTolerance_px);
+  };
+  EXPECT_THAT(lines(), ElementsAre(ElementsAreArray(InOrder())));
+  for (uint32_t i = 0; i < kImages; ++i)
+    street.world.problem.images[i].prior = {.position_in_enu = centres[i]};
+  EXPECT_THAT(
+      lines(),
+      ElementsAre(ElementsAre(0, 1, 2, 3, 4, 5, 6, 7), ElementsAre(8, 9, 10, 11, 12, 13, 14, 15)));
+}
+
+/// A camera carried through a room, all of whose images see each other, but for two that follow
+/// each other at its two ends.
+TEST(FindStreetLines, EndsWhereACameraWasCarriedElsewhere) {
+  std::vector<Eigen::Vector3d> centres;
+  for (int i = 0; i < 30; ++i) centres.emplace_back(i % 6, 0.0, 0.5 * (i / 6));
+  std::swap(centres[14], centres[29]);  // from (1, 1) to (5, 2), and back
+  StreetFixture room({.centres = centres, .points_per_metre = 40, .reach_m = 10.0, .window = 29});
+  const auto lines_of = [&] {
+    room.graph = BuildCorrespondenceGraph(room.world.problem).value();
+    return FindStreetLines(room.StateWith(FirstImages(30)), kTolerance_px);
+  };
+  EXPECT_THAT(lines_of(), ElementsAre(ElementsAreArray(FirstImages(30))));
+  const ImagePair apart{ImageId(13), ImageId(14)};
+  std::erase_if(room.world.problem.pairs,
+                [&](const TwoViewGeometry& pair) { return pair.pair == apart; });
+  for (const StreetLine& line : lines_of()) {
+    const auto at = std::ranges::find(line, ImageSlot{13});
+    EXPECT_TRUE(at == line.end() || std::next(at) == line.end() || *std::next(at) != 14U);
+  }
+}
+
 TEST(FindStreetLines, ImagesInNoOrderAreOneStreetAsFarAsPairsTell) {
   // Ids: stretches of four from the middle, the end and the beginning.
   StreetFixture street = Street();

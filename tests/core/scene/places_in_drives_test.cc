@@ -41,5 +41,21 @@ TEST(PlacesInDrives, CountStepsWithinADriveAlone) {
   EXPECT_EQ(places.StepsBetween({ImageId(0), ImageId(1)}), std::nullopt);
 }
 
+TEST(PlacesInDrives, TellStretchesThatGnssHasApart) {
+  ImageManifest manifest;
+  for (uint32_t i = 0; i < 8; ++i) {
+    manifest.images.push_back({.id = ImageId(i)});
+    manifest.images.back().prior.position_in_enu =
+        Eigen::Vector3d(8.0 * i + (i < 4 ? 0.0 : 200.0), 0.0, 0.0);
+  }
+  const PlacesInDrives places(manifest);
+  EXPECT_TRUE(places.AreOfOneStretch({ImageId(0), ImageId(3)}));
+  EXPECT_TRUE(places.AreOfOneStretch({ImageId(4), ImageId(7)}));
+  EXPECT_FALSE(places.AreOfOneStretch({ImageId(3), ImageId(4)}));
+  EXPECT_EQ(places.StepsBetween({ImageId(3), ImageId(4)}), 1U);
+  manifest.images[2].drive = 1;
+  EXPECT_FALSE(PlacesInDrives(manifest).AreOfOneStretch({ImageId(1), ImageId(2)}));
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene/image_manifest.h"
+
+namespace orbweave {
+
+/// Behind which images of a sequence, given by their priors in its order, the drive was left off by
+/// GNSS and taken up elsewhere: a stretch is of another day, or was removed. Those beside the gap
+/// do not see the same, and are no neighbours.
+///
+/// A gap is a step of more than three usual ones (the median of those of a camera that does not
+/// stand) and three standard deviations, horizontally. The image before it and the one
+/// behind it must be as far from the other side: a single position that is off makes no gap. None
+/// where there is no position, and behind the last image.
+[[nodiscard]] std::vector<uint8_t> LeftOffBehind(std::span<const PosePrior* const> sequence);
+
+}  // namespace orbweave

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/scene/left_off.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// Positions along a street, 2 m well known each.
+std::vector<PosePrior> At(const std::vector<double>& metres_east) {
+  std::vector<PosePrior> priors;
+  for (const double east : metres_east) {
+    priors.push_back({.position_in_enu = Eigen::Vector3d(east, 0.0, 0.0)});
+    priors.back().horizontal_sigma_m = 2.0;
+  }
+  return priors;
+}
+
+std::vector<uint8_t> LeftOff(const std::vector<PosePrior>& priors) {
+  std::vector<const PosePrior*> sequence;
+  for (const PosePrior& prior : priors) sequence.push_back(&prior);
+  return LeftOffBehind(sequence);
+}
+
+TEST(LeftOffBehind, IsWhereAStretchIsMissing) {
+  EXPECT_THAT(LeftOff(At({0, 8, 16, 24, 70, 78, 86})), ElementsAre(0, 0, 0, 1, 0, 0, 0));
+}
+
+TEST(LeftOffBehind, ALongerStepIsNone) {
+  EXPECT_THAT(LeftOff(At({0, 8, 16, 24, 56, 64, 72})), Each(0));  // of 3 x 8 m + 3 x 2.8 m
+}
+
+TEST(LeftOffBehind, OnePositionThatIsOffIsNone) {
+  EXPECT_THAT(LeftOff(At({0, 8, 16, 124, 32, 40, 48})), Each(0));
+}
+
+TEST(LeftOffBehind, AShorterStretchBetweenTwoGapsIsOneOfItsOwn) {
+  EXPECT_THAT(LeftOff(At({0, 8, 16, 70, 78, 140, 148, 156})), ElementsAre(0, 0, 1, 0, 1, 0, 0, 0));
+}
+
+TEST(LeftOffBehind, IsNotToldOfACameraThatStoodMostOfTheTime) {
+  EXPECT_THAT(LeftOff(At({0, 0.5, 1, 0.5, 0, 0.2, 0.7, 8, 16, 24})), Each(0));
+}
+
+TEST(LeftOffBehind, HeightsSayNothing) {
+  std::vector<PosePrior> priors = At({0, 8, 16, 24, 32});
+  priors[3].position_in_enu->z() = priors[4].position_in_enu->z() = 500.0;
+  EXPECT_THAT(LeftOff(priors), Each(0));
+}
+
+TEST(LeftOffBehind, IsNotToldWithoutPositions) {
+  std::vector<PosePrior> priors = At({0, 8, 16, 124, 132, 140});
+  for (PosePrior& prior : priors) prior.position_in_enu.reset();
+  EXPECT_THAT(LeftOff(priors), Each(0));
+  EXPECT_THAT(LeftOff({}), IsEmpty());
+  EXPECT_THAT(LeftOff(At({5})), ElementsAre(0));
+}
+
+}  // namespace
+}  // namespace orbweave
