@@ -19,6 +19,7 @@ struct ExtractRecipe {
   Digest image{};
   Digest mask{};  ///< zero: none
   bool mask_ignores_white = true;
+  bool wants_facades = false;  ///< features of facade views too
 };
 
 /// What is needed to recognise a place, without opening its Features.

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/features/decode_panorama.h"
+#include "core/features/extract_facades.h"
 #include "core/features/extract_streaming_sift.h"
 #include "core/features/extract_tiled_sift.h"
 #include "core/features/row_across_poles.h"
@@ -62,6 +63,7 @@ Features Assemble(const cv::Mat& panorama, DescribedKeypoints described) {
 
 absl::StatusOr<Features> ExtractFromPixels(const cv::Mat& panorama,
                                            const cv::Mat& ignored,
+                                           bool wants_facades,
                                            const ExtractOptions& options,
                                            const StageContext& context) {
   const UsefulPlaces places(panorama.size(), options.max_latitude_deg, ignored);
@@ -69,7 +71,10 @@ absl::StatusOr<Features> ExtractFromPixels(const cv::Mat& panorama,
       options.detector == SiftDetector::kOpencv ? ExtractTiledSift : ExtractStreamingSift;
   ORBWEAVE_ASSIGN_OR_RETURN(DescribedKeypoints described,
                             extract(panorama, places, options, context));
-  return Assemble(panorama, std::move(described));
+  Features features = Assemble(panorama, std::move(described));
+  if (wants_facades)
+    ORBWEAVE_RETURN_IF_ERROR(AppendFacadeFeatures(panorama, ignored, options, context, features));
+  return features;
 }
 
 }  // namespace
@@ -89,7 +94,7 @@ absl::StatusOr<Features> ExtractFeatures(const ExtractInput& input,
     ignored = *mask;
   }
   try {
-    return ExtractFromPixels(*panorama, ignored, options, context);
+    return ExtractFromPixels(*panorama, ignored, input.wants_facades, options, context);
   } catch (const cv::Exception& error) {
     return WithoutFeatures(input.name,
                            absl::InternalError("features cannot be found: " + error.err));

@@ -15,6 +15,7 @@ struct ExtractInput {
   std::string_view encoded_image{};  ///< JPEG, PNG, TIFF, ... as read from the file
   std::string_view encoded_mask{};   ///< empty: no mask
   bool mask_ignores_white = true;    ///< false: black pixels are ignored (COLMAP's convention)
+  bool wants_facades = false;        ///< those of facade views, too (AppendFacadeFeatures)
 };
 
 /// SIFT of one equirectangular panorama that continues across the seam and the poles: RootSIFT

@@ -24,10 +24,20 @@ struct EnumNames<FirstOctave> {
        {FirstOctave::kFull, "full"}}};
 };
 
+enum class UseFacades { kAuto, kOn, kOff };
+
+template <>
+struct EnumNames<UseFacades> {
+  static constexpr std::array<std::pair<UseFacades, std::string_view>, 3> kNames = {
+      {{UseFacades::kAuto, "auto"}, {UseFacades::kOn, "on"}, {UseFacades::kOff, "off"}}};
+};
+
 struct ExtractOptions {
   SiftDetector detector = SiftDetector::kStreaming;
   FirstOctave first_octave = FirstOctave::kAuto;
   int max_features = 10000;
+  UseFacades facades = UseFacades::kAuto;
+  int facade_features = 2500;
   double max_latitude_deg = 65.0;
   double contrast_threshold = 0.003;
   double edge_threshold = 10.0;
@@ -44,6 +54,15 @@ struct ExtractOptions {
           self.max_features,
           "keypoints kept per panorama, spread over the sphere",
           Range{64, 65536});
+    visit("facades",
+          self.facades,
+          "features of views that show walls in their true shape, too, for panoramas far apart; "
+          "auto: "
+          "where GNSS has most further than 4 m from all but one other");
+    visit("facade_features",
+          self.facade_features,
+          "keypoints kept of each of the eight such views",
+          Range{64, 8192});
     visit("max_latitude_deg",
           self.max_latitude_deg,
           "keypoints further from the horizon are not used",

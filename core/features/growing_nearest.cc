@@ -37,8 +37,8 @@ std::vector<NearestTwo> ByIndex(const std::vector<NearestTwo>& by_scale,
 GrowingNearest::GrowingNearest(const PairSide& a, const PairSide& b)
     : a_(a),
       b_(b),
-      nearest_{.of_a = std::vector<NearestTwo>(a.features.size()),
-               .of_b = std::vector<NearestTwo>(b.features.size())} {}
+      nearest_{.of_a = std::vector<NearestTwo>(a.num_plain),
+               .of_b = std::vector<NearestTwo>(b.num_plain)} {}
 
 void GrowingNearest::GrowTo(size_t count) {
   const size_t end_a = std::max(num_a_, std::min(count, nearest_.of_a.size()));

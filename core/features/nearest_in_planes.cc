@@ -69,12 +69,12 @@ NearestInPlanes::NearestInPlanes(const PairSide& a,
       axial_from_b_(AxialFrame(baseline_in_b)),
       max_error_(max_error_rad),
       kernel_(kernel),
-      axial_b_(b.bearings, axial_from_b_),
+      axial_b_(b.PlainBearings(), axial_from_b_),
       blocks_b_(internal::PackBlocks(b.features.descriptors, axial_b_.Indices())) {}
 
 NearestTwoBothWays NearestInPlanes::Find(const Eigen::Quaterniond& b_from_a) const {
   const Kernel update_nearest = FunctionOf(kernel_);
-  const AxialFeatures axial_a(a_.bearings, axial_from_b_ * b_from_a);
+  const AxialFeatures axial_a(a_.PlainBearings(), axial_from_b_ * b_from_a);
   std::vector<NearestTwo> of_a(axial_a.size());
   std::vector<LaneState> block_states(blocks_b_.size(), internal::EmptyState());
   std::vector<int32_t> held(blocks_b_.size() * internal::kLanes);

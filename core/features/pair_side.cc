@@ -13,7 +13,7 @@ namespace orbweave {
 namespace {
 
 std::vector<FeatureIndex> OrderByScale(const Features& features) {
-  std::vector<FeatureIndex> order(features.size());
+  std::vector<FeatureIndex> order(features.NumPlain());
   std::iota(order.begin(), order.end(), FeatureIndex{0});
   std::ranges::sort(order, [&](FeatureIndex x, FeatureIndex y) {
     const float scale_x = features.keypoints[x].scale_px;
@@ -28,8 +28,9 @@ std::vector<FeatureIndex> OrderByScale(const Features& features) {
 PairSide::PairSide(Features image_features)
     : features(std::move(image_features)),
       bearings(BearingsOf(features)),
+      num_plain(features.NumPlain()),
       by_scale(OrderByScale(features)) {
-  descriptors_by_scale.reserve(features.descriptors.size());
+  descriptors_by_scale.reserve(num_plain * kDescriptorSize);
   for (const FeatureIndex i : by_scale) {
     if (features.descriptors.empty()) break;
     const uint8_t* const descriptor = features.Descriptor(i);
@@ -38,6 +39,13 @@ PairSide::PairSide(Features image_features)
   }
   for (FeatureIndex i = 0; i < features.size() && !features.descriptors.empty(); ++i)
     squared_norms.push_back(internal::SquaredNorm(features.Descriptor(i)));
+  for (size_t view = 0; view < first_of_view.size(); ++view) {
+    first_of_view[view] =
+        features.view.empty()
+            ? features.size()
+            : static_cast<size_t>(std::ranges::lower_bound(features.view, view + 1) -
+                                  features.view.begin());
+  }
 }
 
 }  // namespace orbweave

@@ -86,7 +86,7 @@ std::vector<ImageId> BestOthers(const Eigen::VectorXf& scores,
 
 std::vector<uint8_t> SampleDescriptors(const Features& features, const RetrievalOptions& options) {
   if (features.descriptors.empty()) return {};
-  std::vector<FeatureIndex> order(features.size());
+  std::vector<FeatureIndex> order(features.NumPlain());
   std::iota(order.begin(), order.end(), FeatureIndex{0});
   std::sort(order.begin(), order.end(), [&](FeatureIndex x, FeatureIndex y) {
     const float scale_x = features.keypoints[x].scale_px;

@@ -19,6 +19,7 @@
 #include "core/mapping/measure_gap_lengths.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/reconstruct_submodel.h"
+#include "core/mapping/split_by_gnss.h"
 #include "core/mapping/weigh_pixels_alike.h"
 
 namespace orbweave {
@@ -103,12 +104,24 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   return states;
 }
 
+/// In the pieces that GNSS leaves of it. `reasons`: per image, of those that are none.
 void TakeSubmodel(const MappingState& state,
                   const MappingOptions& options,
                   ResidualSum& residuals,
+                  std::vector<std::string>& reasons,
                   ClusterReconstruction& result) {
-  result.submodels.push_back(ExportSubmodel(state));
-  residuals.Add(state.Problem(), result.submodels.back());
+  for (Reconstruction& piece : SplitByGnss(state.Problem(), ExportSubmodel(state))) {
+    if (piece.images.size() < static_cast<size_t>(options.min_component_images)) {
+      for (const auto& [id, image] : piece.images) {
+        reasons[SlotOf(state.Problem(), id).value()] =
+            "points put it more than twice as far from its neighbours as its GNSS position "
+            "does";
+      }
+      continue;
+    }
+    residuals.Add(state.Problem(), piece);
+    result.submodels.push_back(std::move(piece));
+  }
   const JudgedPairs judged = JudgePairs(state, options);
   result.contradicted_pairs.insert(
       result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
@@ -145,7 +158,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   for (const MappingState& state : states) {
     const size_t size = state.Registered().size();
     if (size >= static_cast<size_t>(options.min_component_images)) {
-      TakeSubmodel(state, options, residuals, result);
+      TakeSubmodel(state, options, residuals, reasons, result);
       continue;
     }
     for (const ImageSlot image : state.Registered()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,10 +40,18 @@ struct Features {
   std::vector<uint8_t>
       descriptors{};  ///< size() x kDescriptorSize, row-major RootSIFT x 512; empty from a database
   std::vector<Rgb> colors{};  ///< size()
+  /// Of each, in which facade view it was found (FacadeView), counted from 1; those of the panorama
+  /// itself, 0, come first. Empty where all are.
+  std::vector<uint8_t> view{};
   /// Why the image has no features ("cannot decode: ..."), empty when all is well.
   std::string problem{};
 
   [[nodiscard]] size_t size() const { return keypoints.size(); }
+  /// Those of the panorama itself.
+  [[nodiscard]] size_t NumPlain() const {
+    return view.empty() ? size()
+                        : static_cast<size_t>(std::ranges::upper_bound(view, 0) - view.begin());
+  }
   [[nodiscard]] Eigen::Vector3d Bearing(FeatureIndex i) const {
     return camera.BearingFromPixel({keypoints[i].x_px, keypoints[i].y_px});
   }

@@ -5,9 +5,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
-#include "core/base/quantile.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -15,33 +14,13 @@ namespace {
 /// Panoramas see along a street what those up to three places on see too.
 constexpr double kUsualSteps = 3.0;
 constexpr double kSigmas = 3.0;
-/// Up to nine steps in ten may be those of a camera that stands, which are a tenth of a long one or
-/// less.
-constexpr double kHardlyAnyLonger = 0.9;
-constexpr double kStanding = 0.1;
 
 bool HavePositions(const PosePrior& a, const PosePrior& b) {
   return a.position_in_enu && b.position_in_enu;
 }
 
-double DistanceBetween(const PosePrior& a, const PosePrior& b) {
-  return (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
-}
-
 double SigmaBetween(const PosePrior& a, const PosePrior& b) {
   return std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
-}
-
-/// The median of the steps of a camera that does not stand; 0 where there are none.
-double UsualStep(std::span<const PosePrior* const> sequence) {
-  std::vector<double> steps;
-  for (size_t i = 0; i + 1 < sequence.size(); ++i) {
-    if (HavePositions(*sequence[i], *sequence[i + 1]))
-      steps.push_back(DistanceBetween(*sequence[i], *sequence[i + 1]));
-  }
-  const double standing = kStanding * Quantile(steps, kHardlyAnyLonger);
-  std::erase_if(steps, [&](double step) { return step < standing; });
-  return Quantile(std::move(steps), 0.5);
 }
 
 }  // namespace

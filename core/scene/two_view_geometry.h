@@ -29,8 +29,9 @@ enum class MatchRung : uint8_t {
   kUpright = 2,      ///< the same matches, by samples of cameras that stand upright
   kGuided = 3,       ///< too little by themselves; what they predict was found along the planes
   kLargest = 4,      ///< tried first: as kDescriptors, of the features of the largest scales alone
+  kFacades = 5,      ///< with nearest descriptors of facade views, of any orientation or upright
 };
-constexpr size_t kNumMatchRungs = 5;
+constexpr size_t kNumMatchRungs = 6;
 
 template <>
 struct EnumNames<MatchRung> {
@@ -39,7 +40,8 @@ struct EnumNames<MatchRung> {
        {MatchRung::kDescriptors, "descriptors"},
        {MatchRung::kUpright, "upright_samples"},
        {MatchRung::kGuided, "predicted_matches"},
-       {MatchRung::kLargest, "largest_features"}}};
+       {MatchRung::kLargest, "largest_features"},
+       {MatchRung::kFacades, "facades"}}};
 };
 
 /// What two panoramas say about each other.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/geometry/facade_view.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/plausible.h"
 
@@ -39,6 +40,11 @@ absl::Status CheckFeatures(const Features& features) {
   ORBWEAVE_RETURN_IF_ERROR(Expect(std::ranges::all_of(features.keypoints, lies_inside),
                                   "features",
                                   "a keypoint is not in the image"));
+  ORBWEAVE_RETURN_IF_ERROR(
+      Expect(std::ranges::is_sorted(features.view) &&
+                 (features.view.empty() || features.view.back() <= kNumFacadeViews),
+             "features",
+             "views are not in order"));
   return Expect(
       std::ranges::all_of(features.sigma_rad, IsAngularSigma), "features", "a sigma is no angle");
 }
@@ -53,6 +59,7 @@ absl::StatusOr<std::string> EncodeFeatures(const Features& features) {
   proto.set_sigma_rad(codec::Pack(features.sigma_rad));
   proto.set_descriptors(codec::Pack(features.descriptors));
   proto.set_colors(codec::Pack(features.colors));
+  proto.set_view(codec::Pack(features.view));
   proto.set_problem(features.problem);
   return codec::Serialize(proto, "features");
 }
@@ -74,6 +81,9 @@ absl::StatusOr<Features> DecodeFeatures(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       features.descriptors,
       codec::UnpackExactly<uint8_t>(proto.descriptors(), descriptor_bytes, "descriptors"));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      features.view,
+      codec::UnpackExactly<uint8_t>(proto.view(), proto.view().empty() ? 0 : n, "views"));
   ORBWEAVE_RETURN_IF_ERROR(CheckFeatures(features));
   return features;
 }

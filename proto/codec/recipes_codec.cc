@@ -89,13 +89,15 @@ absl::StatusOr<std::string> EncodeExtractRecipe(const ExtractRecipe& recipe) {
   proto.set_image(codec::PackDigest(recipe.image));
   proto.set_mask(codec::PackDigest(recipe.mask));
   proto.set_mask_ignores_white(recipe.mask_ignores_white);
+  proto.set_wants_facades(recipe.wants_facades);
   return codec::Serialize(proto, "extract recipe");
 }
 
 absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes) {
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::ExtractRecipe proto,
                             codec::Parse<v1::ExtractRecipe>(bytes, "extract recipe"));
-  ExtractRecipe recipe{.mask_ignores_white = proto.mask_ignores_white()};
+  ExtractRecipe recipe{.mask_ignores_white = proto.mask_ignores_white(),
+                       .wants_facades = proto.wants_facades()};
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.image, codec::UnpackDigest(proto.image()));
   if (recipe.image.IsZero()) return absl::DataLossError("extract recipe: no image");
   ORBWEAVE_ASSIGN_OR_RETURN(recipe.mask, codec::UnpackDigest(proto.mask()));

@@ -18,7 +18,8 @@ absl::Status ExtractFeaturesStage::Run(StageTask<ExtractFeaturesStage>& task) {
   const ExtractInput input{.name = "panorama",
                            .encoded_image = image,
                            .encoded_mask = mask,
-                           .mask_ignores_white = recipe.mask_ignores_white};
+                           .mask_ignores_white = recipe.mask_ignores_white,
+                           .wants_facades = recipe.wants_facades};
   ORBWEAVE_ASSIGN_OR_RETURN(const Features features,
                             ExtractFeatures(input, task.options<ExtractOptions>(), task.context()));
   const PlaceSample place{

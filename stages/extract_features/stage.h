@@ -11,7 +11,7 @@ namespace orbweave {
 /// One image and its mask -> its features (ExtractFeatures), and a sample of their descriptors by
 /// which the place is recognised.
 struct ExtractFeaturesStage {
-  static constexpr StageFacts kFacts{.name = "extract_features", .version = "3", .weight = 30.0};
+  static constexpr StageFacts kFacts{.name = "extract_features", .version = "4", .weight = 30.0};
   using Options = OptionSections<ExtractOptions, RetrievalOptions>;
 
   Parts<ExtractRecipe> image;

@@ -7,13 +7,16 @@
 #include <optional>
 #include <span>
 
+#include "core/estimators/bearing_pairs.h"
 #include "core/estimators/estimate_two_view.h"
 #include "core/estimators/find_rival_direction.h"
 #include "core/estimators/grow_two_view.h"
+#include "core/estimators/match_evidence.h"
 #include "core/estimators/two_view_inliers.h"
 #include "core/features/growing_nearest.h"
 #include "core/features/match_against_decoys.h"
 #include "core/features/match_descriptors.h"
+#include "core/features/match_facades.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
@@ -76,6 +79,7 @@ struct PairMatcher {
   const MatchOptions& match_options;
   const TwoViewOptions& two_view_options;
   const StageContext& context;
+  std::vector<FeatureMatch> of_facades{};  ///< beside those of the panoramas themselves
 
   [[nodiscard]] double MaxError() const { return MaxErrorRad(a, b, two_view_options.max_error_px); }
 
@@ -122,7 +126,11 @@ struct PairMatcher {
                                          bool is_in_doubt) const {
     std::optional<std::span<const FeatureMatch>> known;
     if (is_in_doubt) known = geometry.inliers;
-    return MatchAgainstDecoys(a, b, geometry.b_from_a, MaxError(), nearest, known, match_options);
+    PredictedMatches predicted =
+        MatchAgainstDecoys(a, b, geometry.b_from_a, MaxError(), nearest, known, match_options);
+    // Theirs are the last features of both, so that all are in order.
+    predicted.matches = WithFacades(std::move(predicted.matches));
+    return predicted;
   }
 
   /// Whether as many inliers as a geometry needs have clearly moved by more than a rotation: where
@@ -156,6 +164,11 @@ struct PairMatcher {
         upright.kind != TwoViewKind::kNone &&
         (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < best.log10_false_alarms);
     return is_better ? upright : best;
+  }
+
+  [[nodiscard]] std::vector<FeatureMatch> WithFacades(std::vector<FeatureMatch> matches) const {
+    matches.insert(matches.end(), of_facades.begin(), of_facades.end());
+    return matches;
   }
 
   /// The geometry with what it predicts, or none where there is no evidence.
@@ -193,6 +206,32 @@ struct PairMatcher {
     return turned + AngleBetween(before.translation, after.translation) > kMoved * MaxError();
   }
 
+  /// The geometry of `matches` of the panoramas themselves and of facade views together, or none
+  /// where these add nothing. A panorama shows the same window further on as it shows it here, and
+  /// the window itself tilted, so that look-alikes match better than what is right; facade views
+  /// show all of them alike. So do houses of other streets that look the same: matches of the
+  /// panoramas themselves have to bear the pose out.
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> ByFacades(const std::vector<FeatureMatch>& matches,
+                                                          const NearestTwoBothWays& nearest) const {
+    const TwoViewGeometry nothing{.pair = pair};
+    PairMatcher matcher = *this;
+    matcher.of_facades = MatchFacades(a, b, MaxError(), match_options);
+    if (matcher.of_facades.empty()) return nothing;
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
+                              matcher.Climb(matcher.WithFacades(matches)));
+    if (geometry.kind == TwoViewKind::kNone || !IsBorneOut(geometry, matches)) return nothing;
+    geometry.rung = MatchRung::kFacades;
+    return matcher.Confirm(geometry, &nearest);
+  }
+
+  [[nodiscard]] bool IsBorneOut(const TwoViewGeometry& geometry,
+                                const std::vector<FeatureMatch>& matches) const {
+    return EvidenceOf(ArrangePairs(a.bearings, b.bearings, matches, context.seed),
+                      geometry.b_from_a,
+                      MaxError())
+               .log10_false_alarms <= kWorthALook;
+  }
+
   [[nodiscard]] bool IsEvident(const TwoViewGeometry& geometry) const {
     return geometry.kind != TwoViewKind::kNone &&
            geometry.log10_false_alarms <= two_view_options.max_log10_false_alarms;
@@ -214,12 +253,19 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
     return TwoViewGeometry{.pair = pair};
   }
   GrowingNearest growing(a, b);
-  ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry first, matcher.FromLargest(growing));
-  if (first.kind != TwoViewKind::kNone) return first;
-  growing.GrowTo(std::max(a.features.size(), b.features.size()));
+  const bool have_facades = a.HasFacades() && b.HasFacades();
+  if (!have_facades) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry first, matcher.FromLargest(growing));
+    if (first.kind != TwoViewKind::kNone) return first;
+  }
+  growing.GrowTo(std::max(a.num_plain, b.num_plain));
   const NearestTwoBothWays nearest = growing.Nearest();
-  ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry,
-                            matcher.Climb(AcceptNearest(nearest, match_options)));
+  const std::vector<FeatureMatch> matches = AcceptNearest(nearest, match_options);
+  if (have_facades) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.ByFacades(matches, nearest));
+    if (geometry.kind != TwoViewKind::kNone) return geometry;
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.Climb(matches));
   return matcher.Confirm(geometry, &nearest);
 }
 

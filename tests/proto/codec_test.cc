@@ -131,6 +131,18 @@ TEST(FeaturesCodec, KeepsFeaturesWithoutDescriptorsAndProblems) {
   EXPECT_EQ(out->problem, in.problem);
 }
 
+TEST(FeaturesCodec, KeepsViewsThatAreInOrder) {
+  Features in = SomeFeatures(4);
+  in.view = {0, 0, 1, 8};
+  EXPECT_EQ(DecodeFeatures(EncodeFeatures(in).value())->view, in.view);
+  const std::vector<std::vector<uint8_t>> refused = {{0, 1, 0, 2}, {0, 0, 0, 9}, {0, 1}};
+  for (const std::vector<uint8_t>& view : refused) {
+    in.view = view;
+    EXPECT_EQ(DecodeFeatures(EncodeFeatures(in).value()).status().code(),
+              absl::StatusCode::kDataLoss);
+  }
+}
+
 TEST(FeaturesCodec, RefusesArraysOfDifferentLengths) {
   Features in = SomeFeatures(3);
   in.sigma_rad.pop_back();
@@ -198,8 +210,10 @@ TEST(RecipesCodec, RoundTrip) {
   EXPECT_EQ(cluster_out->drives, cluster.drives);
   EXPECT_EQ(cluster_out->ranks, cluster.ranks);
 
-  const ExtractRecipe extract{.image = digest, .mask = {}, .mask_ignores_white = false};
+  const ExtractRecipe extract{
+      .image = digest, .mask = {}, .mask_ignores_white = false, .wants_facades = true};
   const auto extract_out = DecodeExtractRecipe(EncodeExtractRecipe(extract).value());
+  EXPECT_TRUE(extract_out->wants_facades);
   ASSERT_TRUE(extract_out.ok()) << extract_out.status();
   EXPECT_EQ(extract_out->image, digest);
   EXPECT_TRUE(extract_out->mask.IsZero());

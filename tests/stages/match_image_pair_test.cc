@@ -123,5 +123,41 @@ TEST(MatchImagePair, ComparesMoreWhereMostLargeFeaturesDisagree) {
   EXPECT_LE(geometry.log10_false_alarms, kNoDoubt);
 }
 
+/// The same features once more, as facade views show them.
+void AddFacades(Sides& sides, uint64_t seed, size_t right) {
+  Random random(seed);
+  for (Features* side : {&sides.a, &sides.b}) side->view.assign(side->size(), 0);
+  for (size_t i = 0; i < right; ++i) {
+    const Eigen::Vector3d point = testing::RandomPoint(random, 2.0, 10.0);
+    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+    Append(sides.a, point.normalized(), kSmallScale_px, descriptor);
+    Append(sides.b, testing::BearingOf(sides.b_from_a, point), kSmallScale_px, descriptor);
+    for (Features* side : {&sides.a, &sides.b})
+      side->view.push_back(static_cast<uint8_t>(1 + 8 * i / right));
+  }
+}
+
+TEST(MatchImagePair, FindsByFacadesWhatPanoramasDoNotShow) {
+  Sides sides = MakeSides(5, {.large = 0, .small = 0, .alike = 40});
+  const auto alone =
+      MatchImagePair(kPair, PairSide(sides.a), PairSide(sides.b), {}, {}, {}, {.seed = 1});
+  EXPECT_EQ(alone->kind, TwoViewKind::kNone);
+  const size_t num_plain = sides.a.size();
+  AddFacades(sides, 6, 160);
+  const TwoViewGeometry geometry = Match(sides);
+  EXPECT_EQ(geometry.rung, MatchRung::kFacades);
+  EXPECT_GT(geometry.inliers.size(), 140U);
+  EXPECT_TRUE(std::ranges::is_sorted(geometry.inliers));
+  EXPECT_GE(geometry.inliers.back().a, num_plain);
+}
+
+TEST(MatchImagePair, NeedsFacadesOfBoth) {
+  Sides sides = MakeSides(1, {.large = 80, .small = 600});
+  AddFacades(sides, 7, 160);
+  const Sides plain = MakeSides(1, {.large = 80, .small = 600});
+  sides.b = plain.b;
+  EXPECT_EQ(Match(sides).rung, MatchRung::kLargest);
+}
+
 }  // namespace
 }  // namespace orbweave
