@@ -104,13 +104,21 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   return states;
 }
 
-/// In the pieces that GNSS leaves of it. `reasons`: per image, of those that are none.
+/// The state as a value; of our own preset in the pieces that GNSS leaves of it.
+std::vector<Reconstruction> PiecesOf(const MappingState& state, const MappingOptions& options) {
+  if (ScheduleOf(options).tightens) return SplitByGnss(state.Problem(), ExportSubmodel(state));
+  std::vector<Reconstruction> whole;
+  whole.push_back(ExportSubmodel(state));
+  return whole;
+}
+
+/// In pieces (PiecesOf). `reasons`: per image, of those that are none.
 void TakeSubmodel(const MappingState& state,
                   const MappingOptions& options,
                   ResidualSum& residuals,
                   std::vector<std::string>& reasons,
                   ClusterReconstruction& result) {
-  for (Reconstruction& piece : SplitByGnss(state.Problem(), ExportSubmodel(state))) {
+  for (Reconstruction& piece : PiecesOf(state, options)) {
     if (piece.images.size() < static_cast<size_t>(options.min_component_images)) {
       for (const auto& [id, image] : piece.images) {
         reasons[SlotOf(state.Problem(), id).value()] =

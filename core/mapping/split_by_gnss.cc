@@ -4,7 +4,6 @@
 #include "core/mapping/split_by_gnss.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -52,7 +51,7 @@ std::vector<Link> LinksOf(const ClusterProblem& problem, const Reconstruction& m
                       .norm();
     if (!a.position_in_enu || !b.position_in_enu) continue;
     link.gnss_m = DistanceBetween(a, b);
-    link.sigma_m = std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
+    link.sigma_m = SigmaBetween(a, b);
   }
   return links;
 }

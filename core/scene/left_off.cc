@@ -3,7 +3,6 @@
 
 #include "core/scene/left_off.h"
 
-#include <cmath>
 #include <cstddef>
 
 #include "core/scene/usual_step.h"
@@ -17,10 +16,6 @@ constexpr double kSigmas = 3.0;
 
 bool HavePositions(const PosePrior& a, const PosePrior& b) {
   return a.position_in_enu && b.position_in_enu;
-}
-
-double SigmaBetween(const PosePrior& a, const PosePrior& b) {
-  return std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
 }
 
 }  // namespace

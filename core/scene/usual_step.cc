@@ -3,6 +3,7 @@
 
 #include "core/scene/usual_step.h"
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -21,6 +22,10 @@ constexpr double kStanding = 0.1;
 
 double DistanceBetween(const PosePrior& a, const PosePrior& b) {
   return (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
+}
+
+double SigmaBetween(const PosePrior& a, const PosePrior& b) {
+  return std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
 }
 
 double UsualStep(std::span<const PosePrior* const> sequence) {

@@ -11,6 +11,9 @@ namespace orbweave {
 /// Horizontal distance between the positions of two images, metres. Both have one.
 [[nodiscard]] double DistanceBetween(const PosePrior& a, const PosePrior& b);
 
+/// Standard deviation of it, metres, of two independent positions.
+[[nodiscard]] double SigmaBetween(const PosePrior& a, const PosePrior& b);
+
 /// How far apart neighbours of a sequence, given by their priors in its order, are by GNSS, metres:
 /// the median of the steps of a camera that does not stand. 0 where no two have positions.
 [[nodiscard]] double UsualStep(std::span<const PosePrior* const> sequence);

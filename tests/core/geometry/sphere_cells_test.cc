@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <vector>
 
@@ -51,6 +53,35 @@ TEST(SphereSpread, GoesFromNothingToTheWholeSphere) {
   EXPECT_EQ(SphereSpread(bearings), 1.0 / 64.0);
   for (int i = 0; i < 2000; ++i) bearings.push_back(RandomDirection(random));
   EXPECT_EQ(SphereSpread(bearings), 1.0);
+}
+
+Eigen::Vector3d Towards(double azimuth_deg) {
+  const double azimuth = azimuth_deg * std::numbers::pi / 180.0;
+  return {std::sin(azimuth), 0.0, std::cos(azimuth)};
+}
+
+TEST(CountPlacesAround, IsNoneInOneHalfOfWhatStandsOnOneSide) {
+  std::vector<Eigen::Vector3d> bearings;
+  for (int i = 0; i < 80; ++i) bearings.push_back(Towards(-75.0 + 2.0 * i));
+  const PlacesAround beside = CountPlacesAround(bearings);
+  EXPECT_GE(beside.all, 14U);
+  EXPECT_EQ(beside.of_emptier_half, 0U);
+}
+
+TEST(CountPlacesAround, IsHalfOfWhatIsAllAroundWhereverTheCameraLooks) {
+  for (const double turn : {0.0, 90.0, 200.0}) {
+    std::vector<Eigen::Vector3d> bearings;
+    for (int i = 0; i < 720; ++i) bearings.push_back(Towards(turn + 0.5 * i));
+    const PlacesAround around = CountPlacesAround(bearings);
+    EXPECT_EQ(around.all, 32U);
+    EXPECT_EQ(around.of_emptier_half, 16U);
+  }
+}
+
+TEST(CountPlacesAround, CountsAPlaceOnce) {
+  const std::vector<Eigen::Vector3d> bearings(50, Towards(10.0));
+  EXPECT_EQ(CountPlacesAround(bearings).all, 1U);
+  EXPECT_EQ(CountPlacesAround({}).all, 0U);
 }
 
 }  // namespace
