@@ -61,18 +61,30 @@ class PixelLookup {
   std::array<Eigen::Matrix3f, kCubeFaces> faces_{};
 };
 
-std::vector<Eigen::Vector3f> BearingsOf(const EquiangularRaster& raster) {
-  std::vector<Eigen::Vector3f> bearings;
-  bearings.reserve(raster.NumPixels());
-  for (int face = 0; face < kCubeFaces; ++face) {
+/// Bearings of the pixels of a raster. Those of one face, turned: faces differ by the order and the
+/// signs of coordinates alone.
+class PixelBearings {
+ public:
+  explicit PixelBearings(const EquiangularRaster& raster) {
+    for (int face = 0; face < kCubeFaces; ++face)
+      turns_[static_cast<size_t>(face)] = FaceFromCamera(face).transpose().cast<float>();
+    in_face_.reserve(raster.NumPixels() / kCubeFaces);
     for (int row = 0; row < raster.face_px; ++row) {
       for (int column = 0; column < raster.face_px; ++column) {
-        bearings.push_back(raster.BearingFromPixel(face, row + 0.5, column + 0.5).cast<float>());
+        const Eigen::Vector3d bearing = raster.BearingFromPixel(0, row + 0.5, column + 0.5);
+        in_face_.emplace_back((FaceFromCamera(0) * bearing).cast<float>());
       }
     }
   }
-  return bearings;
-}
+
+  [[nodiscard]] Eigen::Vector3f Of(size_t pixel) const {
+    return turns_[pixel / in_face_.size()] * in_face_[pixel % in_face_.size()];
+  }
+
+ private:
+  std::array<Eigen::Matrix3f, kCubeFaces> turns_{};
+  std::vector<Eigen::Vector3f> in_face_{};
+};
 
 struct Neighbour {
   const DepthMap* map;
@@ -116,7 +128,7 @@ class Checker {
  public:
   Checker(const DepthMap& own, const std::vector<NeighbourMap>& neighbours)
       : own_(own),
-        bearings_(BearingsOf({own.face_px})),
+        bearings_({own.face_px}),
         lookup_(own.face_px),
         pixel_rad_(1.5707963F / static_cast<float>(own.face_px)) {
     for (const NeighbourMap& neighbour : neighbours) {
@@ -133,7 +145,7 @@ class Checker {
   [[nodiscard]] float PixelAngle() const { return pixel_rad_; }
 
   [[nodiscard]] Votes Ask(size_t pixel) const {
-    const Eigen::Vector3f& bearing = bearings_[pixel];
+    const Eigen::Vector3f bearing = bearings_.Of(pixel);
     const float range_m = own_.range_m[pixel];
     const float own_variance = own_.sigma_m[pixel] * own_.sigma_m[pixel];
     Votes votes;
@@ -161,7 +173,7 @@ class Checker {
     const Eigen::Vector3f to_source = bearing * range_m - neighbour.centre;
     const float sine = bearing.cross(to_source).norm() / distance_m;
     const Eigen::Vector3f normal = DecodeNormal(neighbour.map->normals[at]);
-    const float here = normal.dot(bearings_[at]);
+    const float here = normal.dot(bearings_.Of(at));
     const float surface_m = SurfaceAlong(normal, here, its_range_m, there / distance_m);
     const float behind_m = surface_m - distance_m;
     const float beside_px = std::abs(behind_m) * sine / (range_m * pixel_rad_);
@@ -207,7 +219,7 @@ class Checker {
   }
 
   const DepthMap& own_;
-  std::vector<Eigen::Vector3f> bearings_;
+  PixelBearings bearings_;
   PixelLookup lookup_;
   float pixel_rad_;
   std::vector<Neighbour> neighbours_{};
@@ -215,13 +227,12 @@ class Checker {
 
 }  // namespace
 
-DepthMap CheckDepths(const DepthMap& own,
+DepthMap CheckDepths(DepthMap own,
                      const std::vector<NeighbourMap>& neighbours,
                      const DenseOptions& options) {
-  DepthMap checked = own;
-  if (own.face_px == 0) return checked;
+  if (own.face_px == 0) return own;
   const Checker checker(own, neighbours);
-  for (size_t pixel = 0; pixel < own.size(); ++pixel) {
+  for (size_t pixel = 0; pixel < own.size(); ++pixel) {  // each is asked of by itself alone
     if (!(own.range_m[pixel] > 0.0F)) continue;
     const Votes votes = checker.Ask(pixel);
     const int more = votes.sine < kLeastSine ? 1 : 0;
@@ -230,16 +241,16 @@ DepthMap CheckDepths(const DepthMap& own,
     const bool hollow = votes.seen_through >= std::max(1, votes.agreeing);
     const bool is_denied = votes.agreeing < options.min_agreeing_share * votes.asked;
     if (votes.agreeing < needed || hollow || is_denied) {
-      checked.range_m[pixel] = 0.0F;
+      own.range_m[pixel] = 0.0F;
       continue;
     }
-    checked.range_m[pixel] = own.range_m[pixel] + votes.Mean();
-    checked.sigma_m[pixel] = votes.Sigma(kBias_px * checker.PixelAngle());
-    checked.views[pixel] = static_cast<uint8_t>(votes.agreeing);
-    checked.flags[pixel] |= kDepthChecked;
+    own.range_m[pixel] += votes.Mean();
+    own.sigma_m[pixel] = votes.Sigma(kBias_px * checker.PixelAngle());
+    own.views[pixel] = static_cast<uint8_t>(votes.agreeing);
+    own.flags[pixel] |= kDepthChecked;
   }
-  RemoveSpeckles(options.min_speckle_px, checked);
-  return checked;
+  RemoveSpeckles(options.min_speckle_px, own);
+  return own;
 }
 
 }  // namespace orbweave

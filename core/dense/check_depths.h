@@ -10,7 +10,7 @@
 
 namespace orbweave {
 
-/// The map of another panorama, as EstimateDepths left it.
+/// The map of another panorama, as EstimateDepths left it; its `views` are not read.
 struct NeighbourMap {
   const DepthMap* map = nullptr;
   Rigid3 neighbour_from_reference{};
@@ -34,7 +34,7 @@ struct NeighbourMap {
 /// scatter more or less than they claim; `bias` is what 0.05 pixels of the largest parallax make.
 /// An empty map stays as it is;
 /// maps of another size count as absent.
-[[nodiscard]] DepthMap CheckDepths(const DepthMap& own,
+[[nodiscard]] DepthMap CheckDepths(DepthMap own,
                                    const std::vector<NeighbourMap>& neighbours,
                                    const DenseOptions& options);
 
