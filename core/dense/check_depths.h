@@ -32,8 +32,7 @@ struct NeighbourMap {
 ///
 /// the mean variance, less what a mean of ranges with common errors gains, and more or less as they
 /// scatter more or less than they claim; `bias` is what 0.05 pixels of the largest parallax make.
-/// An empty map stays as it is;
-/// maps of another size count as absent.
+/// An empty map stays as it is; maps of another size count as absent.
 [[nodiscard]] DepthMap CheckDepths(DepthMap own,
                                    const std::vector<NeighbourMap>& neighbours,
                                    const DenseOptions& options);
