@@ -299,6 +299,8 @@ class Bench {
     for (size_t i = 0; i < maps.size(); ++i)
       posed.push_back({ImageId(static_cast<uint32_t>(i)), &maps[i], shots_[i].cam_from_street});
     std::array<DepthScore, kSurfaceKinds.size()> scores;
+    DepthScore level;
+    DepthScore other;
     for (size_t own = 0; own < maps.size(); ++own) {
       const RasterTruth& truth = truths[own];
       if (truth.points.empty()) continue;
@@ -311,23 +313,30 @@ class Bench {
         const EquiangularRaster::Place place = raster.PixelFromBearing(in_cam);
         const size_t k = raster.Index(place);
         if (!truth.IsNear(k) && !IsJudged(in_cam.norm())) continue;
-        scores[static_cast<size_t>(truth.kinds[k])].AddPoint(
-            truth.ErrorAt(place.face,
-                          static_cast<int>(place.row),
-                          static_cast<int>(place.column),
-                          point.position_in_world.cast<float>()),
-            std::abs(in_cam.norm() - static_cast<double>(truth.range_m[k])),
-            point.sigma_m);
+        const double error_m = truth.ErrorAt(place.face,
+                                             static_cast<int>(place.row),
+                                             static_cast<int>(place.column),
+                                             point.position_in_world.cast<float>());
+        const double along_m = std::abs(in_cam.norm() - static_cast<double>(truth.range_m[k]));
+        scores[static_cast<size_t>(truth.kinds[k])].AddPoint(error_m, along_m, point.sigma_m);
+        if (truth.kinds[k] != SurfaceKind::kStill) continue;
+        (IsLevel(truth, k) ? level : other).AddPoint(error_m, along_m, point.sigma_m);
       }
     }
     std::printf("fused\n");
     for (const SurfaceKind kind : kSurfaceKinds)
       scores[static_cast<size_t>(kind)].Print(NameOf(kind));
+    level.Print("  still, level");
+    other.Print("  still, other");
   }
 
   /// Level surface is road, kerbs and roofs of cars; the rest walls and what stands before them.
+  static bool IsLevel(const RasterTruth& truth, size_t pixel) {
+    return std::abs(truth.normals[pixel].z()) > 0.9F;
+  }
+
   void JudgeParts(const DepthMap& map, const RasterTruth& truth) const {
-    const auto is_level = [&](size_t k) { return std::abs(truth.normals[k].z()) > 0.9F; };
+    const auto is_level = [&](size_t k) { return IsLevel(truth, k); };
     const auto is_still = [&](size_t k) { return truth.kinds[k] == SurfaceKind::kStill; };
     Judge("  still, level", map, truth, [&](size_t k) { return is_still(k) && is_level(k); });
     Judge("  still, other", map, truth, [&](size_t k) { return is_still(k) && !is_level(k); });

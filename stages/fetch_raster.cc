@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/dense/grey_panorama.h"
 #include "stages/get_optional.h"
 
 namespace orbweave {
@@ -32,6 +33,26 @@ PanoramaRaster ViewOf(const DecodedRaster& raster) {
           .channels = 3,
           .pixels = raster.rgb,
           .ignored = raster.ignored};
+}
+
+absl::StatusOr<FetchedGrey> FetchGrey(const PanoramaFile& file,
+                                      bool mask_ignores_white,
+                                      int width_px,
+                                      BlobAccess& blobs) {
+  ORBWEAVE_ASSIGN_OR_RETURN(FetchedRaster fetched,
+                            FetchRaster(file, mask_ignores_white, width_px, blobs));
+  if (!fetched.problem.empty()) return FetchedGrey{.problem = fetched.problem};
+  return FetchedGrey{.camera = fetched.raster.camera,
+                     .levels = GreyLevelsOf(ViewOf(fetched.raster)),
+                     .ignored = std::move(fetched.raster.ignored)};
+}
+
+PanoramaRaster ViewOf(const FetchedGrey& grey) {
+  return {.width_px = grey.camera.width_px,
+          .height_px = grey.camera.height_px,
+          .channels = 1,
+          .pixels = grey.levels,
+          .ignored = grey.ignored};
 }
 
 }  // namespace orbweave

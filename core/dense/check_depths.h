@@ -10,7 +10,7 @@
 
 namespace orbweave {
 
-/// The map of another panorama, as EstimateDepths left it.
+/// The map of another panorama, as EstimateDepths left it; its `views` are not read.
 struct NeighbourMap {
   const DepthMap* map = nullptr;
   Rigid3 neighbour_from_reference{};
@@ -25,14 +25,15 @@ struct NeighbourMap {
 /// have a depth there, look from less than twice the distance, and see nothing stand before it by a
 /// fifth of that: a point that two maps share and most deny is the errors of two. Surfaces of fewer
 /// than `min_speckle_px` connected pixels go. Ranges become the mean of own and agreeing ones,
-/// weighted by w = 1 / sigma^2, with
+/// weighted by w = 1 / sigma^2. Of n agreeing neighbours, with c = kSharedVariance,
 ///
-///   sigma^2 = (1.5 + sum w (range - mean)^2) / sum w :
+///   sigma^2 = k^2 (n + 1) / (sum w) (c + (1 - c) / (n + 1)) + bias^2,
+///   k^2 = (4 + sum w (range - mean)^2 / (1 - c)) / (4 + n) :
 ///
-/// half as much again as independent errors have, as neighbours match the same pixels; and of many
-/// that scatter as they claim, no less than what one of them claims. An empty map stays as it is;
-/// maps of another size count as absent.
-[[nodiscard]] DepthMap CheckDepths(const DepthMap& own,
+/// the mean variance, less what a mean of ranges with common errors gains, and more or less as they
+/// scatter more or less than they claim; `bias` is what 0.05 pixels of the largest parallax make.
+/// An empty map stays as it is; maps of another size count as absent.
+[[nodiscard]] DepthMap CheckDepths(DepthMap own,
                                    const std::vector<NeighbourMap>& neighbours,
                                    const DenseOptions& options);
 

@@ -171,18 +171,22 @@ DepthMap EstimateDepths(const DepthProblem& problem,
     full.sources.push_back(MakeGreyPanorama(source.image));
   }
   if (poses.empty()) return {.problem = "no other panorama sees the same place from elsewhere"};
-  const Pyramid half = Half(full);
-  const Pyramid quarter = Half(half);
+  Pyramid half = Half(full);
+  Pyramid quarter = Half(half);
   const Search search{
       options,
       MatchFunctionOf(kernel),
       NoiseOf({&full, &half, &quarter}, options),
       {static_cast<float>(problem.min_range_m), static_cast<float>(problem.max_range_m)},
       problem.seed};
+  // What is done with goes: a scale has copies of its own, and memory ends at the finest one.
   PlaneField field = SearchQuarter(search, quarter, poses, problem.seeds);
+  quarter = {};
   PlanarPrior prior;
   field = SearchHalf(search, half, poses, DoubleField(field), prior);
+  half = {};
   const MatchScale scale(full.reference, full.sources, poses, 0);
+  full = {};
   field = DoubleField(field);
   RunRounds(search, scale, PlanRounds(options.fine_rounds, kFine, false), field);
   DepthMap map = MapOfPlanes(scale.raster, field, prior, search.limits, options);

@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "core/base/random.h"
 #include "core/dense/equiangular_raster.h"
+#include "core/dense/plane_relief.h"
 #include "core/geometry/cube_face.h"
 
 namespace orbweave {
@@ -24,13 +27,21 @@ constexpr size_t kSamples = 6000;
 constexpr int kTrials = 200;
 constexpr size_t kMaxPlanes = 24;
 constexpr size_t kLeastInliers = 60;
-constexpr float kLeastSigma_m = 0.002F;   // of a point, across its plane
-constexpr double kLeastRelief_m = 0.002;  // which points do not tell from their errors
-constexpr int kPixelsOfAPatch = 121;      // which share errors
-constexpr float kLeastCosine = 0.9F;      // between a pixel's normal and the plane's
-constexpr float kSameCosine = 0.9976F;    // between planes that may be one: 4 degrees
+constexpr float kLeastSigma_m = 0.002F;    // of a point, across its plane
+constexpr double kLeastRelief_m = 0.0005;  // finer than patches, as the grain of asphalt
+/// Of a point whose tolerance has more of its sigmas, one in a hundred leaves its plane by error;
+/// means of others are drawn to the plane, as half of what is off it is cut away.
+constexpr float kSigmasWithin = 2.5F;
+constexpr int kPixelsOfAPatch = 121;    // which share errors
+constexpr float kLeastCosine = 0.9F;    // between a pixel's normal and the plane's
+constexpr float kSameCosine = 0.9976F;  // between planes that may be one: 4 degrees
 
 float ToleranceAt(float range_m) { return 0.012F + 0.006F * range_m; }
+
+float WeightOf(const ReliablePoint& p) {
+  const float sigma_m = std::max(p.sigma_m, kLeastSigma_m);
+  return 1.0F / (sigma_m * sigma_m);
+}
 
 size_t CountOn(std::span<const ReliablePoint> points, const FittedPlane& plane) {
   return static_cast<size_t>(
@@ -42,8 +53,7 @@ class PlaneSums {
  public:
   void Add(const ReliablePoint& p) {
     const Eigen::Vector3d x = p.point.cast<double>();
-    const auto sigma_m = static_cast<double>(std::max(p.sigma_m, kLeastSigma_m));
-    const double weight = 1.0 / (sigma_m * sigma_m);
+    const auto weight = static_cast<double>(WeightOf(p));
     weights_ += weight;
     sum_ += weight * x;
     squares_ += weight * x * x.transpose();
@@ -73,17 +83,14 @@ class PlaneSums {
   }
 
  private:
-  /// The scatter about a plane that is beyond the variances of its points is relief.
+  /// All but relief. Points scatter as they do, whatever their sigmas say.
   [[nodiscard]] PlaneErrors ErrorsOf(const Eigen::Vector3d& variances,
                                      const Eigen::Matrix3d& axes,
                                      const Eigen::Vector3d& mean) const {
-    const double of_points = static_cast<double>(count_) / weights_;
-    const double relief = std::max(kLeastRelief_m * kLeastRelief_m, variances[0] - of_points);
     const double independent =
         std::max(1.0, static_cast<double>(count_) / static_cast<double>(kPixelsOfAPatch));
     PlaneErrors errors;
-    errors.relief_m = static_cast<float>(std::sqrt(relief));
-    errors.fit_m = static_cast<float>(std::sqrt((of_points + relief) / independent));
+    errors.fit_m = static_cast<float>(std::sqrt(std::max(variances[0], 0.0) / independent));
     errors.middle = mean.cast<float>();
     for (int k = 0; k < 2; ++k) {
       const double spread = std::sqrt(std::max(variances[k + 1], 1e-6));
@@ -168,6 +175,40 @@ std::vector<PlaneSums> SumsOf(const std::vector<ReliablePoint>& points,
   return sums;
 }
 
+/// The residuals of the points on each plane whose errors do not carry them off it.
+std::vector<std::vector<PlaneResidual>> ResidualsOf(const std::vector<ReliablePoint>& points,
+                                                    const std::vector<FittedPlane>& planes) {
+  std::vector<std::vector<PlaneResidual>> residuals(planes.size());
+  for (const ReliablePoint& p : points) {
+    if (kSigmasWithin * p.sigma_m > ToleranceAt(p.point.norm())) continue;
+    const size_t k = NearestPlane(p, planes);
+    if (k == planes.size()) continue;
+    const float off_m = planes[k].normal.dot(p.point) - planes[k].distance_m;
+    residuals[k].push_back({p.pixel, off_m, WeightOf(p)});
+  }
+  return residuals;
+}
+
+/// Relief of the planes, and what it adds to the errors of their fits. Of a plane that tells
+/// nothing no more is known than that its points lie within the tolerance.
+void AddRelief(int face_px,
+               const std::vector<ReliablePoint>& points,
+               std::vector<FittedPlane>& planes) {
+  const std::vector<std::vector<PlaneResidual>> residuals = ResidualsOf(points, planes);
+  for (size_t k = 0; k < planes.size(); ++k) {
+    PlaneErrors& errors = planes[k].errors;
+    const std::optional<Relief> relief = ReliefOf(face_px, residuals[k]);
+    if (!relief) {
+      errors.relief_m = ToleranceAt(errors.middle.norm()) / std::numbers::sqrt3_v<float>;
+      continue;
+    }
+    const double variance_m2 = relief->variance_m2;
+    errors.relief_m = static_cast<float>(std::sqrt(kLeastRelief_m * kLeastRelief_m + variance_m2));
+    errors.fit_m =
+        std::hypot(errors.fit_m, static_cast<float>(std::sqrt(variance_m2 / relief->cells)));
+  }
+}
+
 std::vector<FittedPlane> JoinLayers(const std::vector<ReliablePoint>& points,
                                     const std::vector<FittedPlane>& layers) {
   const std::vector<PlaneSums> sums = SumsOf(points, layers);
@@ -236,8 +277,12 @@ size_t NearestPlane(const ReliablePoint& point, const std::vector<FittedPlane>& 
   return nearest;
 }
 
-std::vector<FittedPlane> FindPlanes(const std::vector<ReliablePoint>& points, uint64_t seed) {
-  return JoinLayers(points, FindLayers(points, seed));
+std::vector<FittedPlane> FindPlanes(int face_px,
+                                    const std::vector<ReliablePoint>& points,
+                                    uint64_t seed) {
+  std::vector<FittedPlane> planes = JoinLayers(points, FindLayers(points, seed));
+  AddRelief(face_px, points, planes);
+  return planes;
 }
 
 }  // namespace orbweave

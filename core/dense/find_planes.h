@@ -45,11 +45,14 @@ struct FittedPlane {
                                   const std::vector<FittedPlane>& planes);
 
 /// Sequential RANSAC (Fischler, Bolles 1981) over the points, each of which proposes its own plane.
-/// Fitted with the weights 1 / sigma^2 of the points, 121 of which (a patch) share errors; what
-/// they scatter beyond their sigmas is the plane's relief, at least 2 mm. What errors of points far
-/// away cut into layers is one plane again. Only planes as roads and walls have them, within 12
-/// degrees: level and below the camera, or upright. `y` of the camera frame points down.
-[[nodiscard]] std::vector<FittedPlane> FindPlanes(const std::vector<ReliablePoint>& points,
+/// Fitted with the weights 1 / sigma^2 of the points, 121 of which (a patch) share errors; its
+/// relief is what ReliefOf tells of them, and of a plane that tells nothing what LiesOn allows,
+/// alike everywhere (its square over 3). What errors of points far away cut into layers is one
+/// plane again. Only planes as roads and walls have them, within 12 degrees: level and below the
+/// camera, or upright. `y` of the camera frame points down. `face_px` is that of the points'
+/// pixels.
+[[nodiscard]] std::vector<FittedPlane> FindPlanes(int face_px,
+                                                  const std::vector<ReliablePoint>& points,
                                                   uint64_t seed);
 
 }  // namespace orbweave

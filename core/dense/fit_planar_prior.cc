@@ -222,7 +222,7 @@ PlanarPrior LayOnPlanes(int face_px,
 PlanarPrior FitPlanarPrior(const PatchMatchContext& context, PlaneField& field) {
   const ReferenceRaster& raster = context.scale.raster;
   const std::vector<ReliablePoint> points = ReliablePoints(raster, field);
-  const std::vector<FittedPlane> planes = FindPlanes(points, context.seed);
+  const std::vector<FittedPlane> planes = FindPlanes(raster.face_px, points, context.seed);
   std::vector<Eigen::Vector3f> inverse_forms;
   for (const FittedPlane& plane : planes) inverse_forms.push_back(plane.InverseForm());
   return LayOnPlanes(raster.face_px, points, planes, GatherEvidence(context, inverse_forms, field));

@@ -74,8 +74,8 @@ struct FusedPanorama {
 /// points where sigmas scatter between classes. min_maps: what merges is right more often than what
 /// stays alone, so fewer points leave fewer wrong ones.
 ///
-/// Its sigma is the common one of the maps that agree, and larger where they scatter (RangeMean):
-/// the errors of maps that share images do not average out.
+/// Its sigma is the common one of the maps that agree, less what a mean of maps with common errors
+/// gains, and larger where they scatter (RangeMean).
 ///
 /// The rule reads nothing but these maps. Neighbours must be mutual (who is a neighbour has this
 /// one as neighbour), else both may give a point; their order does not matter. Neighbours without

@@ -68,6 +68,14 @@ bool IsUsable(const PanoramaRaster& raster) {
          (raster.ignored.empty() || raster.ignored.size() == count);
 }
 
+std::vector<uint8_t> GreyLevelsOf(const PanoramaRaster& raster) {
+  const auto width = static_cast<size_t>(raster.width_px);
+  std::vector<uint8_t> levels(width * static_cast<size_t>(raster.height_px));
+  for (int row = 0; row < raster.height_px; ++row)
+    CopyGrey(raster, row, levels.data() + static_cast<size_t>(row) * width);
+  return levels;
+}
+
 GreyPanorama MakeGreyPanorama(const PanoramaRaster& raster) {
   GreyPanorama grey = Blank(raster.width_px, raster.height_px);
   for (int row = 0; row < grey.height_px; ++row) CopyGrey(raster, row, RowOf(grey, row));

@@ -30,7 +30,10 @@ struct GreyPanorama {
 /// Whether sizes and buffers fit together: W a multiple of 16 and at least 64, H = W / 2.
 [[nodiscard]] bool IsUsable(const PanoramaRaster& raster);
 
-/// `raster` is usable.
+/// Grey levels of a usable raster, row by row: a third of what its colours take.
+[[nodiscard]] std::vector<uint8_t> GreyLevelsOf(const PanoramaRaster& raster);
+
+/// `raster` is usable. The same of colours and of their grey levels.
 [[nodiscard]] GreyPanorama MakeGreyPanorama(const PanoramaRaster& raster);
 
 /// Half as wide and high, each pixel the mean of four; ignored where one of the four is.

@@ -99,7 +99,13 @@ class FaceWriter {
     const bool agree = off * off < kSameSigmas * kSameSigmas * variance;
     if (agree && own.is_sure) return Set(pixel, Mean(own, prior), 0);
     if (agree || texture < kWeakTexture) return Set(pixel, prior, kDepthPriorOnly);
-    if (own.is_sure) Set(pixel, own, 0);
+    if (own.is_sure) Set(pixel, Doubted(own, std::abs(off)), 0);
+  }
+
+  /// A match that contradicts a plane: one of both is wrong, by what they are apart.
+  [[nodiscard]] Found Doubted(Found own, float off) const {
+    if (off < largest_sigma_) own.sigma = std::max(own.sigma, off);
+    return own;
   }
 
   float TextureAt(int row, int column) const {

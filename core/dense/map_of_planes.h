@@ -15,9 +15,10 @@ namespace orbweave {
 /// is at most `max_sigma` of the range, and one by the prior (of half the size), with the sigma of
 /// its plane there (PlaneErrors). Where both agree within two sigmas it has their mean, weighted by
 /// variances; where not, the prior's if its texture is weak, else its own, and none where that is
-/// too weak. What the prior alone says, a weak
-/// match agreeing or not, is flagged kDepthPriorOnly. Ignored pixels, and all ranges
-/// out of `limits`, have none.
+/// too weak. One of two that contradict each other is wrong, by what they are apart: that is the
+/// sigma of the own one then, unless they are farther apart than max_sigma, as a thing and the wall
+/// behind it. What the prior alone says, a weak match agreeing or not, is flagged kDepthPriorOnly.
+/// Ignored pixels, and all ranges out of `limits`, have none.
 [[nodiscard]] DepthMap MapOfPlanes(const ReferenceRaster& raster,
                                    const PlaneField& field,
                                    const PlanarPrior& prior,

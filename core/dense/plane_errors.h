@@ -9,7 +9,7 @@ namespace orbweave {
 
 /// How far off a fitted plane may be, across itself.
 struct PlaneErrors {
-  float relief_m = 0.0F;  ///< of the surface about the plane, beyond the errors of its points
+  float relief_m = 0.0F;  ///< of the surface about the plane (ReliefOf)
   float fit_m = 0.0F;     ///< sigma of the plane in the middle of its points
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
   /// Two axes of the plane, each divided by how far its points spread along it.

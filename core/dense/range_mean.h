@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/dense/shared_errors.h"
+
 namespace orbweave {
 
 /// The inverse-variance mean of ranges along one ray, one of each map, and of their normals.
@@ -25,16 +27,20 @@ class RangeMean {
   [[nodiscard]] Eigen::Vector3d Normal() const { return normal_.normalized(); }
   [[nodiscard]] size_t size() const { return ranges_.size(); }
 
-  /// Maps share images and so errors: a mean counts as no better than what it is of (the harmonic
-  /// mean of their variances), and as worse where ranges scatter beyond their sigmas.
+  /// Maps share images and so errors: of the harmonic mean of their variances a mean of them keeps
+  /// what they have in common (VarianceOfMean). More, where ranges scatter beyond their sigmas,
+  /// less what they have in common. (Checked maps have nine tenths in common on streets 11 and 12,
+  /// and err by seven tenths of the variance they claim where several see a place: the same.)
   [[nodiscard]] double Sigma() const {
     double scatter = 0.0;
     for (const auto& [range_m, weight] : ranges_) {
       scatter += weight * (range_m - Range()) * (range_m - Range());
     }
     const auto count = static_cast<double>(ranges_.size());
-    const double inflation = count > 1.0 ? std::max(1.0, scatter / (count - 1.0)) : 1.0;
-    return std::sqrt(inflation * count / sum_weight_);
+    const double expected = (1.0 - static_cast<double>(kSharedVariance)) * (count - 1.0);
+    const double inflation = count > 1.0 ? std::max(1.0, scatter / expected) : 1.0;
+    const auto of_mean = static_cast<double>(VarianceOfMean(static_cast<float>(count)));
+    return std::sqrt(inflation * count / sum_weight_ * of_mean);
   }
 
  private:

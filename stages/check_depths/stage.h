@@ -10,7 +10,7 @@ namespace orbweave {
 
 /// A map and those of its sources -> the map that they agree with (CheckDepths).
 struct CheckDepthsStage {
-  static constexpr StageFacts kFacts{.name = "check_depths", .version = "4", .weight = 10.0};
+  static constexpr StageFacts kFacts{.name = "check_depths", .version = "5", .weight = 10.0};
   using Options = OptionSections<DenseOptions>;
 
   Parts<CheckRecipe> check;

@@ -15,24 +15,24 @@ namespace {
 /// Sources that cannot be read take no part; a reference that cannot leaves an empty map.
 absl::StatusOr<DepthMap> Estimate(const DepthRecipe& recipe, StageTask<EstimateDepthsStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(
-      const FetchedRaster reference,
-      FetchRaster(recipe.reference, recipe.mask_ignores_white, recipe.width_px, task.blobs()));
+      const FetchedGrey reference,
+      FetchGrey(recipe.reference, recipe.mask_ignores_white, recipe.width_px, task.blobs()));
   if (!reference.problem.empty()) return DepthMap{.problem = reference.problem};
-  std::vector<FetchedRaster> sources;
+  std::vector<FetchedGrey> sources;
   for (const DepthSourceFile& source : recipe.sources) {
     ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
     ORBWEAVE_ASSIGN_OR_RETURN(
         sources.emplace_back(),
-        FetchRaster(source.panorama, recipe.mask_ignores_white, recipe.width_px, task.blobs()));
+        FetchGrey(source.panorama, recipe.mask_ignores_white, recipe.width_px, task.blobs()));
   }
-  DepthProblem problem{.reference = ViewOf(reference.raster),
+  DepthProblem problem{.reference = ViewOf(reference),
                        .seeds = recipe.seeds,
                        .min_range_m = recipe.min_range,
                        .max_range_m = recipe.max_range,
                        .seed = task.DigestOf(&EstimateDepthsStage::depth).ToSeed()};
   for (size_t i = 0; i < sources.size(); ++i) {
     if (!sources[i].problem.empty()) continue;
-    problem.sources.push_back({ViewOf(sources[i].raster), recipe.sources[i].source_from_reference});
+    problem.sources.push_back({ViewOf(sources[i]), recipe.sources[i].source_from_reference});
   }
   return EstimateDepths(problem, task.options<DenseOptions>());
 }

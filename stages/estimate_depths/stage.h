@@ -10,7 +10,7 @@ namespace orbweave {
 
 /// A panorama and its sources -> its depth map (EstimateDepths).
 struct EstimateDepthsStage {
-  static constexpr StageFacts kFacts{.name = "estimate_depths", .version = "4", .weight = 60.0};
+  static constexpr StageFacts kFacts{.name = "estimate_depths", .version = "5", .weight = 60.0};
   using Options = OptionSections<DenseOptions>;
 
   Parts<DepthRecipe> depth;

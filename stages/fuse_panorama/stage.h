@@ -10,7 +10,7 @@ namespace orbweave {
 
 /// A checked map and its neighbours -> the points that are its own, by tile (FusePixels).
 struct FusePanoramaStage {
-  static constexpr StageFacts kFacts{.name = "fuse_panorama", .version = "1", .weight = 10.0};
+  static constexpr StageFacts kFacts{.name = "fuse_panorama", .version = "2", .weight = 10.0};
   using Options = OptionSections<FuseOptions>;
 
   Parts<FuseRecipe> fusion;

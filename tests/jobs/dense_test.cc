@@ -192,6 +192,29 @@ TEST_F(DenseTest, GoesOnWithoutAPictureAndNamesIt) {
   EXPECT_THAT(report["without_depth"].dump(), HasSubstr("street_0000.jpg"));
 }
 
+TEST_F(DenseTest, StopsOnAFullDiskAndGoesOnWhenThereIsRoom) {
+  const std::string copy = *folder_ / "full";
+  fs::copy(*folder_ / "model", copy, fs::copy_options::recursive);
+  const auto expected = FilesOf(copy + "/dense");
+  fs::remove_all(copy + "/dense");
+  fs::create_directories(copy + "/dense");
+  // A file is written under another name first, which ends in the process: `exec` keeps it.
+  const CommandOutcome full = RunCommand({"/bin/sh",
+                                          "-c",
+                                          "ln -s /dev/full \"$0/dense/cloud.las.tmp$$\" && "
+                                          "exec \"$1\" dense \"$0\"",
+                                          copy,
+                                          ORBWEAVE_BINARY});
+  EXPECT_EQ(full.exit_code, 1) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("disk full"));
+  EXPECT_FALSE(fs::exists(copy + "/dense/cloud.las"));
+  const CommandOutcome again = Orbweave({"dense", copy});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(FilesOf(copy + "/dense") == expected);
+  for (const auto& stage : DenseReportOf(copy + "/dense")["stages"])
+    EXPECT_EQ(stage["tasks_computed"], 0) << stage["name"];
+}
+
 TEST_F(DenseTest, BenchTellsTimesAndThatCloudsAreTheSame) {
   const std::string output = *folder_ / "bench";
   const CommandOutcome bench = Orbweave({"bench",

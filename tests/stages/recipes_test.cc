@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "core/dense/tile_options.h"
 #include "stages/list_pairs/plan_matching.h"
 #include "stages/list_seams/plan_seams.h"
 #include "stages/list_tiles/plan_tiles.h"
@@ -94,6 +95,21 @@ TEST(TilePlanner, CutsATileOfTooManyPointsBetweenPanoramas) {
   EXPECT_EQ(recipes[3].piece, 1U);
   EXPECT_EQ(recipes[4].cell, (TileCell{1, 0}));
   EXPECT_EQ(recipes[4].piece, 0U);
+}
+
+TEST(TilePlanner, NoTaskHoldsATileOfAHundredMillionPoints) {
+  const TileOptions options;
+  TilePlanner planner(static_cast<uint64_t>(options.max_points));
+  constexpr uint64_t kOfAPanorama = 400000;
+  for (int k = 0; k < 250; ++k) planner.Add(PointsIn(std::to_string(k), {{{0, 0}, kOfAPanorama}}));
+  const std::vector<TileRecipe> recipes = planner.Recipes();
+  EXPECT_EQ(recipes.size(), 25U);
+  size_t panoramas = 0;
+  for (const TileRecipe& recipe : recipes) {
+    EXPECT_LE(recipe.points.size() * kOfAPanorama, static_cast<uint64_t>(options.max_points));
+    panoramas += recipe.points.size();
+  }
+  EXPECT_EQ(panoramas, 250U);
 }
 
 TEST(TilePlanner, IsNotMisledByCountsThatNobodyCanHave) {

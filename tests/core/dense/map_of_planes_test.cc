@@ -38,12 +38,13 @@ struct Scene {
   struct Answer {
     float range_m = 0.0F;
     bool prior_only = false;
+    float sigma_m = 0.0F;
   };
   [[nodiscard]] Answer Middle() const {
     const DepthMap map = MapOfPlanes(raster, field, prior, {0.5F, 50.0F}, {});
     const EquiangularRaster places{kSize};
     const size_t k = places.Index(places.PixelFromBearing({0.01, 0.01, 1.0}));
-    return {map.range_m[k], (map.flags[k] & kDepthPriorOnly) != 0};
+    return {map.range_m[k], (map.flags[k] & kDepthPriorOnly) != 0, map.sigma_m[k]};
   }
 };
 
@@ -75,6 +76,14 @@ TEST(MapOfPlanes, AWeakMatchThatAgreesLeavesThePlanesRange) {
   EXPECT_NEAR(weak.range_m, 5.0F, 0.1F);
   EXPECT_TRUE(weak.prior_only);
   EXPECT_FALSE(Scene(kGood, 5.0F, kMuchTexture).Middle().prior_only);
+}
+
+TEST(MapOfPlanes, DoubtsAMatchByWhatAPlaneNearbyContradicts) {
+  const Scene::Answer near = Scene(kGood, 5.15F, kMuchTexture).Middle();
+  EXPECT_NEAR(near.range_m, 5.0F, 0.01F);
+  EXPECT_NEAR(near.sigma_m, 0.15F, 0.01F);
+  // What stands well before a wall is not the wall.
+  EXPECT_NEAR(Scene(kGood, 6.0F, kMuchTexture).Middle().sigma_m, 5.0F * kSigma, 0.001F);
 }
 
 }  // namespace

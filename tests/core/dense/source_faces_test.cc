@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/random.h"
 #include "core/dense/reference_raster.h"
 #include "core/geometry/cube_face.h"
 #include "tests/core/dense/box_world.h"
@@ -82,6 +83,17 @@ TEST(HalfPanorama, IgnoresWhatHasAnIgnoredPixel) {
   EXPECT_EQ(half.width_px, kWidth_px / 2);
   EXPECT_EQ(std::ranges::count_if(half.ignored, [](uint8_t mark) { return mark != 0; }), 1);
   EXPECT_NE(half.ignored[5 * kWidth_px / 2 + 10], 0);
+}
+
+TEST(GreyPanorama, IsTheSameOfColoursAndOfTheirGreyLevels) {
+  Random random(4);
+  std::vector<uint8_t> colours(3 * 64 * 32);
+  for (uint8_t& level : colours) level = static_cast<uint8_t>(random.Index(256));
+  const PanoramaRaster of_colours{
+      .width_px = 64, .height_px = 32, .channels = 3, .pixels = colours};
+  const std::vector<uint8_t> levels = GreyLevelsOf(of_colours);
+  const PanoramaRaster of_levels{.width_px = 64, .height_px = 32, .channels = 1, .pixels = levels};
+  EXPECT_EQ(MakeGreyPanorama(of_colours).levels, MakeGreyPanorama(of_levels).levels);
 }
 
 TEST(GreyPanorama, GoesOnAcrossSeamAndPoles) {
