@@ -162,9 +162,10 @@ std::optional<CrossCheck> CheckSeamFits(const JobReport& report) {
                    .value = ShareOf(fitting, certified),
                    .limit = 1.0,
                    .unit = "share",
-                   .level = fitting == certified                        ? CheckLevel::kGood
-                            : ShareOf(fitting, certified) < 1.0 - kMost ? CheckLevel::kBad
-                                                                        : CheckLevel::kDoubtful,
+                   .level = fitting == certified ? CheckLevel::kGood
+                            : fitting + 1 < certified && ShareOf(fitting, certified) < 1.0 - kMost
+                                ? CheckLevel::kBad
+                                : CheckLevel::kDoubtful,
                    .sentence = CountOf(fitting, certified, "certified seams between clusters fit")};
   if (check.level != CheckLevel::kGood) {
     absl::StrAppend(&check.sentence,

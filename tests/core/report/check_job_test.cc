@@ -230,6 +230,7 @@ TEST(JudgeModel, SeamsAreDoubtedOneByOneAndBadTogether) {
   const Verdict one = WithSeams({1.0, 7.0, 2.0}).verdict;
   EXPECT_EQ(one.level, CheckLevel::kDoubtful);
   EXPECT_THAT(one.reasons.front(), HasSubstr("between clusters 1 and 2, is off by 7 times"));
+  EXPECT_EQ(WithSeams({7.0}).verdict.level, CheckLevel::kDoubtful) << "there is no other";
   EXPECT_EQ(WithSeams({9.0, 7.0, 2.0}).verdict.level, CheckLevel::kBad);
 }
 
