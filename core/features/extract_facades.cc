@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 #include <vector>
 
 #include "core/features/select_spread.h"
@@ -19,6 +20,8 @@ namespace orbweave {
 namespace {
 
 constexpr int kWidest_px = 4096;
+/// Views of narrower ones are smaller than the coarsest octave (PlanScaleSpace).
+constexpr int kNarrowest_px = 128;
 /// Columns beyond the seam that interpolation reads.
 constexpr int kSeam_px = 2;
 /// Standard deviations that the samples of a descriptor reach (sift/octave_plan.h): 8.5 x 15/16
@@ -72,19 +75,23 @@ cv::Mat ReducedTo(const cv::Mat& panorama, int width, int interpolation) {
   return reduced;
 }
 
-/// Features of one view after the other.
+/// Features of one view after the other. `panorama` may be a reduced one, of which a pixel is
+/// `pixel` of those of the features.
 class FacadeExtractor {
  public:
-  FacadeExtractor(const cv::Mat& panorama, const cv::Mat& ignored, const ExtractOptions& options)
+  FacadeExtractor(const cv::Mat& panorama,
+                  const cv::Mat& ignored,
+                  double pixel,
+                  const ExtractOptions& options)
       : options_(options),
         camera_{panorama.cols, panorama.rows},
+        pixel_(pixel),
         focal_px_(panorama.cols / (2.0 * std::numbers::pi)),
         map_(MapOfFirst({0, focal_px_}, camera_)),
         continued_(Continued(panorama)),
         ignored_(ignored.empty() ? ignored : Continued(ignored)) {}
 
-  /// In the panorama's own pixels, of which one of `features` is `pixel` wide.
-  absl::Status Append(int number, double pixel, const StageContext& context, Features& features) {
+  absl::Status Append(int number, const StageContext& context, Features& features) {
     const cv::Mat seen = Look(continued_, map_, number, cv::INTER_LINEAR);
     StreamingSift sift(
         seen,
@@ -94,25 +101,12 @@ class FacadeExtractor {
     ORBWEAVE_RETURN_IF_ERROR(sift.Detect(context));
     ORBWEAVE_ASSIGN_OR_RETURN(std::vector<internal::DescribedPosition> described,
                               sift.Describe(Choose(sift, number), context));
-    std::ranges::sort(described, [&](const auto& x, const auto& y) {
-      const Keypoint at_x = sift.KeypointOf(x.position);
-      const Keypoint at_y = sift.KeypointOf(y.position);
-      return std::tuple(-at_x.scale_px, at_x.y_px, at_x.x_px, x.orientation_rad) <
-             std::tuple(-at_y.scale_px, at_y.y_px, at_y.x_px, y.orientation_rad);
-    });
-    if (described.size() > static_cast<size_t>(options_.facade_features))
-      described.resize(static_cast<size_t>(options_.facade_features));
+    KeepLargest(sift, described);
     for (const internal::DescribedPosition& each : described) {
-      const Keypoint in_view = sift.KeypointOf(each.position);
-      Keypoint keypoint = InPanorama(in_view, number);
-      keypoint.orientation_rad = each.orientation_rad;
+      Keypoint in_view = sift.KeypointOf(each.position);
+      in_view.orientation_rad = each.orientation_rad;
       features.colors.push_back(ColorAt(seen, in_view));
-      features.sigma_rad.push_back(
-          static_cast<float>(camera_.AngleFromPixels(SigmaOfScale_px(keypoint.scale_px))));
-      keypoint.x_px = static_cast<float>(keypoint.x_px * pixel);
-      keypoint.y_px = static_cast<float>(keypoint.y_px * pixel);
-      keypoint.scale_px = static_cast<float>(keypoint.scale_px * pixel);
-      features.keypoints.push_back(keypoint);
+      AddKeypoint(InPanorama(in_view, number), features);
       features.descriptors.insert(
           features.descriptors.end(), each.descriptor.begin(), each.descriptor.end());
       features.view.push_back(static_cast<uint8_t>(number + 1));
@@ -121,6 +115,27 @@ class FacadeExtractor {
   }
 
  private:
+  /// The largest first.
+  void KeepLargest(const StreamingSift& sift,
+                   std::vector<internal::DescribedPosition>& described) const {
+    std::ranges::sort(described, {}, [&](const internal::DescribedPosition& each) {
+      const Keypoint at = sift.KeypointOf(each.position);
+      return std::tuple(-at.scale_px, at.y_px, at.x_px, each.orientation_rad);
+    });
+    const auto most = static_cast<size_t>(options_.facade_features);
+    if (described.size() > most) described.resize(most);
+  }
+
+  void AddKeypoint(const Keypoint& in_panorama, Features& features) const {
+    features.sigma_rad.push_back(
+        static_cast<float>(camera_.AngleFromPixels(SigmaOfScale_px(in_panorama.scale_px))));
+    const auto pixel = static_cast<float>(pixel_);
+    features.keypoints.push_back({pixel * in_panorama.x_px,
+                                  pixel * in_panorama.y_px,
+                                  pixel * in_panorama.scale_px,
+                                  in_panorama.orientation_rad});
+  }
+
   [[nodiscard]] Keypoint InPanorama(const Keypoint& in_view, int number) const {
     const FacadeView view{number, focal_px_};
     const Eigen::Vector2d at(in_view.x_px, in_view.y_px);
@@ -167,6 +182,7 @@ class FacadeExtractor {
 
   const ExtractOptions& options_;
   EquirectangularCamera camera_{};
+  double pixel_ = 1.0;
   double focal_px_ = 0.0;
   ViewMap map_{};
   cv::Mat continued_{};
@@ -180,12 +196,14 @@ absl::Status AppendFacadeFeatures(const cv::Mat& panorama,
                                   const ExtractOptions& options,
                                   const StageContext& context,
                                   Features& features) {
+  if (panorama.cols < kNarrowest_px) return absl::OkStatus();
   const cv::Mat reduced = ReducedTo(panorama, kWidest_px, cv::INTER_AREA);
   const double pixel = static_cast<double>(panorama.cols) / reduced.cols;
-  FacadeExtractor extractor(reduced, ReducedTo(ignored, reduced.cols, cv::INTER_NEAREST), options);
+  FacadeExtractor extractor(
+      reduced, ReducedTo(ignored, reduced.cols, cv::INTER_NEAREST), pixel, options);
   features.view.assign(features.size(), 0);
   for (int number = 0; number < kNumFacadeViews; ++number)
-    ORBWEAVE_RETURN_IF_ERROR(extractor.Append(number, pixel, context, features));
+    ORBWEAVE_RETURN_IF_ERROR(extractor.Append(number, context, features));
   return absl::OkStatus();
 }
 

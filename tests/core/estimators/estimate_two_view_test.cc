@@ -263,12 +263,16 @@ TEST(EstimateTwoView, StopsOnRequest) {
   EXPECT_EQ(geometry.status().code(), absl::StatusCode::kCancelled);
 }
 
-/// Adds matches at the same place of both panoramas, within 40 degrees of the nadir.
-void AddRoof(size_t count, TwoViewWorld& world) {
+constexpr double kFortyDegreesOfNadir = 0.77;
+/// What a car's roof hides, too: it covers more of the sphere than a street does.
+constexpr double kBelow25Degrees = 0.42;
+
+/// Adds matches at the same place of both panoramas whose bearings have that y or more.
+void AddRoof(size_t count, TwoViewWorld& world, double least_y = kFortyDegreesOfNadir) {
   Random random(77);
   for (size_t i = 0; i < count; ++i) {
     Vector3d spot = RandomDirection(random);
-    while (spot.y() < 0.77) spot = RandomDirection(random);
+    while (spot.y() < least_y) spot = RandomDirection(random);
     world.bearings_a.push_back(WithNoise(random, spot, kSigmaRad));
     world.bearings_b.push_back(WithNoise(random, spot, kSigmaRad));
   }
@@ -291,18 +295,6 @@ TEST(EstimateTwoView, IsNotMisledByACarrierThatMatchesMoreThanTheScene) {
   for (const FeatureMatch& match : geometry.inliers) EXPECT_LT(match.a, 100U);
 }
 
-/// A car's roof with what it hides: all around, from 25 degrees below the horizon on. It covers
-/// more of the sphere than the street does.
-void AddWideRoof(size_t count, TwoViewWorld& world) {
-  Random random(78);
-  for (size_t i = 0; i < count; ++i) {
-    Vector3d spot = RandomDirection(random);
-    while (spot.y() < 0.42) spot = RandomDirection(random);
-    world.bearings_a.push_back(WithNoise(random, spot, kSigmaRad));
-    world.bearings_b.push_back(WithNoise(random, spot, kSigmaRad));
-  }
-}
-
 /// Houses far to all sides of a crossing, seen up to ten degrees above the horizon.
 TwoViewWorld MakeCrossing(size_t count) {
   TwoViewWorld world;
@@ -323,7 +315,7 @@ TwoViewWorld MakeCrossing(size_t count) {
 
 TEST(EstimateTwoView, IsNotMisledByARoofThatCoversMoreThanTheScene) {
   TwoViewWorld world = MakeCrossing(150);
-  AddWideRoof(400, world);
+  AddRoof(400, world, kBelow25Degrees);
   const TwoViewGeometry geometry = Estimate(world);
   EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral);
   EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 2e-3);

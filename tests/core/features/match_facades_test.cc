@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 
 #include "core/base/random.h"
 #include "core/features/extract_features.h"
@@ -161,6 +162,33 @@ TEST(AppendFacadeFeatures, TurnAlongWithThePanorama) {
   };
   for (int view = 1; view <= kNumFacadeViews; ++view)
     EXPECT_EQ(of_view(upright, view), of_view(turned, view % kNumFacadeViews + 1)) << view;
+}
+
+TEST(AppendFacadeFeatures, AreNoneOfTinyPanoramas) {
+  for (const int width : {2, 16, 64}) {
+    const Features features =
+        Extract(cv::Mat(width / 2, width, CV_8UC3, cv::Scalar(9, 9, 9)), true);
+    EXPECT_TRUE(features.view.empty());
+    EXPECT_EQ(features.problem, "");
+  }
+  EXPECT_GT(Extract(TexturedPanorama(128, 8), true).size(), 0U);
+}
+
+TEST(AppendFacadeFeatures, ReduceLargePanoramas) {
+  cv::Mat large;
+  cv::resize(TexturedPanorama(kWidth, 9), large, cv::Size(8192, 4096), 0, 0, cv::INTER_CUBIC);
+  const Features features = Extract(large, true);
+  ASSERT_GT(features.size(), features.NumPlain() + 300);
+  for (size_t i = features.NumPlain(); i < features.size(); ++i) {
+    EXPECT_LE(features.keypoints[i].x_px, 8192.0F);
+    EXPECT_LE(features.keypoints[i].y_px, 4096.0F);
+  }
+  const auto widest = std::ranges::max_element(
+      features.keypoints.begin() + static_cast<std::ptrdiff_t>(features.NumPlain()),
+      features.keypoints.end(),
+      {},
+      &Keypoint::x_px);
+  EXPECT_GT(widest->x_px, 7000.0F);
 }
 
 TEST(AppendFacadeFeatures, AreNotWhereAMaskIs) {
