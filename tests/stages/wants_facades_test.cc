@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace orbweave {
 namespace {
 
@@ -20,6 +22,18 @@ ImageManifest Street(uint32_t count, double spacing_m) {
 TEST(WantsFacades, WherePanoramasAreFarApart) {
   EXPECT_FALSE(WantsFacades(Street(20, 2.5), {}));
   EXPECT_TRUE(WantsFacades(Street(20, 8.0), {}));
+}
+
+TEST(WantsFacades, NotWherePositionsAreNothingButNoise) {
+  ImageManifest manifest = Street(11, 0.0);
+  for (uint32_t i = 0; i < 11; ++i) {
+    const double angle = 2.4 * i;
+    manifest.images[i].prior.position_in_enu =
+        Eigen::Vector3d(10.0 * std::cos(angle), 10.0 * std::sin(angle), 0.0);
+  }
+  EXPECT_FALSE(WantsFacades(manifest, {}));
+  for (ImageRecord& image : manifest.images) image.prior.horizontal_sigma_m = 1.0;
+  EXPECT_TRUE(WantsFacades(manifest, {}));
 }
 
 TEST(WantsFacades, ForMostImagesAndWhateverTheirOrder) {
