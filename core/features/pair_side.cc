@@ -4,27 +4,12 @@
 #include "core/features/pair_side.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "core/features/descriptor_blocks.h"
+#include "core/features/order_by_scale.h"
 
 namespace orbweave {
-namespace {
-
-std::vector<FeatureIndex> OrderByScale(const Features& features) {
-  std::vector<FeatureIndex> order(features.NumPlain());
-  std::iota(order.begin(), order.end(), FeatureIndex{0});
-  std::ranges::sort(order, [&](FeatureIndex x, FeatureIndex y) {
-    const float scale_x = features.keypoints[x].scale_px;
-    const float scale_y = features.keypoints[y].scale_px;
-    return scale_x != scale_y ? scale_x > scale_y : x < y;
-  });
-  return order;
-}
-
-}  // namespace
-
 PairSide::PairSide(Features image_features)
     : features(std::move(image_features)),
       bearings(BearingsOf(features)),

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/features/order_by_scale.h"
 #include "core/features/vlad.h"
 
 namespace orbweave {
@@ -86,13 +87,7 @@ std::vector<ImageId> BestOthers(const Eigen::VectorXf& scores,
 
 std::vector<uint8_t> SampleDescriptors(const Features& features, const RetrievalOptions& options) {
   if (features.descriptors.empty()) return {};
-  std::vector<FeatureIndex> order(features.NumPlain());
-  std::iota(order.begin(), order.end(), FeatureIndex{0});
-  std::sort(order.begin(), order.end(), [&](FeatureIndex x, FeatureIndex y) {
-    const float scale_x = features.keypoints[x].scale_px;
-    const float scale_y = features.keypoints[y].scale_px;
-    return scale_x != scale_y ? scale_x > scale_y : x < y;
-  });
+  std::vector<FeatureIndex> order = OrderByScale(features);
   order.resize(std::min(order.size(), static_cast<size_t>(options.descriptors_per_image)));
   std::vector<uint8_t> sample;
   for (const FeatureIndex i : order) {

@@ -12,6 +12,7 @@
 
 #include "core/geometry/rotation.h"
 #include "core/graph/drive_chain.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -34,8 +35,7 @@ bool IsNearByGnss(const ImagePair& pair, const ImageManifest& manifest) {
   const PosePrior& a = manifest.At(pair.a).prior;
   const PosePrior& b = manifest.At(pair.b).prior;
   if (!a.position_in_enu || !b.position_in_enu) return false;
-  const double distance_m = (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
-  return distance_m <= kNearSigmas * std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
+  return DistanceBetween(a, b) <= kNearSigmas * SigmaBetween(a, b);
 }
 
 // By how many depths the drive misses the edge at least, for the direction that shows it best.

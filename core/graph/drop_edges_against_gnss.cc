@@ -14,6 +14,7 @@
 #include "core/base/quantile.h"
 #include "core/graph/disjoint_sets.h"
 #include "core/scene/places_in_drives.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -42,8 +43,7 @@ std::optional<Separation> SeparationOf(const ViewEdge& edge, const ImageManifest
   const PosePrior& a = manifest.At(edge.pair.a).prior;
   const PosePrior& b = manifest.At(edge.pair.b).prior;
   if (!a.position_in_enu || !b.position_in_enu) return std::nullopt;
-  return Separation{(*a.position_in_enu - *b.position_in_enu).head<2>().norm(),
-                    std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m)};
+  return Separation{DistanceBetween(a, b), SigmaBetween(a, b)};
 }
 
 /// Baseline of the edge over the depth of what it sees.

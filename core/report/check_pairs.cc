@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scene/places_in_drives.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -54,7 +55,7 @@ bool ArePutApart(const ImageManifest& manifest, const ImagePair& pair) {
   const PosePrior& a = manifest.At(pair.a).prior;
   const PosePrior& b = manifest.At(pair.b).prior;
   if (!a.position_in_enu || !b.position_in_enu) return false;
-  const double distance_m = (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
+  const double distance_m = DistanceBetween(a, b);
   const double reach_m = 50.0;  // further than panoramas of one place see in common
   return distance_m > reach_m + kSigmas * (a.horizontal_sigma_m + b.horizontal_sigma_m);
 }
