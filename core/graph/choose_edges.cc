@@ -19,11 +19,10 @@ ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
   EdgesByGnss by_gnss = DropEdgesAgainstGnss(edges, manifest);
   EdgesByGnss by_compass = DropEdgesAgainstCompass(by_gnss.kept, manifest);
   EdgesByChain by_chain = DropEdgesAgainstChain(by_compass.kept, manifest);
+  EdgesByGnss by_heading = DropEdgesAgainstHeadings(by_chain.kept, manifest);
   FilteredViewGraph filtered = BuildViewGraph(
-      static_cast<uint32_t>(manifest.images.size()), std::move(by_chain.kept), options);
-  EdgesByGnss by_heading = DropEdgesAgainstHeadings(filtered.graph.edges, manifest);
+      static_cast<uint32_t>(manifest.images.size()), std::move(by_heading.kept), options);
   ChosenEdges chosen{.graph = std::move(filtered.graph), .dropped = std::move(by_gnss.dropped)};
-  chosen.graph.edges = std::move(by_heading.kept);
   for (std::vector<DroppedEdge>* dropped :
        {&by_compass.dropped, &by_chain.dropped, &by_heading.dropped, &filtered.dropped}) {
     std::ranges::move(*dropped, std::back_inserter(chosen.dropped));

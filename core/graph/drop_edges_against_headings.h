@@ -10,19 +10,18 @@
 
 namespace orbweave {
 
-/// Edges without those that lead the other way than GNSS. Where windows or houses repeat, most
-/// matches of neighbours may join each window with the next: a motion that is consistent, with the
-/// right rotation and the wrong direction, and that no triangle of rotations tells from the truth.
+/// Edges without those that lead elsewhere than GNSS, or turn otherwise. Houses that look alike,
+/// and windows that repeat, make pairs that are consistent in themselves; where cameras are headed
+/// (HeadingsByGnss) shows that they are of another place.
 ///
-/// An edge of two images 2.5 standard deviations apart by GNSS says how either camera is headed:
-/// azimuth of the step by GNSS less azimuth of the step in the camera, which stands upright to some
-/// degrees. Headings go over to neighbours by the rotation of edges. An image has a heading where
-/// more than half of all that it is told lie within 45 degrees of one, and three at least; its
-/// position is trusted when more of its edges agree to 45 degrees with the headings at their other
-/// ends than do not: one that is off turns all of them. An edge of trusted images is dropped that
-/// is more than 90 degrees off the headings of both.
+/// An edge whose positions are trusted (TrustedPositions) is dropped when it misses both
+/// (StepError) by more than three standard deviations and 15 m, which positions of a street may be
+/// off together whatever they say; or when they are 2.5 standard deviations apart and it leads the
+/// other way, by more than 90 degrees at either image. So is one that turns otherwise than the
+/// headings, where most edges of both images do not.
 ///
-/// Time linear in edges times the edges of an image.
+/// Headings are taken twice, the second time without the positions that are not trusted. Time
+/// n log n in edges.
 [[nodiscard]] EdgesByGnss DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
                                                    const ImageManifest& manifest);
 

@@ -14,10 +14,6 @@ namespace {
 constexpr double kUsualSteps = 3.0;
 constexpr double kSigmas = 3.0;
 
-bool HavePositions(const PosePrior& a, const PosePrior& b) {
-  return a.position_in_enu && b.position_in_enu;
-}
-
 }  // namespace
 
 std::vector<uint8_t> LeftOffBehind(std::span<const PosePrior* const> sequence) {
@@ -26,12 +22,18 @@ std::vector<uint8_t> LeftOffBehind(std::span<const PosePrior* const> sequence) {
   const auto are_apart = [&](size_t i, size_t j) {
     const PosePrior& a = *sequence[i];
     const PosePrior& b = *sequence[j];
-    return HavePositions(a, b) &&
-           DistanceBetween(a, b) > kUsualSteps * usual_step + kSigmas * SigmaBetween(a, b);
+    return DistanceBetween(a, b) > kUsualSteps * usual_step + kSigmas * SigmaBetween(a, b);
   };
-  for (size_t i = 0; i + 1 < sequence.size(); ++i) {
-    left_off[i] = are_apart(i, i + 1) && (i == 0 || are_apart(i - 1, i + 1)) &&
-                  (i + 2 == sequence.size() || are_apart(i, i + 2));
+  std::vector<size_t> placed;
+  for (size_t i = 0; i < sequence.size(); ++i) {
+    if (sequence[i]->position_in_enu) placed.push_back(i);
+  }
+  for (size_t p = 0; p + 1 < placed.size(); ++p) {
+    const size_t before = placed[p];
+    const size_t behind = placed[p + 1];
+    left_off[before] = behind == before + 1 && are_apart(before, behind) &&
+                       (p == 0 || are_apart(placed[p - 1], behind)) &&
+                       (p + 2 == placed.size() || are_apart(before, placed[p + 2]));
   }
   return left_off;
 }

@@ -45,6 +45,16 @@ TEST(LeftOffBehind, AShorterStretchBetweenTwoGapsIsOneOfItsOwn) {
   EXPECT_THAT(LeftOff(At({0, 8, 16, 70, 78, 140, 148, 156})), ElementsAre(0, 0, 1, 0, 1, 0, 0, 0));
 }
 
+TEST(LeftOffBehind, AnImageWithoutAPositionNearTheGapHidesNothing) {
+  std::vector<PosePrior> priors = At({0, 8, 16, 24, 70, 78, 86});
+  priors[5].position_in_enu.reset();
+  EXPECT_THAT(LeftOff(priors), ElementsAre(0, 0, 0, 1, 0, 0, 0));
+  priors[2].position_in_enu.reset();
+  EXPECT_THAT(LeftOff(priors), ElementsAre(0, 0, 0, 1, 0, 0, 0));
+  priors[3].position_in_enu.reset();
+  EXPECT_THAT(LeftOff(priors), Each(0)) << "nothing tells behind which of them";
+}
+
 TEST(LeftOffBehind, IsNotToldOfACameraThatStoodMostOfTheTime) {
   EXPECT_THAT(LeftOff(At({0, 0.5, 1, 0.5, 0, 0.2, 0.7, 8, 16, 24})), Each(0));
 }
