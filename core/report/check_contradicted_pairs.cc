@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/report/borne_out_by_gnss.h"
 #include "core/report/model_of_images.h"
 
 namespace orbweave {
@@ -24,7 +25,10 @@ constexpr double kMajority = 0.5;
 
 std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results) {
   const std::vector<int> model_of_image = ModelOfImages(results);
-  const auto is_judged = [&](const ImagePair& pair) { return AreOfOneModel(model_of_image, pair); };
+  const BorneOutByGnss gnss(results);
+  const auto is_judged = [&](const ImagePair& pair) {
+    return AreOfOneModel(model_of_image, pair) && !gnss.AreApart(pair);
+  };
   std::set<ImagePair> judged;
   std::ranges::copy_if(results.view_graph.edges, std::inserter(judged, judged.end()), is_judged);
   std::set<ImagePair> contradicted;

@@ -11,7 +11,8 @@ namespace orbweave {
 
 /// "pairs_contradicted": of the verified pairs whose two images are registered in the same model,
 /// the share that a cluster's reconstruction contradicts (ClusterSummary::contradicted_pairs).
-/// Absent where no model has such a pair.
+/// Pairs of images that GNSS tells apart (BorneOutByGnss) are no witnesses, for or against. Absent
+/// where no model has another one.
 [[nodiscard]] std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results);
 
 }  // namespace orbweave

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/report/borne_out_by_gnss.h"
 #include "core/scene/places_in_drives.h"
-#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -47,17 +47,6 @@ Judged JudgedPairsOf(const JobResults& results) {
     return is_unknown(pair) || judged.contradicted.contains(pair);
   });
   return judged;
-}
-
-/// Whether GNSS puts the two images further apart than three of its sigmas: they only look alike.
-bool ArePutApart(const ImageManifest& manifest, const ImagePair& pair) {
-  constexpr double kSigmas = 3.0;
-  const PosePrior& a = manifest.At(pair.a).prior;
-  const PosePrior& b = manifest.At(pair.b).prior;
-  if (!a.position_in_enu || !b.position_in_enu) return false;
-  const double distance_m = DistanceBetween(a, b);
-  const double reach_m = 50.0;  // further than panoramas of one place see in common
-  return distance_m > reach_m + kSigmas * (a.horizontal_sigma_m + b.horizontal_sigma_m);
 }
 
 /// Pairs in rows: those of the images after theirs, or of the one after and the one before.
@@ -114,6 +103,7 @@ std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
 
 CrossCheck CheckPairs(const JobResults& results) {
   const PlacesInDrives places(results.manifest);
+  const BorneOutByGnss gnss(results);
   const Judged judged = JudgedPairsOf(results);
   const auto follow = [&](const ImagePair& pair) { return FollowOneAnother(places, pair); };
   const auto explained = static_cast<size_t>(std::ranges::count_if(judged.explained, follow));
@@ -122,7 +112,7 @@ CrossCheck CheckPairs(const JobResults& results) {
   for (const ImagePair& pair : judged.contradicted) {
     if (follow(pair)) {
       torn.push_back(pair);
-    } else if (!ArePutApart(results.manifest, pair)) {
+    } else if (!gnss.AreApart(pair)) {
       far.insert(pair);
     }
   }

@@ -14,8 +14,7 @@ namespace orbweave {
 /// contradicted pairs of images further apart are places that look alike and that the model told
 /// apart, unless they come in runs: three or more images in a row on both sides, (a, b), (a+1,
 /// b+-1), (a+2, b+-2). Those are a second passage that the model missed or a row of look-alikes,
-/// which pairs alone cannot tell: doubtful, but for those of two images that a GNSS position each
-/// puts apart.
+/// which pairs alone cannot tell: doubtful, but for those that GNSS tells apart (BorneOutByGnss).
 [[nodiscard]] CrossCheck CheckPairs(const JobResults& results);
 
 }  // namespace orbweave

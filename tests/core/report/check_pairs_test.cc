@@ -76,9 +76,15 @@ TEST(CheckPairs, RunsFollowTheDriveAndNotTheNames) {
 TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {
   JobResults results = Drive();
   for (uint32_t i = 0; i < 5; ++i) Contradict(10 + i, 60 + i, results);
-  for (ImageRecord& image : results.manifest.images)
+  results.models.emplace_back().report.gnss.used = true;
+  for (ImageRecord& image : results.manifest.images) {
     image.prior.position_in_enu = Eigen::Vector3d(3.0 * image.id.value, 0.0, 0.0);
+    results.models[0].images[image.id].cam_from_world =
+        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), *image.prior.position_in_enu);
+  }
   EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+  results.models[0].report.gnss.used = false;
+  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
 }
 
 TEST(CheckPairs, ATornStreetIsBad) {
