@@ -321,10 +321,22 @@ TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
   EXPECT_EQ(check.level, CheckLevel::kDoubtful);
   EXPECT_THAT(check.sentence,
               HasSubstr("3 of 40 verified pairs contradict the model, first pano_3"));
+  EXPECT_THAT(check.sentence, HasSubstr("of 4 pairs of pano_9.jpg 2"));
   for (uint32_t i = 1; i < 30; ++i)
     results.clusters[0].contradicted_pairs.push_back({ImageId(i - 1), ImageId(i)});
   EXPECT_EQ(CheckContradictedPairs(results)->level, CheckLevel::kBad);
   EXPECT_EQ(CheckContradictedPairs(Street(5, {})), std::nullopt);
+}
+
+TEST(CheckContradictedPairs, ScatteredLookAlikesAreNoReasonForDoubt) {
+  JobResults results = Street(40, {{0, 40}});
+  results.clusters = {{}};
+  for (uint32_t i = 0; i < 8; ++i)
+    results.clusters[0].contradicted_pairs.push_back({ImageId(2 * i), ImageId(20 + 2 * i)});
+  const CrossCheck check = *CheckContradictedPairs(results);
+  EXPECT_DOUBLE_EQ(check.value, 8.0 / 47.0);
+  EXPECT_EQ(check.level, CheckLevel::kGood);
+  EXPECT_THAT(check.sentence, HasSubstr("most pairs of every panorama agree with it"));
 }
 
 TEST(BuildJobReport, HasARowForEveryModelAndPlacesMissingImagesByGnss) {
