@@ -13,6 +13,7 @@
 
 #include "core/base/quantile.h"
 #include "core/graph/disjoint_sets.h"
+#include "core/graph/in_sequence.h"
 #include "core/scene/places_in_drives.h"
 #include "core/scene/usual_step.h"
 
@@ -50,14 +51,6 @@ std::optional<Separation> SeparationOf(const ViewEdge& edge, const ImageManifest
 double BaselineOverDepth(const ViewEdge& edge) {
   if (edge.kind == TwoViewKind::kPureRotation) return 0.0;
   return 2.0 * std::tan(edge.median_angle_rad / 2.0);
-}
-
-/// Neighbours in the sequence of one drive.
-constexpr uint32_t kSequenceSteps = 5;
-
-bool IsInSequence(const ImagePair& pair, const PlacesInDrives& places) {
-  const std::optional<uint32_t> steps = places.StepsBetween(pair);
-  return steps && *steps <= kSequenceSteps;
 }
 
 /// Depths of the scene that edges and positions say together, all or those `in_sequence`.

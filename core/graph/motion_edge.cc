@@ -8,12 +8,12 @@
 #include <numbers>
 
 #include "core/graph/azimuth.h"
+#include "core/graph/in_sequence.h"
 #include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
 
-constexpr uint32_t kSequenceSteps = 5;
 constexpr double kTurnsOtherwise_rad = std::numbers::pi / 3.0;
 
 std::optional<EdgeStep> StepOf(const ViewEdge& edge, const ImageManifest& manifest) {
@@ -28,11 +28,6 @@ std::optional<EdgeStep> StepOf(const ViewEdge& edge, const ImageManifest& manife
                   .in_b_rad = AzimuthInCamera(-edge.b_from_a.translation),
                   .distance_m = DistanceBetween(a, b),
                   .sigma_m = SigmaBetween(a, b)};
-}
-
-bool IsInSequence(const ImagePair& pair, const PlacesInDrives& places) {
-  const std::optional<uint32_t> steps = places.StepsBetween(pair);
-  return steps && *steps <= kSequenceSteps;
 }
 
 /// How far the end of a step of this length is from a ray that is so far off its direction.

@@ -6,6 +6,7 @@
 
 #include "core/graph/pair_options.h"
 #include "core/scene/image_manifest.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 
@@ -16,9 +17,9 @@ namespace orbweave {
                                     const PosePrior& b,
                                     const PairOptions& options) {
   if (!a.position_in_enu || !b.position_in_enu) return true;
-  const double distance_m = (*a.position_in_enu - *b.position_in_enu).head<2>().norm();
   const double sigma_m = a.horizontal_sigma_m + b.horizontal_sigma_m;
-  return distance_m <= std::max(options.similar_gate_m, options.similar_gate_sigmas * sigma_m);
+  return DistanceBetween(a, b) <=
+         std::max(options.similar_gate_m, options.similar_gate_sigmas * sigma_m);
 }
 
 }  // namespace orbweave

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -21,10 +22,9 @@ GnssStep StepBetween(const ClusterProblem& problem, ImageSlot a, ImageSlot b) {
   const PosePrior& at_a = problem.images[a].prior;
   const PosePrior& at_b = problem.images[b].prior;
   if (!at_a.position_in_enu || !at_b.position_in_enu) return {};
-  const double length_m = (*at_b.position_in_enu - *at_a.position_in_enu).head<2>().norm();
+  const double length_m = DistanceBetween(at_a, at_b);
   if (!(length_m > 0.0)) return {};
-  const double sigma_m = std::hypot(at_a.horizontal_sigma_m, at_b.horizontal_sigma_m);
-  return {.log_length = std::log(length_m), .sigma = sigma_m / length_m};
+  return {.log_length = std::log(length_m), .sigma = SigmaBetween(at_a, at_b) / length_m};
 }
 
 std::vector<GnssStep> GnssSteps(const ClusterProblem& problem,
