@@ -10,21 +10,26 @@
 #include "core/graph/drop_edges_against_compass.h"
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/drop_edges_against_headings.h"
+#include "core/graph/drop_edges_against_way.h"
 
 namespace orbweave {
 
 ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
                         const ImageManifest& manifest,
                         const ViewGraphOptions& options) {
-  EdgesByGnss by_gnss = DropEdgesAgainstGnss(edges, manifest);
-  EdgesByGnss by_compass = DropEdgesAgainstCompass(by_gnss.kept, manifest);
-  EdgesByChain by_chain = DropEdgesAgainstChain(by_compass.kept, manifest);
-  EdgesByGnss by_heading = DropEdgesAgainstHeadings(by_chain.kept, manifest);
+  SiftedEdges by_gnss = DropEdgesAgainstGnss(edges, manifest);
+  SiftedEdges by_compass = DropEdgesAgainstCompass(by_gnss.kept, manifest);
+  SiftedEdges by_way = DropEdgesAgainstWay(by_compass.kept, manifest);
+  SiftedEdges by_chain = DropEdgesAgainstChain(by_way.kept, manifest);
+  SiftedEdges by_heading = DropEdgesAgainstHeadings(by_chain.kept, manifest);
   FilteredViewGraph filtered = BuildViewGraph(
       static_cast<uint32_t>(manifest.images.size()), std::move(by_heading.kept), options);
   ChosenEdges chosen{.graph = std::move(filtered.graph), .dropped = std::move(by_gnss.dropped)};
-  for (std::vector<DroppedEdge>* dropped :
-       {&by_compass.dropped, &by_chain.dropped, &by_heading.dropped, &filtered.dropped}) {
+  for (std::vector<DroppedEdge>* dropped : {&by_compass.dropped,
+                                            &by_way.dropped,
+                                            &by_chain.dropped,
+                                            &by_heading.dropped,
+                                            &filtered.dropped}) {
     std::ranges::move(*dropped, std::back_inserter(chosen.dropped));
   }
   return chosen;

@@ -68,15 +68,16 @@ std::vector<Sequence> SequencesOf(const EdgeIndex& index, const ImageManifest& m
   return list;
 }
 
-// Whether images around confirm the rotation of the edge between sequence[p] and sequence[q].
+// Whether images around confirm the rotation of the edge between sequence[p] and sequence[q], each
+// by the weaker of its edges with them: what looks alike at a corner makes many weak ones.
 bool IsConfirmed(const EdgeIndex& index, const Sequence& sequence, size_t p, size_t q) {
   const uint32_t a = sequence[p];
   const uint32_t b = sequence[q];
   const Eigen::Quaterniond b_from_a = RotationOf(*index.Find(a, b), b);
   const size_t first = p - std::min(p, kWitnesses);
   const size_t last = std::min(q + kWitnesses, sequence.size() - 1);
-  int closing = 0;
-  int open = 0;
+  uint64_t closing = 0;
+  uint64_t open = 0;
   for (size_t m = first; m <= last; ++m) {
     const uint32_t c = sequence[m];
     if (c == a || c == b) continue;
@@ -84,7 +85,8 @@ bool IsConfirmed(const EdgeIndex& index, const Sequence& sequence, size_t p, siz
     const ViewEdge* const cb = index.Find(c, b);
     if (ac == nullptr || cb == nullptr) continue;
     const Eigen::Quaterniond round = b_from_a.conjugate() * RotationOf(*cb, b) * RotationOf(*ac, c);
-    ++(RotationAngle(round) <= kMaxTriplet_rad ? closing : open);
+    (RotationAngle(round) <= kMaxTriplet_rad ? closing : open) +=
+        std::min(ac->num_inliers, cb->num_inliers);
   }
   return closing > 0 && closing >= open;
 }

@@ -80,10 +80,10 @@ std::string FindFault(const DriveChain& chain, const ViewEdge& edge) {
 
 }  // namespace
 
-EdgesByChain DropEdgesAgainstChain(const std::vector<ViewEdge>& edges,
-                                   const ImageManifest& manifest) {
+SiftedEdges DropEdgesAgainstChain(const std::vector<ViewEdge>& edges,
+                                  const ImageManifest& manifest) {
   const DriveChain chain(edges, manifest);
-  EdgesByChain result;
+  SiftedEdges result;
   for (const ViewEdge& edge : edges) {
     std::string fault;
     if (edge.kind != TwoViewKind::kNone && !IsNearByGnss(edge.pair, manifest))

@@ -4,15 +4,11 @@
 
 #include <vector>
 
+#include "core/graph/sifted_edges.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/view_graph.h"
 
 namespace orbweave {
-
-struct EdgesByChain {
-  std::vector<ViewEdge> kept{};  ///< in the order given
-  std::vector<DroppedEdge> dropped{};
-};
 
 /// Edges without those that the sequence of a drive rules out: places that look alike.
 ///
@@ -32,7 +28,7 @@ struct EdgesByChain {
 ///
 /// Nothing is said of images of two drives, across places where the sequence breaks, and of images
 /// that GNSS puts within 3 sigmas of each other.
-[[nodiscard]] EdgesByChain DropEdgesAgainstChain(const std::vector<ViewEdge>& edges,
-                                                 const ImageManifest& manifest);
+[[nodiscard]] SiftedEdges DropEdgesAgainstChain(const std::vector<ViewEdge>& edges,
+                                                const ImageManifest& manifest);
 
 }  // namespace orbweave

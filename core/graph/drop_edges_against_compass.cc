@@ -62,7 +62,7 @@ struct Count {
 
 }  // namespace
 
-EdgesByGnss DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
+SiftedEdges DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
                                     const ImageManifest& manifest) {
   std::vector<std::optional<Error>> errors;
   std::map<Drives, Count> counts;
@@ -73,7 +73,7 @@ EdgesByGnss DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
     ++count.edges;
     count.agreeing += errors.back()->is_too_large ? 0U : 1U;
   }
-  EdgesByGnss result;
+  SiftedEdges result;
   for (size_t e = 0; e < edges.size(); ++e) {
     const std::optional<Error>& error = errors[e];
     if (!error || !error->is_too_large || !counts[DrivesOf(edges[e], manifest)].IsBelieved()) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/graph/drop_edges_against_gnss.h"
+#include "core/graph/sifted_edges.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/view_graph.h"
 
@@ -19,7 +19,7 @@ namespace orbweave {
 /// those of the way and not of the camera: between two drives, or within one, they are believed
 /// when there are ten edges with headings or more, of which three quarters agree. Edges without
 /// headings stay.
-[[nodiscard]] EdgesByGnss DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
+[[nodiscard]] SiftedEdges DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
                                                   const ImageManifest& manifest);
 
 }  // namespace orbweave

@@ -198,13 +198,13 @@ class Crossings {
 
 }  // namespace
 
-EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
+SiftedEdges DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest) {
   const PlacesInDrives places(manifest);
   const std::vector<Agreement> agreements = FindAgreements(edges, manifest, places);
   const std::vector<Trust> trust = FindTrust(edges, agreements, places, manifest.images.size());
   Crossings crossings(edges, agreements, static_cast<uint32_t>(manifest.images.size()));
-  EdgesByGnss result;
+  SiftedEdges result;
   for (size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
     const bool is_wrong =

@@ -4,15 +4,11 @@
 
 #include <vector>
 
+#include "core/graph/sifted_edges.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/view_graph.h"
 
 namespace orbweave {
-
-struct EdgesByGnss {
-  std::vector<ViewEdge> kept{};  ///< in the order given
-  std::vector<DroppedEdge> dropped{};
-};
 
 /// Edges without those that join places that look alike though GNSS knows them apart.
 ///
@@ -29,7 +25,7 @@ struct EdgesByGnss {
 /// are thus believed whatever the number of look-alikes; a single position that is off is not, and
 /// a stretch of positions that jumped together, which agrees with nothing that joins it to the
 /// rest, loses no edge. Edges without geometry and of images without a position stay.
-[[nodiscard]] EdgesByGnss DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
+[[nodiscard]] SiftedEdges DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
                                                const ImageManifest& manifest);
 
 }  // namespace orbweave

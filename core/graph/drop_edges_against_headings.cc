@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "core/graph/headings_by_gnss.h"
+#include "core/graph/find_headings.h"
 #include "core/graph/motion_edge.h"
 #include "core/graph/trusted_positions.h"
 #include "core/graph/turn_forest.h"
@@ -68,7 +68,7 @@ Compass CompassOf(const std::vector<MotionEdge>& edges,
   const TurnForest forest(num_images, edges);
   Compass compass{.is_trusted = std::vector<uint8_t>(num_images, 1)};
   for (int round = 0; round < 2; ++round) {
-    compass.headings = HeadingsByGnss(edges, forest, compass.is_trusted);
+    compass.headings = FindHeadings(edges, forest, compass.is_trusted);
     compass.is_trusted = TrustedPositions(edges, compass.headings, manifest, places);
   }
   compass.is_settled = SettledHeadings(edges, compass.headings);
@@ -79,7 +79,7 @@ bool LeadsElsewhere(const MotionEdge& edge, const StepError& error) {
   const double distance_m = edge.step->distance_m;
   const double sigma_m = edge.step->sigma_m;
   return error.miss_m > std::max(kSigmas * sigma_m, kAlikeErrors_m) ||
-         (error.angle_rad > kOtherWay_rad && distance_m > kTellingSigmas * sigma_m);
+         (error.Least() > kOtherWay_rad && distance_m > kTellingSigmas * sigma_m);
 }
 
 /// Why the edge is not believed; empty where it is.
@@ -94,20 +94,20 @@ std::string FaultOf(const MotionEdge& edge, const Compass& compass) {
   }
   const std::optional<StepError> error = StepErrorOf(edge, compass.headings);
   if (!error || !both(compass.is_trusted) || !LeadsElsewhere(edge, *error)) return "";
-  if (error->angle_rad > kOtherWay_rad) return "it leads the other way than GNSS";
+  if (error->Least() > kOtherWay_rad) return "it leads the other way than GNSS";
   return "it misses the GNSS positions by " + std::to_string(std::lround(error->miss_m)) + " m";
 }
 
 }  // namespace
 
-EdgesByGnss DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
+SiftedEdges DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
                                      const ImageManifest& manifest) {
   const PlacesInDrives places(manifest);
   const std::vector<MotionEdge> motions = MotionEdgesOf(edges, manifest, places);
   const Compass compass = CompassOf(motions, manifest, places);
   std::vector<std::string> faults(edges.size());
   for (const MotionEdge& motion : motions) faults[motion.edge] = FaultOf(motion, compass);
-  EdgesByGnss result;
+  SiftedEdges result;
   for (size_t e = 0; e < edges.size(); ++e) {
     if (faults[e].empty()) {
       result.kept.push_back(edges[e]);

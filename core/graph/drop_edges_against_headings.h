@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/graph/drop_edges_against_gnss.h"
+#include "core/graph/sifted_edges.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/view_graph.h"
 
@@ -12,7 +12,7 @@ namespace orbweave {
 
 /// Edges without those that lead elsewhere than GNSS, or turn otherwise. Houses that look alike,
 /// and windows that repeat, make pairs that are consistent in themselves; where cameras are headed
-/// (HeadingsByGnss) shows that they are of another place.
+/// (FindHeadings) shows that they are of another place.
 ///
 /// An edge whose positions are trusted (TrustedPositions) is dropped when it misses both
 /// (StepError) by more than three standard deviations and 15 m, which positions of a street may be
@@ -22,7 +22,7 @@ namespace orbweave {
 ///
 /// Headings are taken twice, the second time without the positions that are not trusted. Time
 /// n log n in edges.
-[[nodiscard]] EdgesByGnss DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
+[[nodiscard]] SiftedEdges DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
                                                    const ImageManifest& manifest);
 
 }  // namespace orbweave

@@ -16,18 +16,34 @@ namespace {
 
 constexpr double kTurnsOtherwise_rad = std::numbers::pi / 3.0;
 
-std::optional<EdgeStep> StepOf(const ViewEdge& edge, const ImageManifest& manifest) {
+bool HasDirection(const ViewEdge& edge) {
+  return edge.kind == TwoViewKind::kGeneral || edge.kind == TwoViewKind::kPlanar;
+}
+
+MotionEdge MotionOf(const std::vector<ViewEdge>& edges, uint32_t e, const PlacesInDrives& places) {
+  return {.edge = e,
+          .a = edges[e].pair.a.value,
+          .b = edges[e].pair.b.value,
+          .weight = std::sqrt(static_cast<double>(edges[e].num_inliers)),
+          .is_in_sequence = IsInSequence(edges[e].pair, places),
+          .turn_rad = TurnOf(edges[e].b_from_a.rotation)};
+}
+
+EdgeStep StepTo(double azimuth_rad, const ViewEdge& edge) {
+  return {.azimuth_rad = azimuth_rad,
+          .in_a_rad = AzimuthInCamera(edge.b_from_a.Centre()),
+          .in_b_rad = AzimuthInCamera(-edge.b_from_a.translation)};
+}
+
+std::optional<EdgeStep> StepByGnss(const ViewEdge& edge, const ImageManifest& manifest) {
   const PosePrior& a = manifest.At(edge.pair.a).prior;
   const PosePrior& b = manifest.At(edge.pair.b).prior;
-  const bool has_direction =
-      edge.kind == TwoViewKind::kGeneral || edge.kind == TwoViewKind::kPlanar;
-  if (!has_direction || !a.position_in_enu || !b.position_in_enu) return std::nullopt;
+  if (!HasDirection(edge) || !a.position_in_enu || !b.position_in_enu) return std::nullopt;
   const Eigen::Vector3d step_m = *b.position_in_enu - *a.position_in_enu;
-  return EdgeStep{.by_gnss_rad = std::atan2(step_m.x(), step_m.y()),
-                  .in_a_rad = AzimuthInCamera(edge.b_from_a.Centre()),
-                  .in_b_rad = AzimuthInCamera(-edge.b_from_a.translation),
-                  .distance_m = DistanceBetween(a, b),
-                  .sigma_m = SigmaBetween(a, b)};
+  EdgeStep step = StepTo(std::atan2(step_m.x(), step_m.y()), edge);
+  step.distance_m = DistanceBetween(a, b);
+  step.sigma_m = SigmaBetween(a, b);
+  return step;
 }
 
 /// How far the end of a step of this length is from a ray that is so far off its direction.
@@ -43,14 +59,22 @@ std::vector<MotionEdge> MotionEdgesOf(const std::vector<ViewEdge>& edges,
   std::vector<MotionEdge> motions;
   for (uint32_t e = 0; e < edges.size(); ++e) {
     if (edges[e].kind == TwoViewKind::kNone) continue;
+    motions.push_back(MotionOf(edges, e, places));
+    motions.back().step = StepByGnss(edges[e], manifest);
+  }
+  return motions;
+}
+
+std::vector<MotionEdge> MotionEdgesAlongWay(const std::vector<ViewEdge>& edges,
+                                            const PlacesInDrives& places) {
+  std::vector<MotionEdge> motions;
+  for (uint32_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
-    motions.push_back({.edge = e,
-                       .a = a.value,
-                       .b = b.value,
-                       .weight = std::sqrt(static_cast<double>(edges[e].num_inliers)),
-                       .is_in_sequence = IsInSequence(edges[e].pair, places),
-                       .turn_rad = TurnOf(edges[e].b_from_a.rotation),
-                       .step = StepOf(edges[e], manifest)});
+    if (!HasDirection(edges[e]) || !IsInSequence(edges[e].pair, places)) continue;
+    const bool is_onward = places.PlaceOf(a) < places.PlaceOf(b);
+    motions.push_back(MotionOf(edges, e, places));
+    motions.back().step = StepTo(is_onward ? 0.0 : std::numbers::pi, edges[e]);
+    motions.back().step->distance_m = 1.0;
   }
   return motions;
 }
@@ -59,9 +83,10 @@ std::optional<StepError> StepErrorOf(const MotionEdge& edge, const Headings& hea
   const std::optional<double>& a = headings[edge.a];
   const std::optional<double>& b = headings[edge.b];
   if (!edge.step || !a || !b) return std::nullopt;
-  const double angle_rad = std::min(AngleBetweenAzimuths(edge.step->HeadingOfA(), *a),
-                                    AngleBetweenAzimuths(edge.step->HeadingOfB(), *b));
-  return StepError{angle_rad, MissOf(edge.step->distance_m, angle_rad)};
+  StepError error{.at_a_rad = AngleBetweenAzimuths(edge.step->HeadingOfA(), *a),
+                  .at_b_rad = AngleBetweenAzimuths(edge.step->HeadingOfB(), *b)};
+  error.miss_m = MissOf(edge.step->distance_m, error.Least());
+  return error;
 }
 
 std::optional<double> TurnErrorOf(const MotionEdge& edge, const Headings& headings) {

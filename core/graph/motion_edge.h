@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -12,19 +13,20 @@
 
 namespace orbweave {
 
-/// Per image: where its camera looks, clockwise from north, radians; nullopt where nothing tells.
+/// Per image: where its camera looks, radians clockwise from what the azimuths of steps count from;
+/// nullopt where nothing tells.
 using Headings = std::vector<std::optional<double>>;
 
 /// The step from the first image of an edge to the second, seen from above.
 struct EdgeStep {
-  double by_gnss_rad = 0.0;  ///< azimuth by the positions
+  double azimuth_rad = 0.0;  ///< from north by GNSS, or from the way of the drive
   double in_a_rad = 0.0;     ///< azimuth in camera a, and in camera b, which stand upright
   double in_b_rad = 0.0;
-  double distance_m = 0.0;  ///< by the positions
+  double distance_m = 0.0;  ///< by the positions; 1 along the way
   double sigma_m = 0.0;     ///< of it, per axis
 
-  [[nodiscard]] double HeadingOfA() const { return by_gnss_rad - in_a_rad; }
-  [[nodiscard]] double HeadingOfB() const { return by_gnss_rad - in_b_rad; }
+  [[nodiscard]] double HeadingOfA() const { return azimuth_rad - in_a_rad; }
+  [[nodiscard]] double HeadingOfB() const { return azimuth_rad - in_b_rad; }
 };
 
 /// What an edge says of the headings of its cameras.
@@ -39,17 +41,26 @@ struct MotionEdge {
   std::optional<EdgeStep> step{};  ///< where both have positions and it has a direction
 };
 
-/// Of all edges that have a geometry, in their order.
+/// Of all edges that have a geometry, in their order; steps by GNSS.
 [[nodiscard]] std::vector<MotionEdge> MotionEdgesOf(const std::vector<ViewEdge>& edges,
                                                     const ImageManifest& manifest,
                                                     const PlacesInDrives& places);
 
-/// How far the step of an edge is from where GNSS has it.
+/// Of those in a sequence that have a direction, in their order: each step leads onward, azimuth 0
+/// from the image that was taken earlier to the later one.
+[[nodiscard]] std::vector<MotionEdge> MotionEdgesAlongWay(const std::vector<ViewEdge>& edges,
+                                                          const PlacesInDrives& places);
+
+/// How far the step of an edge is from where GNSS has it, or the way.
 struct StepError {
-  double angle_rad = 0.0;  ///< between both, at that image of the two where it is less
+  double at_a_rad = 0.0;  ///< between both, by the heading of a, and by that of b
+  double at_b_rad = 0.0;
   /// By so much at least one of the positions would have to be wrong for the edge to be right,
   /// whatever its length.
   double miss_m = 0.0;
+
+  [[nodiscard]] double Least() const { return std::min(at_a_rad, at_b_rad); }
+  [[nodiscard]] double Most() const { return std::max(at_a_rad, at_b_rad); }
 };
 
 /// nullopt where a heading or the step is not known.

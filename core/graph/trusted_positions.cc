@@ -63,7 +63,7 @@ std::vector<Witness> WitnessesOf(const std::vector<MotionEdge>& edges, const Hea
     const std::optional<StepError> error = StepErrorOf(edge, headings);
     if (!error || TurnsOtherwise(edge, headings)) continue;
     const bool misses =
-        error->miss_m > kSigmas * edge.step->sigma_m && error->angle_rad > kSameWay_rad;
+        error->miss_m > kSigmas * edge.step->sigma_m && error->Least() > kSameWay_rad;
     witnesses.push_back({edge.a, edge.b, edge.weight, misses, edge.is_in_sequence});
   }
   return witnesses;

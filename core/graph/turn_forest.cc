@@ -12,8 +12,6 @@
 namespace orbweave {
 namespace {
 
-// Upright cameras turn by a degree less or more than an edge says: three degrees at eight edges.
-constexpr size_t kMostEdges = 8;
 constexpr size_t kMostImages = 64;
 
 /// Heaviest first.
@@ -38,7 +36,7 @@ TurnForest::TurnForest(uint32_t num_images, const std::vector<MotionEdge>& edges
   }
 }
 
-std::vector<TurnForest::Link> TurnForest::Around(uint32_t image) const {
+std::vector<TurnForest::Link> TurnForest::Around(uint32_t image, size_t reach) const {
   struct Visit {
     uint32_t from = 0;
     size_t edges = 0;
@@ -46,7 +44,7 @@ std::vector<TurnForest::Link> TurnForest::Around(uint32_t image) const {
   std::vector<Link> around = {{image, 0.0}};
   std::vector<Visit> visits = {{image, 0}};
   for (size_t i = 0; i < around.size(); ++i) {
-    if (visits[i].edges == kMostEdges) break;
+    if (visits[i].edges == reach) break;
     const Link here = around[i];
     for (const Link& next : links_[here.image]) {
       if (next.image == visits[i].from) continue;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,8 +22,9 @@ class TurnForest {
     double turn_rad = 0.0;  ///< heading of the image asked for less heading of this one
   };
 
-  /// The image itself and those up to eight edges away, the nearest first; 64 at most.
-  [[nodiscard]] std::vector<Link> Around(uint32_t image) const;
+  /// The image itself and those up to `reach` edges away, the nearest first; 64 at most. Upright
+  /// cameras turn by a degree less or more than an edge says: three degrees at eight edges.
+  [[nodiscard]] std::vector<Link> Around(uint32_t image, size_t reach) const;
 
  private:
   std::vector<std::vector<Link>> links_;

@@ -5,9 +5,11 @@
 
 #include <bitset>
 #include <cmath>
+#include <utility>
 
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/matches_in_planes.h"
+#include "core/mapping/misleading_pairs.h"
 
 namespace orbweave {
 namespace {
@@ -110,19 +112,29 @@ bool IsAgainst(const PairEvidence& evidence, int min_matches) {
 
 JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options) {
   const double tolerance_px = kMatchTolerance * options.max_error_px;
+  const std::vector<LinkedPair>& pairs = state.Graph().pairs;
   JudgedPairs judged;
-  for (const LinkedPair& pair : state.Graph().pairs) {
+  std::vector<uint8_t> is_explained(pairs.size(), 0);
+  std::vector<uint32_t> contradicted;
+  for (uint32_t p = 0; p < pairs.size(); ++p) {
+    const LinkedPair& pair = pairs[p];
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;
     const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
     const PairEvidence points = EvidenceOfPoints(state, pair, tolerance_px);
     if (IsExplained(points)) {
+      is_explained[p] = 1;
       judged.explained.push_back(geometry.pair);
     } else if (IsAgainst(points, options.min_inliers) ||
                (geometry.kind == TwoViewKind::kGeneral &&
                 IsAgainst(EvidenceOfPlanes(state, pair, tolerance_px),
                           kMinInliersFactor * options.min_inliers))) {
-      judged.contradicted.push_back(geometry.pair);
+      contradicted.push_back(p);
     }
+  }
+  const MisleadingPairs misleading(state, std::move(is_explained));
+  for (const uint32_t p : contradicted) {
+    if (!misleading.IsMisleading(p))
+      judged.contradicted.push_back(state.Problem().pairs[pairs[p].index].pair);
   }
   return judged;
 }

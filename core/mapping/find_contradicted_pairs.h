@@ -34,7 +34,8 @@ struct JudgedPairs {
 /// points of the pair away and with them this evidence. So a pair is contradicted too when it has
 /// 2 options.min_inliers matches, as few of all of them lie in the epipolar planes of the model's
 /// pose and in front of both images, and the others are in several places of both.
-/// Pairs of one centre or one plane are not asked. All others are neither.
+/// Pairs of one centre or one plane are not asked, and pairs that are wrong in themselves
+/// (MisleadingPairs) are no witnesses. All others are neither.
 [[nodiscard]] JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options);
 
 /// The contradicted ones.

@@ -48,6 +48,8 @@ class Growth {
       ORBWEAVE_ASSIGN_OR_RETURN(const bool goes_on, TryHarder());
       if (!goes_on) break;
     }
+    // Now that all is there, whatever was tried when it was not.
+    for (RegistrationRecord& record : log_) record.num_reconsidered = 0;
     ORBWEAVE_RETURN_IF_ERROR(Reconsider());
     ORBWEAVE_RETURN_IF_ERROR(Mend());
     ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state_, options_, context_));

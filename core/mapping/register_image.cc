@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/random.h"
@@ -26,6 +27,27 @@ StageContext ContextOf(const StageContext& context, ImageId image) {
   own.report = {};
   own.seed = Random(context.seed ^ (uint64_t{image.value} << 20)).Next();
   return own;
+}
+
+/// The pose that a pair proposes, and no strong pair contradicts, with which points in most places
+/// of the image agree: where these are more than agree with `found`, which strong pairs contradict.
+std::optional<Rigid3> PoseOfPairsAndPlaces(const MappingState& state,
+                                           ImageSlot image,
+                                           const Rigid3& found,
+                                           const SceneCorrespondences& correspondences,
+                                           std::span<const ViewMatches> views,
+                                           double max_error_rad) {
+  const auto is_contradicted = [&](const Rigid3& pose) {
+    return ContradictsStrongPair(pose, views, max_error_rad);
+  };
+  std::vector<Rigid3> candidates = PosesOfPairs(state, image, correspondences);
+  std::erase_if(candidates, is_contradicted);
+  std::optional<Rigid3> best = CandidateOfMostPlaces(candidates, correspondences, max_error_rad);
+  const auto places = [&](const Rigid3& pose) {
+    return CountPlaces(pose, correspondences, max_error_rad).agreeing;
+  };
+  if (!best || is_contradicted(*best) || places(*best) <= places(found)) return std::nullopt;
+  return best;
 }
 
 }  // namespace
@@ -92,6 +114,15 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
   }
   const bool is_doubtful = pose && limits.heeds_pairs &&
                            ContradictsStrongPair(pose->cam_from_world, views, max_error_rad);
+  if (is_doubtful) {
+    const std::optional<Rigid3> other = PoseOfPairsAndPlaces(
+        state, image, pose->cam_from_world, correspondences, views, max_error_rad);
+    // What most points say is then known to be wrong, as by GNSS.
+    if (other && accept(*other, static_cast<uint32_t>(limits.min_inliers))) {
+      attempt.registered = true;
+      return attempt;
+    }
+  }
   std::optional<PoseFromPairs> proposed;
   if (is_doubtful || limits.propose_from_pairs)
     proposed = EstimatePoseFromPairs(state, image, views, correspondences, max_error_rad);

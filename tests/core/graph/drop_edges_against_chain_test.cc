@@ -82,7 +82,7 @@ TEST(DropEdgesAgainstChain, DropsFacadesThatRepeatAlongAStreet) {
     drive.edges.push_back(drive.LookAlike(a, a + 20, {0.1, 0.2, 0.0}));
     drive.edges.push_back(drive.LookAlike(a, a + 21, {3.0, 0.0, 0.0}));
   }
-  const EdgesByChain result = DropEdgesAgainstChain(drive.edges, drive.manifest);
+  const SiftedEdges result = DropEdgesAgainstChain(drive.edges, drive.manifest);
   EXPECT_EQ(result.kept.size(), right);
   ASSERT_EQ(result.dropped.size(), 3U * 39U);
   EXPECT_EQ(result.dropped[1].reason,
@@ -110,7 +110,7 @@ TEST(DropEdgesAgainstChain, DropsEdgesThatTurnOtherwiseThanTheDrive) {
   turned.b_from_a.rotation =
       RotationFromVector({0.0, std::numbers::pi / 2.0, 0.0}) * turned.b_from_a.rotation;
   drive.edges.push_back(turned);
-  const EdgesByChain result = DropEdgesAgainstChain(drive.edges, drive.manifest);
+  const SiftedEdges result = DropEdgesAgainstChain(drive.edges, drive.manifest);
   EXPECT_EQ(result.kept.size(), right + 1);
   ASSERT_EQ(result.dropped.size(), 1U);
   EXPECT_TRUE(result.dropped[0].reason.starts_with("turns by ")) << result.dropped[0].reason;

@@ -50,7 +50,7 @@ TEST(DropEdgesAgainstGnss, DropsPlacesThatLookAlikeAndNothingElse) {
   std::vector<ViewEdge> edges = StraightDrive(60);
   const size_t right = edges.size();
   for (uint32_t a = 0; a < 40; ++a) edges.push_back(EdgeOver(a, a + 20, 1.0));
-  const EdgesByGnss result = DropEdgesAgainstGnss(edges, Manifest(60));
+  const SiftedEdges result = DropEdgesAgainstGnss(edges, Manifest(60));
   EXPECT_EQ(result.kept.size(), right);
   ASSERT_EQ(result.dropped.size(), 40U);
   EXPECT_EQ(result.dropped[0].pair, (ImagePair{ImageId(0), ImageId(20)}));
@@ -98,7 +98,7 @@ TEST(DropEdgesAgainstGnss, DropsAChanceMeetingOfTwoStreets) {
   edges.push_back(EdgeOver(10, 50, 1.0));
   ImageManifest manifest = Manifest(60);
   for (uint32_t i = 30; i < 60; ++i) manifest.images[i].prior.position_in_enu->y() += 100.0;
-  const EdgesByGnss result = DropEdgesAgainstGnss(edges, manifest);
+  const SiftedEdges result = DropEdgesAgainstGnss(edges, manifest);
   EXPECT_EQ(result.kept.size(), right);
   ASSERT_EQ(result.dropped.size(), 1U);
   EXPECT_EQ(result.dropped[0].pair, (ImagePair{ImageId(10), ImageId(50)}));

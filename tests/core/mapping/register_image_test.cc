@@ -68,6 +68,33 @@ TEST(RegisterImage, HeedsPairsWhereMostPointsAreAWindowTooFarAlong) {
   EXPECT_LT((state.Centre(4) - truth).norm(), 0.05);
 }
 
+/// One facade a window too far along, with most of the points, so that the image comes to stand
+/// beyond the next one: pairs with those behind it agree with that as well, and what points say
+/// elsewhere is little, but it is all other places.
+TEST(RegisterImage, HeedsPairsAndPlacesWhereOneFacadeOutvotesAllOthers) {
+  const StreetFixture street({.centres = StraightWalk(5, 3.0),
+                              .points_per_metre = 60,
+                              .noise_px = 0.3,
+                              .random_rotations = true});
+  MappingState state = street.TriangulatedStateWith({0, 1, 2, 4});
+  const Eigen::Vector3d truth = street.world.cams_from_world[3].Centre();
+  const SceneCorrespondences seen = FindSceneCorrespondences(state, 3);
+  size_t elsewhere = 0;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const Eigen::Vector3d ray = seen.positions[i] - truth;
+    if (ray.z() > 0.7 * ray.norm()) {
+      state.SetPosition(seen.points[i], seen.positions[i] + Eigen::Vector3d(4.5, 0.0, 0.0));
+    } else if (elsewhere++ % 9 != 0) {
+      state.RemovePoint(seen.points[i]);
+    }
+  }
+  MappingState blind = state;
+  ASSERT_TRUE(RegisterImage(blind, 3, {.heeds_pairs = false}, {}).value().registered);
+  EXPECT_GT((blind.Centre(3) - truth).norm(), 4.0);
+  ASSERT_TRUE(RegisterImage(state, 3, {}, {}).value().registered);
+  EXPECT_LT((state.Centre(3) - truth).norm(), 0.1);
+}
+
 TEST(RegisterImage, IsCancelledOnRequest) {
   const StreetFixture street({.centres = StraightWalk(5, 3.0)});
   MappingState state = street.TriangulatedStateWith({0, 1, 2, 3});

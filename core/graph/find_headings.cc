@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/graph/headings_by_gnss.h"
+#include "core/graph/find_headings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,6 @@ namespace {
 constexpr double kTellingSigmas = 2.5;
 // Of cameras that stand upright to some degrees.
 constexpr double kTilt_rad = 5.0 * std::numbers::pi / 180.0;
-constexpr double kAgree_rad = std::numbers::pi / 6.0;
 constexpr size_t kFewest = 3;
 
 struct Vote {
@@ -34,7 +33,7 @@ std::optional<Vote> VoteOf(const MotionEdge& edge) {
   return Vote{edge.step->HeadingOfA(), sigma_rad, edge.weight / sigma_rad};
 }
 
-/// The votes within kAgree_rad of one of them that weigh most: [first, first + count) of `votes`,
+/// The votes within `agree_rad` of one of them that weigh most: [first, first + count) of `votes`,
 /// which are sorted and come twice, the second time a turn further.
 struct Window {
   size_t first = 0;
@@ -42,7 +41,7 @@ struct Window {
   double weight = 0.0;
 };
 
-Window HeaviestWindow(const std::vector<Vote>& votes, size_t num_votes) {
+Window HeaviestWindow(const std::vector<Vote>& votes, size_t num_votes, double agree_rad) {
   Window best;
   size_t first = 0;
   size_t end = 0;
@@ -50,15 +49,15 @@ Window HeaviestWindow(const std::vector<Vote>& votes, size_t num_votes) {
   for (size_t centre = 0; centre < num_votes; ++centre) {
     // The window's first half lies before the vote: centres are those of the second time round.
     const double heading_rad = votes[centre + num_votes].heading_rad;
-    while (end < votes.size() && votes[end].heading_rad <= heading_rad + kAgree_rad)
+    while (end < votes.size() && votes[end].heading_rad <= heading_rad + agree_rad)
       weight += votes[end++].weight;
-    while (votes[first].heading_rad < heading_rad - kAgree_rad) weight -= votes[first++].weight;
+    while (votes[first].heading_rad < heading_rad - agree_rad) weight -= votes[first++].weight;
     if (weight > best.weight) best = {first, end - first, weight};
   }
   return best;
 }
 
-std::optional<double> HeadingOf(std::vector<Vote> votes) {
+std::optional<double> HeadingOf(std::vector<Vote> votes, double agree_rad) {
   if (votes.size() < kFewest) return std::nullopt;
   double all = 0.0;
   for (Vote& vote : votes) {
@@ -74,7 +73,7 @@ std::optional<double> HeadingOf(std::vector<Vote> votes) {
       votes.push_back(again);
     }
   }
-  const Window window = HeaviestWindow(votes, num_votes);
+  const Window window = HeaviestWindow(votes, num_votes, agree_rad);
   if (window.count < kFewest || !(window.weight > 0.5 * all)) return std::nullopt;
   double sum = 0.0;
   double weights = 0.0;
@@ -88,9 +87,10 @@ std::optional<double> HeadingOf(std::vector<Vote> votes) {
 
 }  // namespace
 
-Headings HeadingsByGnss(const std::vector<MotionEdge>& edges,
-                        const TurnForest& forest,
-                        const std::vector<uint8_t>& is_trusted) {
+Headings FindHeadings(const std::vector<MotionEdge>& edges,
+                      const TurnForest& forest,
+                      const std::vector<uint8_t>& is_trusted,
+                      const HeadingOptions& options) {
   const size_t num_images = is_trusted.size();
   std::vector<std::vector<uint32_t>> edges_from(num_images);
   for (uint32_t e = 0; e < edges.size(); ++e) {
@@ -101,7 +101,7 @@ Headings HeadingsByGnss(const std::vector<MotionEdge>& edges,
   for (uint32_t image = 0; image < num_images; ++image) {
     std::vector<Vote> in_sequence;
     std::vector<Vote> all;
-    for (const TurnForest::Link& near : forest.Around(image)) {
+    for (const TurnForest::Link& near : forest.Around(image, options.reach)) {
       for (const uint32_t e : edges_from[near.image]) {
         std::optional<Vote> vote = VoteOf(edges[e]);
         if (!vote) continue;
@@ -110,8 +110,8 @@ Headings HeadingsByGnss(const std::vector<MotionEdge>& edges,
         if (edges[e].is_in_sequence) in_sequence.push_back(*vote);
       }
     }
-    headings[image] = HeadingOf(std::move(in_sequence));
-    if (!headings[image]) headings[image] = HeadingOf(std::move(all));
+    headings[image] = HeadingOf(std::move(in_sequence), options.agree_rad);
+    if (!headings[image]) headings[image] = HeadingOf(std::move(all), options.agree_rad);
   }
   return headings;
 }

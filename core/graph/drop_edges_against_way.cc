@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/graph/drop_edges_against_way.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "core/graph/find_headings.h"
+#include "core/graph/motion_edge.h"
+#include "core/graph/turn_forest.h"
+#include "core/scene/places_in_drives.h"
+
+namespace orbweave {
+namespace {
+
+constexpr HeadingOptions kAhead = {.reach = 3, .agree_rad = std::numbers::pi / 4.0};
+constexpr double kBack_rad = 2.0 * std::numbers::pi / 3.0;
+constexpr double kOnward_rad = std::numbers::pi / 3.0;
+constexpr size_t kFewestOnward = 2;
+constexpr double kInOrder = 0.8;
+
+/// Drives most of whose images have an edge with the next one.
+std::set<uint32_t> DrivesInOrder(const std::vector<ViewEdge>& edges,
+                                 const ImageManifest& manifest,
+                                 const PlacesInDrives& places) {
+  std::map<uint32_t, size_t> images;
+  std::map<uint32_t, size_t> followed;
+  for (const ImageRecord& image : manifest.images) ++images[image.drive];
+  for (const ViewEdge& edge : edges) {
+    if (edge.kind == TwoViewKind::kNone || places.StepsBetween(edge.pair) != 1) continue;
+    ++followed[manifest.At(edge.pair.a).drive];
+  }
+  std::set<uint32_t> in_order;
+  for (const auto& [drive, count] : images) {
+    if (static_cast<double>(followed[drive]) >= kInOrder * static_cast<double>(count - 1))
+      in_order.insert(drive);
+  }
+  return in_order;
+}
+
+/// Per image: how many of its edges lead onward.
+std::vector<size_t> CountOnward(const std::vector<MotionEdge>& edges, const Headings& ahead) {
+  std::vector<size_t> counts(ahead.size(), 0);
+  for (const MotionEdge& edge : edges) {
+    const std::optional<StepError> error = StepErrorOf(edge, ahead);
+    if (!error) continue;
+    counts[edge.a] += error->at_a_rad <= kOnward_rad ? 1 : 0;
+    counts[edge.b] += error->at_b_rad <= kOnward_rad ? 1 : 0;
+  }
+  return counts;
+}
+
+/// Positions in `edges` of those that lead back.
+std::set<uint32_t> FindThatLeadBack(const std::vector<ViewEdge>& edges,
+                                    const ImageManifest& manifest) {
+  const PlacesInDrives places(manifest);
+  const std::set<uint32_t> in_order = DrivesInOrder(edges, manifest, places);
+  const auto num_images = static_cast<uint32_t>(manifest.images.size());
+  const TurnForest forest(num_images, MotionEdgesOf(edges, manifest, places));
+  const std::vector<MotionEdge> steps = MotionEdgesAlongWay(edges, places);
+  const Headings ahead = FindHeadings(steps, forest, std::vector<uint8_t>(num_images, 1), kAhead);
+  const std::vector<size_t> onward = CountOnward(steps, ahead);
+  std::set<uint32_t> back;
+  for (const MotionEdge& step : steps) {
+    const std::optional<StepError> error = StepErrorOf(step, ahead);
+    if (error && error->Least() > kBack_rad && onward[step.a] >= kFewestOnward &&
+        onward[step.b] >= kFewestOnward && in_order.contains(manifest.images[step.a].drive))
+      back.insert(step.edge);
+  }
+  return back;
+}
+
+}  // namespace
+
+SiftedEdges DropEdgesAgainstWay(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
+  const std::set<uint32_t> back = FindThatLeadBack(edges, manifest);
+  SiftedEdges result;
+  for (uint32_t e = 0; e < edges.size(); ++e) {
+    if (back.contains(e)) {
+      result.dropped.push_back(
+          {edges[e].pair, "it leads back along the drive", DropCause::kSequence});
+    } else {
+      result.kept.push_back(edges[e]);
+    }
+  }
+  return result;
+}
+
+}  // namespace orbweave

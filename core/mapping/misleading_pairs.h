@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/mapping/mapping_state.h"
+
+namespace orbweave {
+
+/// Verified pairs that are wrong in themselves, whatever the model is like: they bear no witness
+/// against it.
+class MisleadingPairs {
+ public:
+  /// `is_explained`: per pair of the graph, by the model (JudgePairs).
+  MisleadingPairs(const MappingState& state, std::vector<uint8_t> is_explained);
+
+  [[nodiscard]] bool IsMisleading(uint32_t pair) const {
+    return LeadsBack(pair) || TurnsOtherwise(pair);
+  }
+
+ private:
+  /// Of two images of a drive that follow one another, at most one place between: the pair leads
+  /// backwards (more than 120 degrees off the model's step), where the model goes on as it does
+  /// before or behind them (60 degrees or less). Windows that repeat make such pairs, each window
+  /// taken for the next; a camera that turns back for one place does not go on as before.
+  [[nodiscard]] bool LeadsBack(uint32_t pair) const;
+  /// The pair turns otherwise than the model (by more than 2 degrees), and two explained pairs, of
+  /// as many matches or more each, by way of a third image as the model does (to 0.75 degrees).
+  /// Lengths that are wrong turn nothing, and where the model is askew no pairs across agree.
+  [[nodiscard]] bool TurnsOtherwise(uint32_t pair) const;
+  [[nodiscard]] bool IsBorneOut(uint32_t pair, size_t min_matches) const;
+  /// Between the pair's rotation and the model's.
+  [[nodiscard]] double TurnErrorOf(uint32_t pair) const;
+  /// So many registered places on in the drive; nullopt beyond its ends.
+  [[nodiscard]] std::optional<ImageSlot> At(ImageSlot image, int places_on) const;
+
+  const MappingState& state_;
+  std::vector<uint8_t> is_explained_;
+  std::vector<ImageSlot> sequence_{};  ///< registered, drive by drive as they were taken
+  std::vector<size_t> place_;          ///< in it, per registered image
+};
+
+}  // namespace orbweave

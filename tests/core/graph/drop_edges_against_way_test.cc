@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/graph/drop_edges_against_way.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/core/graph/bending_drive.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+std::set<ImagePair> DroppedOf(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
+  const SiftedEdges result = DropEdgesAgainstWay(edges, manifest);
+  EXPECT_EQ(result.kept.size() + result.dropped.size(), edges.size());
+  std::set<ImagePair> pairs;
+  for (const DroppedEdge& edge : result.dropped) {
+    EXPECT_EQ(edge.cause, DropCause::kSequence);
+    pairs.insert(edge.pair);
+  }
+  return pairs;
+}
+
+ImagePair Pair(uint32_t a, uint32_t b) { return {ImageId(a), ImageId(b)}; }
+
+/// Positions say nothing here.
+BendingDrive WithoutGnss(uint32_t count, uint64_t seed) {
+  BendingDrive drive(count, seed);
+  for (ImageRecord& image : drive.manifest.images) image.prior.position_in_enu.reset();
+  return drive;
+}
+
+TEST(DropEdgesAgainstWay, DropsWhatLeadsBackAndNothingElse) {
+  // Both nearest edges of image 5 among them.
+  const std::set<ImagePair> backward = {
+      Pair(4, 5), Pair(5, 6), Pair(12, 13), Pair(20, 22), Pair(17, 18)};
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const BendingDrive drive = WithoutGnss(30, seed);
+    EXPECT_EQ(DroppedOf(drive.Edges(3, backward), drive.manifest), backward) << seed;
+    EXPECT_TRUE(DroppedOf(drive.Edges(2, {}), drive.manifest).empty()) << seed;
+  }
+}
+
+TEST(DropEdgesAgainstWay, FollowsTimesAndNotIds) {
+  const BendingDrive drive = WithoutGnss(30, 1);
+  BendingDrive reversed = drive;
+  for (ImageRecord& image : reversed.manifest.images)
+    image.capture_time_s = 100.0 - static_cast<double>(image.id.value);
+  const std::set<ImagePair> backward = {Pair(4, 5), Pair(12, 13)};
+  EXPECT_EQ(DroppedOf(reversed.Edges(3, backward), reversed.manifest), backward);
+}
+
+/// A dead end: what leads back after it leads onward.
+TEST(DropEdgesAgainstWay, KeepsTheEdgesOfADriveThatTurnsRound) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    const BendingDrive there = WithoutGnss(15, seed);
+    BendingDrive drive = there;
+    for (uint32_t i = 0; i < 13; ++i) {
+      drive.cams_from_world.push_back(there.cams_from_world[13 - i]);
+      drive.manifest.images.push_back({.id = ImageId(15 + i)});
+    }
+    std::vector<ViewEdge> edges = drive.Edges(3, {});
+    std::erase_if(edges, [&](const ViewEdge& edge) {  // images of one place show no direction
+      return (drive.cams_from_world[edge.pair.a.value].Centre() -
+              drive.cams_from_world[edge.pair.b.value].Centre())
+                 .norm() < 1.0;
+    });
+    EXPECT_TRUE(DroppedOf(edges, drive.manifest).empty()) << seed;
+  }
+}
+
+/// Names in no order of the street: most images have no edge with the next one.
+TEST(DropEdgesAgainstWay, SaysNothingOfImagesInNoOrder) {
+  const BendingDrive drive = WithoutGnss(30, 4);
+  BendingDrive mixed = drive;
+  for (uint32_t i = 0; i < 30; ++i) mixed.cams_from_world[i] = drive.cams_from_world[(7 * i) % 30];
+  std::vector<ViewEdge> edges;
+  for (uint32_t a = 0; a < 30; ++a) {
+    for (uint32_t b = a + 1; b < 30; ++b) {
+      if ((mixed.cams_from_world[a].Centre() - mixed.cams_from_world[b].Centre()).norm() < 26.0)
+        edges.push_back(mixed.TrueEdge(a, b));
+    }
+  }
+  EXPECT_TRUE(DroppedOf(edges, mixed.manifest).empty());
+  EXPECT_TRUE(DroppedOf({}, {}).empty());
+}
+
+TEST(DropEdgesAgainstWay, SaysNothingOfThinEndsAndPureRotations) {
+  const BendingDrive drive = WithoutGnss(4, 2);
+  EXPECT_TRUE(DroppedOf({drive.TrueEdge(0, 1), drive.BackwardEdge(1, 2), drive.TrueEdge(2, 3)},
+                        drive.manifest)
+                  .empty());
+  const BendingDrive longer = WithoutGnss(30, 2);
+  std::vector<ViewEdge> edges = longer.Edges(3, {Pair(12, 13)});
+  for (ViewEdge& edge : edges) {
+    if (edge.pair == Pair(12, 13)) edge.kind = TwoViewKind::kPureRotation;
+  }
+  EXPECT_TRUE(DroppedOf(edges, longer.manifest).empty());
+}
+
+}  // namespace
+}  // namespace orbweave
