@@ -3,6 +3,7 @@
 
 #include "core/graph/drop_edges_against_way.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -43,16 +44,37 @@ std::set<uint32_t> DrivesInOrder(const std::vector<ViewEdge>& edges,
   return in_order;
 }
 
-/// Per image: how many of its edges lead onward.
-std::vector<size_t> CountOnward(const std::vector<MotionEdge>& edges, const Headings& ahead) {
-  std::vector<size_t> counts(ahead.size(), 0);
-  for (const MotionEdge& edge : edges) {
-    const std::optional<StepError> error = StepErrorOf(edge, ahead);
+/// The steps of each image that lead onward: places of their other images in the drive.
+using Onward = std::vector<std::vector<uint32_t>>;
+
+Onward StepsOnward(const std::vector<MotionEdge>& steps,
+                   const Headings& ahead,
+                   const PlacesInDrives& places) {
+  Onward onward(ahead.size());
+  for (const MotionEdge& step : steps) {
+    const std::optional<StepError> error = StepErrorOf(step, ahead);
     if (!error) continue;
-    counts[edge.a] += error->at_a_rad <= kOnward_rad ? 1 : 0;
-    counts[edge.b] += error->at_b_rad <= kOnward_rad ? 1 : 0;
+    if (error->at_a_rad <= kOnward_rad) onward[step.a].push_back(places.PlaceOf(ImageId(step.b)));
+    if (error->at_b_rad <= kOnward_rad) onward[step.b].push_back(places.PlaceOf(ImageId(step.a)));
   }
-  return counts;
+  return onward;
+}
+
+/// Whether the drive goes on at both images of a step as it comes to them, by others that lead from
+/// before the two and beyond them: it does not where it turns round.
+bool GoesOn(const MotionEdge& step, const Onward& onward, const PlacesInDrives& places) {
+  const auto [first, last] =
+      std::minmax({places.PlaceOf(ImageId(step.a)), places.PlaceOf(ImageId(step.b))});
+  bool from_before = false;
+  bool beyond = false;
+  for (const uint32_t image : {step.a, step.b}) {
+    if (onward[image].size() < kFewestOnward) return false;
+    for (const uint32_t place : onward[image]) {
+      from_before |= place < first;
+      beyond |= place > last;
+    }
+  }
+  return from_before && beyond;
 }
 
 /// Positions in `edges` of those that lead back.
@@ -64,12 +86,12 @@ std::set<uint32_t> FindThatLeadBack(const std::vector<ViewEdge>& edges,
   const TurnForest forest(num_images, MotionEdgesOf(edges, manifest, places));
   const std::vector<MotionEdge> steps = MotionEdgesAlongWay(edges, places);
   const Headings ahead = FindHeadings(steps, forest, std::vector<uint8_t>(num_images, 1), kAhead);
-  const std::vector<size_t> onward = CountOnward(steps, ahead);
+  const Onward onward = StepsOnward(steps, ahead, places);
   std::set<uint32_t> back;
   for (const MotionEdge& step : steps) {
     const std::optional<StepError> error = StepErrorOf(step, ahead);
-    if (error && error->Least() > kBack_rad && onward[step.a] >= kFewestOnward &&
-        onward[step.b] >= kFewestOnward && in_order.contains(manifest.images[step.a].drive))
+    if (error && error->Least() > kBack_rad && GoesOn(step, onward, places) &&
+        in_order.contains(manifest.images[step.a].drive))
       back.insert(step.edge);
   }
   return back;

@@ -18,8 +18,10 @@ namespace orbweave {
 /// What lies ahead in each camera is what most edges between neighbours around agree on, each taken
 /// as a step onward (MotionEdgesAlongWay, FindHeadings; three edges around, so that a corner leaves
 /// it open rather than wrong). An edge is dropped that is more than 120 degrees off that at both of
-/// its images, while two others of each lead onward (60 degrees or less). Nothing is said of drives
-/// whose order is none: that have no edge between one and the next image in a fifth of the places.
+/// its images, while two others of each lead onward (60 degrees or less), one from before the two
+/// and one beyond them among these: a drive that turns round does not go on. Nothing is said of
+/// drives whose order is none: that have no edge between one and the next image in a fifth of the
+/// places.
 ///
 /// Time n log n in edges.
 [[nodiscard]] SiftedEdges DropEdgesAgainstWay(const std::vector<ViewEdge>& edges,

@@ -19,12 +19,26 @@ namespace {
 constexpr uint32_t kNeighbours = 2;  // places apart in a drive
 constexpr size_t kRun = 3;
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
+constexpr int kFurther = 3;  // places on either side of a pair, from which pairs lead across it
+constexpr size_t kFewestAcross = 2;
+constexpr size_t kMajority = 2;
 
 bool FollowOneAnother(const PlacesInDrives& places, const ImagePair& pair) {
   if (!places.AreOfOneStretch(pair)) return false;
   const std::optional<uint32_t> steps = places.StepsBetween(pair);
   return steps && *steps <= kNeighbours;
 }
+
+/// Pairs across a place of a drive.
+struct Across {
+  size_t explained = 0;
+  size_t contradicted = 0;
+
+  /// Where the model is torn or folded the right pairs across are the contradicted ones.
+  [[nodiscard]] bool BearOut() const {
+    return explained >= kFewestAcross && explained > kMajority * contradicted;
+  }
+};
 
 /// Sets of judged pairs. A pair of two clusters that one of them contradicts is contradicted.
 struct Judged {
@@ -47,6 +61,35 @@ Judged JudgedPairsOf(const JobResults& results) {
     return is_unknown(pair) || judged.contradicted.contains(pair);
   });
   return judged;
+}
+
+/// The image and those before or after it in its drive, `kFurther` at most.
+std::vector<ImageId> OnwardFrom(const PlacesInDrives& places, ImageId image, bool after) {
+  std::vector<ImageId> images = {image};
+  for (int i = 0; i < kFurther; ++i) {
+    const std::optional<ImageId> next =
+        after ? places.After(images.back()) : places.Before(images.back());
+    if (!next) break;
+    images.push_back(*next);
+  }
+  return images;
+}
+
+/// What the pairs say that lead across both images of one, itself among them.
+Across PairsAcross(const Judged& judged, const PlacesInDrives& places, const ImagePair& pair) {
+  const bool is_late = places.PlaceOf(pair.b) < places.PlaceOf(pair.a);
+  const ImageId first = is_late ? pair.b : pair.a;
+  const ImageId last = is_late ? pair.a : pair.b;
+  Across across;
+  for (const ImageId a : OnwardFrom(places, first, false)) {
+    for (const ImageId b : OnwardFrom(places, last, true)) {
+      const ImagePair other = MakePair(a, b);
+      if (!places.AreOfOneStretch(other)) continue;
+      across.explained += judged.explained.contains(other) ? 1 : 0;
+      across.contradicted += judged.contradicted.contains(other) ? 1 : 0;
+    }
+  }
+  return across;
 }
 
 /// Pairs in rows: those of the images after theirs, or of the one after and the one before.
@@ -110,7 +153,7 @@ CrossCheck CheckPairs(const JobResults& results) {
   std::vector<ImagePair> torn;
   std::set<ImagePair> far;
   for (const ImagePair& pair : judged.contradicted) {
-    if (follow(pair)) {
+    if (follow(pair) && !PairsAcross(judged, places, pair).BearOut()) {
       torn.push_back(pair);
     } else if (!gnss.AreApart(pair)) {
       far.insert(pair);

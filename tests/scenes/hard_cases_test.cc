@@ -204,7 +204,8 @@ TEST(HardCases, NoRightPairIsTakenForALookAlike) {
                                             .drives = 2});
     const Orientated result = Orientate(corridor);
     ExpectWholeAndExact(corridor, result);
-    EXPECT_TRUE(result.dropped_edges.empty());
+    for (const DroppedEdge& edge : result.dropped_edges)
+      ADD_FAILURE() << edge.pair.a.value << " and " << edge.pair.b.value << ": " << edge.reason;
   }
 }
 

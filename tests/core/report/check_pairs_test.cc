@@ -99,6 +99,19 @@ TEST(CheckPairs, ATornStreetIsBad) {
   EXPECT_THAT(check.sentence, HasSubstr("first 40.jpg and 41.jpg"));
 }
 
+/// Windows that repeat fool one pair of neighbours; those across it are not.
+TEST(CheckPairs, APairThatIsOutvotedByThoseAcrossItIsNoTear) {
+  JobResults results = Drive();
+  for (uint32_t i = 0; i + 3 < 100; ++i) {
+    for (const uint32_t step : {2U, 3U})
+      results.clusters[0].explained_pairs.push_back({ImageId(i), ImageId(i + step)});
+  }
+  Contradict(40, 41, results);
+  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+  Contradict(39, 41, results);
+  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
+}
+
 TEST(CheckPairs, AnotherDriveIsNoNeighbour) {
   JobResults results = Drive();
   for (uint32_t i = 50; i < 100; ++i) results.manifest.images[i].drive = 1;
