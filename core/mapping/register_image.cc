@@ -16,6 +16,7 @@
 #include "core/mapping/pose_from_pairs.h"
 #include "core/mapping/pose_of_most_places.h"
 #include "core/mapping/scene_correspondences.h"
+#include "core/mapping/step_witness.h"
 
 namespace orbweave {
 namespace {
@@ -29,16 +30,18 @@ StageContext ContextOf(const StageContext& context, ImageId image) {
   return own;
 }
 
-/// The pose that a pair proposes, and no strong pair contradicts, with which points in most places
-/// of the image agree: where these are more than agree with `found`, which strong pairs contradict.
+/// The pose that a pair proposes, and neither a strong pair nor GNSS contradicts, with which points
+/// in most places of the image agree: where these are more than agree with `found`, which strong
+/// pairs contradict.
 std::optional<Rigid3> PoseOfPairsAndPlaces(const MappingState& state,
                                            ImageSlot image,
                                            const Rigid3& found,
                                            const SceneCorrespondences& correspondences,
                                            std::span<const ViewMatches> views,
                                            double max_error_rad) {
+  const StepWitness gnss(state, image);
   const auto is_contradicted = [&](const Rigid3& pose) {
-    return ContradictsStrongPair(pose, views, max_error_rad);
+    return gnss.Contradicts(pose.Centre()) || ContradictsStrongPair(pose, views, max_error_rad);
   };
   std::vector<Rigid3> candidates = PosesOfPairs(state, image, correspondences);
   std::erase_if(candidates, is_contradicted);

@@ -30,11 +30,12 @@ struct RegistrationAttempt {
 /// correspondences, refined. Registers it when enough points agree; with limits.propose_from_pairs
 /// only where they tell how long the step is (IsLengthTold), but also when pairs with registered
 /// images hold it (IsHeldByPairs). With limits.heeds_pairs a pose that a strong pair contradicts
-/// gives way to what a pair proposes and none contradicts, where points in more places of the image
-/// agree with that, or else to what pairs and points together propose where more of them agree with
-/// it; if too few do, the image waits. A pose that GNSS contradicts (JudgeByGnss) gives way to one
-/// that it and some places of the image support; without such a one the image waits, unless its own
-/// position alone may be wrong and limits.waits_for_gnss is false. Cancelled when asked to stop.
+/// gives way to what a pair proposes and neither pairs nor GNSS contradict, where points in more
+/// places of the image agree with that, or else to what pairs and points together propose where
+/// more of them agree with it; if too few do, the image waits. A pose that GNSS contradicts
+/// (JudgeByGnss) gives way to one that it and some places of the image support; without such a one
+/// the image waits, unless its own position alone may be wrong and limits.waits_for_gnss is false.
+/// Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                                 ImageSlot image,
                                                                 const RegistrationLimits& limits,
