@@ -125,6 +125,7 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
       attempt.registered = true;
       return attempt;
     }
+    attempt.waits = false;
   }
   std::optional<PoseFromPairs> proposed;
   if (is_doubtful || limits.propose_from_pairs)
