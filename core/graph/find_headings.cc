@@ -34,7 +34,7 @@ std::optional<Vote> VoteOf(const MotionEdge& edge) {
 }
 
 /// The votes within `agree_rad` of one of them that weigh most: [first, first + count) of `votes`,
-/// which are sorted and come twice, the second time a turn further.
+/// which are sorted and come three times, each time a turn further.
 struct Window {
   size_t first = 0;
   size_t count = 0;
@@ -47,7 +47,7 @@ Window HeaviestWindow(const std::vector<Vote>& votes, size_t num_votes, double a
   size_t end = 0;
   double weight = 0.0;
   for (size_t centre = 0; centre < num_votes; ++centre) {
-    // The window's first half lies before the vote: centres are those of the second time round.
+    // Centres are the votes of the second time, so that a window begins and ends among them.
     const double heading_rad = votes[centre + num_votes].heading_rad;
     while (end < votes.size() && votes[end].heading_rad <= heading_rad + agree_rad)
       weight += votes[end++].weight;

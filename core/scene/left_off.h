@@ -15,9 +15,9 @@ namespace orbweave {
 /// do not see the same, and are no neighbours.
 ///
 /// A gap is a step of more than three usual ones (the median of those of a camera that does not
-/// stand) and three standard deviations, horizontally. The next position before
-/// it and the one behind it must be as far from the other side: a single position that is off makes
-/// no gap. None beside an image without a position, and behind the last image.
+/// stand) and three standard deviations, horizontally. The next position before it and the one
+/// behind it must be as far from the other side: a single position that is off makes no gap. None
+/// beside an image without a position, and behind the last image.
 [[nodiscard]] std::vector<uint8_t> LeftOffBehind(std::span<const PosePrior* const> sequence);
 
 }  // namespace orbweave
