@@ -83,18 +83,11 @@ std::string FindFault(const DriveChain& chain, const ViewEdge& edge) {
 SiftedEdges DropEdgesAgainstChain(const std::vector<ViewEdge>& edges,
                                   const ImageManifest& manifest) {
   const DriveChain chain(edges, manifest);
-  SiftedEdges result;
-  for (const ViewEdge& edge : edges) {
-    std::string fault;
-    if (edge.kind != TwoViewKind::kNone && !IsNearByGnss(edge.pair, manifest))
-      fault = FindFault(chain, edge);
-    if (fault.empty()) {
-      result.kept.push_back(edge);
-    } else {
-      result.dropped.push_back({edge.pair, std::move(fault), DropCause::kSequence});
-    }
-  }
-  return result;
+  return SiftEdges(edges, DropCause::kSequence, [&](uint32_t e) -> std::string {
+    const ViewEdge& edge = edges[e];
+    if (edge.kind == TwoViewKind::kNone || IsNearByGnss(edge.pair, manifest)) return "";
+    return FindFault(chain, edge);
+  });
 }
 
 }  // namespace orbweave

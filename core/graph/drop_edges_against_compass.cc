@@ -73,19 +73,13 @@ SiftedEdges DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
     ++count.edges;
     count.agreeing += errors.back()->is_too_large ? 0U : 1U;
   }
-  SiftedEdges result;
-  for (size_t e = 0; e < edges.size(); ++e) {
+  return SiftEdges(edges, DropCause::kGnss, [&](uint32_t e) -> std::string {
     const std::optional<Error>& error = errors[e];
-    if (!error || !error->is_too_large || !counts[DrivesOf(edges[e], manifest)].IsBelieved()) {
-      result.kept.push_back(edges[e]);
-      continue;
-    }
-    result.dropped.push_back({edges[e].pair,
-                              "it turns by " + std::to_string(std::lround(error->error_deg)) +
-                                  " degrees otherwise than the headings of its images",
-                              DropCause::kGnss});
-  }
-  return result;
+    if (!error || !error->is_too_large || !counts[DrivesOf(edges[e], manifest)].IsBelieved())
+      return "";
+    return "it turns by " + std::to_string(std::lround(error->error_deg)) +
+           " degrees otherwise than the headings of its images";
+  });
 }
 
 }  // namespace orbweave

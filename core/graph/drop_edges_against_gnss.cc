@@ -204,23 +204,16 @@ SiftedEdges DropEdgesAgainstGnss(const std::vector<ViewEdge>& edges,
   const std::vector<Agreement> agreements = FindAgreements(edges, manifest, places);
   const std::vector<Trust> trust = FindTrust(edges, agreements, places, manifest.images.size());
   Crossings crossings(edges, agreements, static_cast<uint32_t>(manifest.images.size()));
-  SiftedEdges result;
-  for (size_t e = 0; e < edges.size(); ++e) {
+  return SiftEdges(edges, DropCause::kGnss, [&](uint32_t e) -> std::string {
     const auto [a, b] = edges[e].pair;
     const bool is_wrong =
         SpeaksAgainst(agreements[e], trust[a.value], trust[b.value]) &&
         (crossings.IsWithinAPart(edges[e].pair) ||
          (agreements[e] == Agreement::kDisagrees && crossings.IsAChanceMeeting(edges[e].pair)));
-    if (!is_wrong) {
-      result.kept.push_back(edges[e]);
-      continue;
-    }
+    if (!is_wrong) return "";
     const auto metres = std::lround(SeparationOf(edges[e], manifest)->distance_m);
-    result.dropped.push_back({edges[e].pair,
-                              "GNSS puts its images " + std::to_string(metres) + " m apart",
-                              DropCause::kGnss});
-  }
-  return result;
+    return "GNSS puts its images " + std::to_string(metres) + " m apart";
+  });
 }
 
 }  // namespace orbweave

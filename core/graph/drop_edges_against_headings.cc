@@ -22,7 +22,6 @@ namespace {
 
 constexpr double kSigmas = 3.0;
 constexpr double kAlikeErrors_m = 15.0;
-constexpr double kTellingSigmas = 2.5;
 constexpr double kOtherWay_rad = std::numbers::pi / 2.0;
 
 /// What may speak against an edge.
@@ -76,10 +75,8 @@ Compass CompassOf(const std::vector<MotionEdge>& edges,
 }
 
 bool LeadsElsewhere(const MotionEdge& edge, const StepError& error) {
-  const double distance_m = edge.step->distance_m;
-  const double sigma_m = edge.step->sigma_m;
-  return error.miss_m > std::max(kSigmas * sigma_m, kAlikeErrors_m) ||
-         (error.Least() > kOtherWay_rad && distance_m > kTellingSigmas * sigma_m);
+  return error.miss_m > std::max(kSigmas * edge.step->sigma_m, kAlikeErrors_m) ||
+         (error.Least() > kOtherWay_rad && edge.step->IsTelling());
 }
 
 /// Why the edge is not believed; empty where it is.
@@ -107,15 +104,8 @@ SiftedEdges DropEdgesAgainstHeadings(const std::vector<ViewEdge>& edges,
   const Compass compass = CompassOf(motions, manifest, places);
   std::vector<std::string> faults(edges.size());
   for (const MotionEdge& motion : motions) faults[motion.edge] = FaultOf(motion, compass);
-  SiftedEdges result;
-  for (size_t e = 0; e < edges.size(); ++e) {
-    if (faults[e].empty()) {
-      result.kept.push_back(edges[e]);
-    } else {
-      result.dropped.push_back({edges[e].pair, std::move(faults[e]), DropCause::kGnss});
-    }
-  }
-  return result;
+  return SiftEdges(
+      edges, DropCause::kGnss, [&](uint32_t e) -> std::string { return std::move(faults[e]); });
 }
 
 }  // namespace orbweave

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "core/graph/find_headings.h"
 #include "core/graph/motion_edge.h"
@@ -101,16 +102,9 @@ std::set<uint32_t> FindThatLeadBack(const std::vector<ViewEdge>& edges,
 
 SiftedEdges DropEdgesAgainstWay(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
   const std::set<uint32_t> back = FindThatLeadBack(edges, manifest);
-  SiftedEdges result;
-  for (uint32_t e = 0; e < edges.size(); ++e) {
-    if (back.contains(e)) {
-      result.dropped.push_back(
-          {edges[e].pair, "it leads back along the drive", DropCause::kSequence});
-    } else {
-      result.kept.push_back(edges[e]);
-    }
-  }
-  return result;
+  return SiftEdges(edges, DropCause::kSequence, [&](uint32_t e) -> std::string {
+    return back.contains(e) ? "it leads back along the drive" : "";
+  });
 }
 
 }  // namespace orbweave

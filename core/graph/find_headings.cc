@@ -11,8 +11,6 @@
 namespace orbweave {
 namespace {
 
-// A direction by positions so far apart is good to 23 degrees.
-constexpr double kTellingSigmas = 2.5;
 // Of cameras that stand upright to some degrees.
 constexpr double kTilt_rad = 5.0 * std::numbers::pi / 180.0;
 constexpr size_t kFewest = 3;
@@ -27,8 +25,7 @@ double Wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::n
 
 /// Of camera a.
 std::optional<Vote> VoteOf(const MotionEdge& edge) {
-  if (!edge.step || !(edge.step->distance_m > kTellingSigmas * edge.step->sigma_m))
-    return std::nullopt;
+  if (!edge.step || !edge.step->IsTelling()) return std::nullopt;
   const double sigma_rad = std::hypot(edge.step->sigma_m / edge.step->distance_m, kTilt_rad);
   return Vote{edge.step->HeadingOfA(), sigma_rad, edge.weight / sigma_rad};
 }

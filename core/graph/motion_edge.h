@@ -27,6 +27,8 @@ struct EdgeStep {
 
   [[nodiscard]] double HeadingOfA() const { return azimuth_rad - in_a_rad; }
   [[nodiscard]] double HeadingOfB() const { return azimuth_rad - in_b_rad; }
+  /// Whether its azimuth says anything: by positions so far apart it is good to 23 degrees.
+  [[nodiscard]] bool IsTelling() const { return distance_m > 2.5 * sigma_m; }
 };
 
 /// What an edge says of the headings of its cameras.
@@ -34,8 +36,8 @@ struct MotionEdge {
   uint32_t edge = 0;  ///< of those given
   uint32_t a = 0;
   uint32_t b = 0;
-  double weight =
-      0.0;  ///< the root of its inliers: those of one facade are right or wrong together
+  /// The root of its inliers: those of one facade are right or wrong together.
+  double weight = 0.0;
   bool is_in_sequence = false;     ///< its images are few places apart in one drive
   double turn_rad = 0.0;           ///< heading of a less heading of b
   std::optional<EdgeStep> step{};  ///< where both have positions and it has a direction
@@ -60,7 +62,6 @@ struct StepError {
   double miss_m = 0.0;
 
   [[nodiscard]] double Least() const { return std::min(at_a_rad, at_b_rad); }
-  [[nodiscard]] double Most() const { return std::max(at_a_rad, at_b_rad); }
 };
 
 /// nullopt where a heading or the step is not known.

@@ -45,12 +45,6 @@ void Spoil(ViewGraph& graph, uint32_t a, uint32_t b) {
   }
 }
 
-std::set<ImagePair> PairsOf(const std::vector<DroppedEdge>& dropped) {
-  std::set<ImagePair> pairs;
-  for (const DroppedEdge& edge : dropped) pairs.insert(edge.pair);
-  return pairs;
-}
-
 TEST(BuildViewGraph, KeepsEveryEdgeThatCloses) {
   const ViewGraph street = WithRotations(Street(30, 5), 0.002);
   const FilteredViewGraph filtered = BuildViewGraph(30, street.edges, {});

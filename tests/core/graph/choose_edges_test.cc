@@ -34,12 +34,6 @@ std::vector<ViewEdge> EdgesOf(uint32_t num_images) {
   return edges;
 }
 
-std::set<ImagePair> PairsOf(const std::vector<DroppedEdge>& edges) {
-  std::set<ImagePair> pairs;
-  for (const DroppedEdge& edge : edges) pairs.insert(edge.pair);
-  return pairs;
-}
-
 TEST(ChooseEdges, KeepsWhatContradictsNothing) {
   const std::vector<ViewEdge> edges = EdgesOf(30);
   const ChosenEdges chosen = ChooseEdges(edges, ManifestOf(30), {});

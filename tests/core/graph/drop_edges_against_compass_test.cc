@@ -44,9 +44,7 @@ std::set<ImagePair> TurnSome(std::vector<ViewEdge>& edges) {
 std::set<ImagePair> DroppedOf(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
   const SiftedEdges result = DropEdgesAgainstCompass(edges, manifest);
   EXPECT_EQ(result.kept.size() + result.dropped.size(), edges.size());
-  std::set<ImagePair> pairs;
-  for (const DroppedEdge& edge : result.dropped) pairs.insert(edge.pair);
-  return pairs;
+  return PairsOf(result.dropped);
 }
 
 TEST(DropEdgesAgainstCompass, DropsExactlyThoseThatTurnOtherwise) {

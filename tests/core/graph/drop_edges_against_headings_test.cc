@@ -20,9 +20,7 @@ using Eigen::Vector3d;
 std::set<ImagePair> DroppedOf(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
   const SiftedEdges result = DropEdgesAgainstHeadings(edges, manifest);
   EXPECT_EQ(result.kept.size() + result.dropped.size(), edges.size());
-  std::set<ImagePair> pairs;
-  for (const DroppedEdge& edge : result.dropped) pairs.insert(edge.pair);
-  return pairs;
+  return PairsOf(result.dropped);
 }
 
 const std::set<ImagePair> kBackward = {

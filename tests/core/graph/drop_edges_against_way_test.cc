@@ -17,12 +17,8 @@ using Eigen::Vector3d;
 std::set<ImagePair> DroppedOf(const std::vector<ViewEdge>& edges, const ImageManifest& manifest) {
   const SiftedEdges result = DropEdgesAgainstWay(edges, manifest);
   EXPECT_EQ(result.kept.size() + result.dropped.size(), edges.size());
-  std::set<ImagePair> pairs;
-  for (const DroppedEdge& edge : result.dropped) {
-    EXPECT_EQ(edge.cause, DropCause::kSequence);
-    pairs.insert(edge.pair);
-  }
-  return pairs;
+  for (const DroppedEdge& edge : result.dropped) EXPECT_EQ(edge.cause, DropCause::kSequence);
+  return PairsOf(result.dropped);
 }
 
 ImagePair Pair(uint32_t a, uint32_t b) { return {ImageId(a), ImageId(b)}; }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <set>
 #include <vector>
 
 #include "core/scene/view_graph.h"
@@ -15,6 +16,12 @@ inline ViewEdge Edge(uint32_t a, uint32_t b, uint32_t num_inliers = 100) {
           .num_inliers = num_inliers,
           .median_angle_rad = 0.2,
           .spread = 0.5};
+}
+
+inline std::set<ImagePair> PairsOf(const std::vector<DroppedEdge>& edges) {
+  std::set<ImagePair> pairs;
+  for (const DroppedEdge& edge : edges) pairs.insert(edge.pair);
+  return pairs;
 }
 
 /// A drive: every image is joined to the `window` following ones, the nearer the stronger.
