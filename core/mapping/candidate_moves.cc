@@ -12,11 +12,11 @@
 
 #include "core/mapping/centre_by_lengths.h"
 #include "core/mapping/find_gap_shift.h"
+#include "core/mapping/line_pieces.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_gap_lengths.h"
 #include "core/mapping/measure_pair_lengths.h"
-#include "core/mapping/registered_sequence.h"
 
 namespace orbweave {
 namespace {
@@ -46,59 +46,6 @@ std::vector<ToldGap> FindToldGaps(const AskedRays& asked) {
   }
   return told;
 }
-
-/// Which images move together.
-class Pieces {
- public:
-  Pieces(const MappingState& state, const MappingOptions& options)
-      : state_(state), places_(state, kMatchTolerance * options.max_error_px) {}
-
-  /// From `first` to `last` of one line, and what goes with them of others.
-  [[nodiscard]] std::vector<ImageSlot> Between(ImageSlot first, ImageSlot last) const {
-    std::vector<ImageSlot> piece;
-    for (size_t place = 0; place < places_.size(); ++place) {
-      const ImageSlot image = places_.At(place);
-      const std::optional<ImageSlot> on_line = places_.LineOf(image) == places_.LineOf(first)
-                                                   ? image
-                                                   : NearestOf(places_.LineOf(first), image);
-      if (!on_line) continue;
-      const size_t stands = places_.PlaceOf(*on_line);
-      if (places_.PlaceOf(first) <= stands && stands <= places_.PlaceOf(last))
-        piece.push_back(image);
-    }
-    return piece;
-  }
-  [[nodiscard]] std::vector<ImageSlot> From(ImageSlot first) const {
-    size_t last = places_.PlaceOf(first);
-    while (last + 1 < places_.size() && AreOfOneLine(places_.At(last + 1), first)) ++last;
-    return Between(first, places_.At(last));
-  }
-  [[nodiscard]] bool AreOfOneLine(ImageSlot one, ImageSlot other) const {
-    return places_.LineOf(one) == places_.LineOf(other);
-  }
-
- private:
-  /// The image of a line with which one of another has most matches.
-  [[nodiscard]] std::optional<ImageSlot> NearestOf(uint32_t line, ImageSlot image) const {
-    std::optional<ImageSlot> nearest;
-    size_t most = 0;
-    for (const uint32_t p : state_.Graph().pairs_of_image[image]) {
-      const LinkedPair& pair = state_.Graph().pairs[p];
-      const ImageSlot other = pair.a == image ? pair.b : pair.a;
-      if (!state_.IsRegistered(other) || places_.LineOf(other) != line ||
-          !LogLengthOfPair(state_, pair))
-        continue;
-      const size_t matches = state_.Problem().pairs[pair.index].inliers.size();
-      if (matches <= most) continue;
-      most = matches;
-      nearest = other;
-    }
-    return nearest;
-  }
-
-  const MappingState& state_;
-  RegisteredSequence places_;
-};
 
 class ShiftLister {
  public:
@@ -175,7 +122,7 @@ class ShiftLister {
 
   const MappingState& state_;
   const MappingOptions& options_;
-  Pieces pieces_;
+  LinePieces pieces_;
   std::vector<CandidateMove> moves_{};
 };
 
@@ -220,7 +167,7 @@ std::vector<CandidateMove> ListShifts(const MappingState& state, const MappingOp
 
 std::vector<CandidateMove> ListTurns(const MappingState& state, const MappingOptions& options) {
   const AskedRays asked(state, options);
-  const Pieces pieces(state, options);
+  const LinePieces pieces(state, options);
   std::vector<CandidateMove> turns;
   for (const GapVotes& gap : CollectGapVotes(asked)) {
     if (!IsAskew(MatchesAcross(asked, gap))) continue;

@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
+#include "core/mapping/move_images.h"
 
 namespace orbweave {
-
-/// Registered images that may stand elsewhere, and where.
-using CandidateMove = std::map<ImageSlot, Rigid3>;  ///< cam_from_world
 
 /// What would mend the lengths that rays contradict. At each way between neighbours of a line of
 /// which clearly more rays say another length (FindGapShift, IsToldElsewhere), along the way and as

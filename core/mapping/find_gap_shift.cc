@@ -3,6 +3,7 @@
 
 #include "core/mapping/find_gap_shift.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -75,6 +76,19 @@ class Crossings {
     return shifts;
   }
 
+  /// Of each crossing one, where its votes crowd between two shifts.
+  [[nodiscard]] std::vector<double> CandidatesWithin(double low, double high) const {
+    std::vector<double> shifts;
+    for (const Crossing& crossing : crossings_) {
+      const double shortest = (crossing.step + low * way_).norm();
+      const double longest = (crossing.step + high * way_).norm();
+      const std::optional<double> length = crossing.told.ModeWithin(shortest, longest);
+      const auto shift = length ? ShiftTo(*length, crossing.step, way_) : std::nullopt;
+      if (shift) shifts.push_back(*shift);
+    }
+    return shifts;
+  }
+
   /// The median of those shifts that agree with it.
   [[nodiscard]] double Refined(double shift) const {
     std::vector<double> shifts;
@@ -122,6 +136,23 @@ GapShift FindGapShift(const AskedRays& asked,
       best.elsewhere = agreeing;
       best.shift = shift;
     }
+  }
+  return best;
+}
+
+GapShift FindGapShiftWithin(const AskedRays& asked,
+                            const GapVotes& gap,
+                            std::span<const LengthVote> votes,
+                            double low,
+                            double high) {
+  const Crossings crossings(asked, gap, votes);
+  GapShift best{.here = crossings.CountAgreeing(0.0)};
+  for (const double candidate : crossings.CandidatesWithin(low, high)) {
+    const double shift = std::clamp(crossings.Refined(candidate), low, high);
+    const double agreeing = crossings.CountAgreeing(shift);
+    if (agreeing <= best.elsewhere) continue;
+    best.elsewhere = agreeing;
+    best.shift = shift;
   }
   return best;
 }

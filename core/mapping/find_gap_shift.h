@@ -24,4 +24,12 @@ struct GapShift {
                                     const GapVotes& gap,
                                     std::span<const LengthVote> votes);
 
+/// The shift between `low` and `high` with which most votes agree closely, where those of each pair
+/// crowd there; elsewhere is 0 where none do. How many pairs tell anything does not matter.
+[[nodiscard]] GapShift FindGapShiftWithin(const AskedRays& asked,
+                                          const GapVotes& gap,
+                                          std::span<const LengthVote> votes,
+                                          double low,
+                                          double high);
+
 }  // namespace orbweave

@@ -14,6 +14,7 @@
 #include "core/mapping/mend_lengths.h"
 #include "core/mapping/rank_next_images.h"
 #include "core/mapping/reconsider_images.h"
+#include "core/mapping/slide_onto_gnss.h"
 
 namespace orbweave {
 namespace {
@@ -165,6 +166,8 @@ class Growth {
       if (!is_mended) break;
       ++report_.num_global_adjustments;
     }
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool has_slid, SlideOntoGnss(state_, options_, context_));
+    report_.num_global_adjustments += has_slid ? 1 : 0;
     return absl::OkStatus();
   }
 

@@ -12,12 +12,18 @@
 #include "core/mapping/gap_votes.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/matches_in_planes.h"
+#include "core/mapping/way_witness.h"
 
 namespace orbweave {
 namespace {
 
 /// What one side of a gap says of it.
-GapLength SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedRays& asked) {
+struct Side {
+  GapLength length{};
+  double shift = 0.0;  ///< that most of its rays want
+};
+
+Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedRays& asked) {
   std::map<uint32_t, RayCount> rays;
   for (const LengthVote& vote : votes)
     rays[vote.pair].Add(vote.log_length, asked.log_lengths[vote.pair], kLengthTolerance);
@@ -31,7 +37,7 @@ GapLength SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const A
   const GapShift shift = FindGapShift(asked, gap, votes);
   side.here = shift.here;
   side.elsewhere = shift.elsewhere;
-  return side;
+  return {side, shift.shift};
 }
 
 /// Whether one side is to be believed less: it tells too little, or agrees more.
@@ -61,15 +67,18 @@ LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
 }
 
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
+  const WayWitness gnss(asked);
   std::vector<GapLength> gaps;
   for (const GapVotes& votes : CollectGapVotes(asked)) {
-    const GapLength before = SideOf(votes, votes.before, asked);
-    const GapLength behind = SideOf(votes, votes.behind, asked);
-    const GapLength& wants_another = WantsAnotherMore(behind, before) ? behind : before;
-    gaps.push_back(TellsLess(before, behind) ? behind : before);
-    gaps.back().here = wants_another.here;
-    gaps.back().elsewhere = wants_another.elsewhere;
-    gaps.back().matches = MatchesAcross(asked, votes);
+    const Side before = SideOf(votes, votes.before, asked);
+    const Side behind = SideOf(votes, votes.behind, asked);
+    const Side& wants_another = WantsAnotherMore(behind.length, before.length) ? behind : before;
+    GapLength& gap =
+        gaps.emplace_back(TellsLess(before.length, behind.length) ? behind.length : before.length);
+    gap.here = wants_another.length.here;
+    gap.elsewhere = wants_another.length.elsewhere;
+    gap.matches = MatchesAcross(asked, votes);
+    gap.is_borne_out = gnss.BearsOut(votes, wants_another.shift);
   }
   return gaps;
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,12 +12,10 @@
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/candidate_moves.h"
 #include "core/mapping/compare_models.h"
-#include "core/mapping/filter_points.h"
-#include "core/mapping/mapping_schedule.h"
 #include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_pair_lengths.h"
+#include "core/mapping/move_images.h"
 #include "core/mapping/step_witness.h"
-#include "core/mapping/triangulate_tracks.h"
 
 namespace orbweave {
 namespace {
@@ -26,18 +23,6 @@ namespace {
 constexpr int kMaxMoves = 12;
 /// Each asks all rays of the cluster: a street that is wrong everywhere is not worth more.
 constexpr int kMaxTries = 150;
-/// Centres told by rays are right to some hundredths of a step, points to less than a pixel.
-constexpr double kSlack = 3.0;
-
-void PutAt(MappingState& state, const CandidateMove& move) {
-  for (const auto& [image, cam_from_world] : move) state.SetPose(image, cam_from_world);
-}
-
-CandidateMove PosesNow(const MappingState& state, const CandidateMove& of) {
-  CandidateMove poses;
-  for (const auto& [image, pose] : of) poses[image] = state.CamFromWorld(image);
-  return poses;
-}
 
 /// Whether GNSS speaks against where an image would stand that has others beside it that stay.
 bool IsAgainstGnss(const MappingState& state, const CandidateMove& move) {
@@ -100,43 +85,6 @@ absl::StatusOr<int> MakeMoves(const MappingOptions& options,
   return num_moves;
 }
 
-/// How each registered image was moved along with the world around it, by slot.
-using Displacements = std::map<ImageSlot, Rigid3>;
-
-bool AreAlike(const Rigid3& x, const Rigid3& y) {
-  constexpr double kRounding = 1e-9;
-  return x.rotation.angularDistance(y.rotation) <= kRounding &&
-         (x.translation - y.translation).norm() <= kRounding * (1.0 + x.translation.norm());
-}
-
-/// What all who see a point were moved by, if it was the same.
-std::optional<Rigid3> CommonDisplacement(const MappingState& state,
-                                         const MappedPoint& point,
-                                         const Displacements& moved) {
-  const auto of = [&](Node node) -> const Rigid3& {
-    return moved.at(state.Graph().image_of_node[node]);
-  };
-  const Rigid3& first = of(point.nodes.front());
-  const bool is_same =
-      std::ranges::all_of(point.nodes, [&](Node node) { return AreAlike(of(node), first); });
-  return is_same ? std::optional(first) : std::nullopt;
-}
-
-/// Points go along with the images that see them; those seen by images that were moved differently
-/// are made anew.
-void RemakePoints(MappingState& state, const Displacements& moved, TrackLimits limits) {
-  for (const PointIndex point : AllPoints(state)) {
-    const MappedPoint& mapped = state.Point(point);
-    if (const auto after_from_before = CommonDisplacement(state, mapped, moved)) {
-      state.SetPosition(point, *after_from_before * mapped.position);
-    } else {
-      state.RemovePoint(point);
-    }
-  }
-  limits.max_error_px *= kSlack;
-  for (const auto& [image, after_from_before] : moved) TriangulateImage(state, image, limits);
-}
-
 }  // namespace
 
 absl::StatusOr<bool> MendLengths(MappingState& state,
@@ -146,10 +94,7 @@ absl::StatusOr<bool> MendLengths(MappingState& state,
   MappingState mended = state;
   ORBWEAVE_ASSIGN_OR_RETURN(const int num_moves, MakeMoves(options, context, mended));
   if (num_moves == 0) return false;
-  Displacements moved;
-  for (const ImageSlot image : state.Registered())
-    moved[image] = mended.CamFromWorld(image).Inverse() * state.CamFromWorld(image);
-  RemakePoints(mended, moved, LimitsOf(options));
+  RemakePoints(mended, state, options);
   ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(mended, options, context));
   if (!SpeaksMoreFor(mended, state, options)) return false;
   state = std::move(mended);

@@ -37,6 +37,7 @@ struct GapLength {
   /// Matches of the pairs that lead across, and those that agree with how the model has its two
   /// sides stand and turn to each other (AgreementOfMatches).
   LengthAgreement matches{};
+  bool is_borne_out = false;  ///< by GNSS, which refutes what else rays say (WayWitness)
 };
 
 }  // namespace orbweave

@@ -61,6 +61,13 @@ std::vector<double> ToldLengths::Modes() const {
   return modes;
 }
 
+std::optional<double> ToldLengths::ModeWithin(double shortest, double longest) const {
+  const auto first = std::ranges::lower_bound(log_lengths_, std::log(shortest));
+  const auto last = std::ranges::upper_bound(log_lengths_, std::log(longest));
+  if (first >= last) return std::nullopt;
+  return std::exp(DensestOf({first, last}));
+}
+
 std::vector<double> ToldLengths::Near(double length) const {
   std::vector<double> near;
   for (const double each : CloseTo(log_lengths_, std::log(length))) near.push_back(std::exp(each));

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace orbweave {
@@ -23,6 +24,8 @@ class ToldLengths {
   /// Lengths that most say, two at most: the middle of the closely agreeing interval that holds
   /// most, and the same of what is left without it.
   [[nodiscard]] std::vector<double> Modes() const;
+  /// The length between two that most say; nullopt where none does.
+  [[nodiscard]] std::optional<double> ModeWithin(double shortest, double longest) const;
   /// Those that agree closely with a length.
   [[nodiscard]] std::vector<double> Near(double length) const;
 

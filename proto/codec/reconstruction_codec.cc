@@ -86,6 +86,7 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_elsewhere(length.elsewhere);
     out->set_matches(length.matches.told);
     out->set_agreeing_matches(length.matches.agreeing);
+    out->set_is_borne_out(length.is_borne_out);
   }
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
   proto.set_num_local_adjustments(result.reconstruction.num_local_adjustments);
@@ -132,7 +133,8 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
          .agreement = {.told = length.told(), .agreeing = length.agreeing()},
          .here = length.here(),
          .elsewhere = length.elsewhere(),
-         .matches = {.told = length.matches(), .agreeing = length.agreeing_matches()}});
+         .matches = {.told = length.matches(), .agreeing = length.agreeing_matches()},
+         .is_borne_out = length.is_borne_out()});
     ORBWEAVE_RETURN_IF_ERROR(CheckLength(result.reconstruction.gap_lengths.back()));
   }
   result.reconstruction.num_global_adjustments = proto.num_global_adjustments();

@@ -564,7 +564,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                                           .agreement = {.told = 90.5, .agreeing = 30.25},
                                           .here = 43.5,
                                           .elsewhere = 90.0,
-                                          .matches = {.told = 582.0, .agreeing = 62.5}}},
+                                          .matches = {.told = 582.0, .agreeing = 62.5},
+                                          .is_borne_out = true}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
                          .start_remark = "29 of 30 images stay registered"}};
@@ -588,6 +589,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].elsewhere, 90.0);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].matches.told, 582.0);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].matches.agreeing, 62.5);
+  EXPECT_TRUE(cluster_out->reconstruction.gap_lengths[0].is_borne_out);
   EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/way_witness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mapping/find_gap_shift.h"
+#include "core/mapping/log_length_of_pair.h"
+#include "core/mapping/matches_in_planes.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kWithinSigmas = 2.0;
+constexpr double kOffBySigmas = 3.0;
+constexpr double kShareOfWay = 0.5;
+constexpr auto kFewestRays = static_cast<double>(kFewestRaysOfPair);
+
+}  // namespace
+
+std::vector<double> ShiftsByGnss(const AskedRays& asked, const GapVotes& gap, const GnssWay& way) {
+  const double wanted = -way.Misfit(asked.state) * way.sigma;
+  const double allowed = kWithinSigmas * way.sigma;
+  std::vector<double> shifts;
+  double here = 0.0;
+  for (const std::vector<LengthVote>* votes : {&gap.before, &gap.behind}) {
+    const GapShift shift =
+        FindGapShiftWithin(asked, gap, *votes, wanted - allowed, wanted + allowed);
+    here = std::max(here, shift.here);
+    if (shift.elsewhere >= kFewestRays) shifts.push_back(shift.shift);
+  }
+  if (here < kFewestRays && shifts.empty()) shifts.push_back(wanted);
+  return shifts;
+}
+
+WayWitness::WayWitness(const AskedRays& asked) : asked_(asked) {
+  const GnssWays gnss(asked.state, kMatchTolerance * asked.max_error_px);
+  for (const GnssWay& way : gnss.Ways()) {
+    if (way.leads_to_next) ways_.emplace(std::pair(way.image, way.next), way);
+  }
+}
+
+bool WayWitness::BearsOut(const GapVotes& gap, double elsewhere) const {
+  const auto found = ways_.find({gap.image, gap.next});
+  if (found == ways_.end()) return false;
+  const GnssWay& way = found->second;
+  const double misfit = way.Misfit(asked_.state);
+  const double shift = elsewhere != 0.0 ? elsewhere : kShareOfWay * way.length;
+  return std::abs(misfit) <= kWithinSigmas && std::abs(misfit + shift / way.sigma) > kOffBySigmas;
+}
+
+}  // namespace orbweave
