@@ -42,6 +42,19 @@ absl::Status CheckSolver(const PipelineOptions& options, const JobShape& job) {
   return absl::OkStatus();
 }
 
+/// A seam gets more overlap up to partition.max_overlap (ReviewSeams).
+absl::Status CheckOverlap(const PartitionOptions& options, const JobShape& job) {
+  if (options.reviews == 0 || options.max_overlap >= options.overlap || !MayBeDivided(options, job))
+    return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("partition.max_overlap=",
+                   options.max_overlap,
+                   " is less than partition.overlap=",
+                   options.overlap,
+                   ", so no seam could be given more: raise the first, lower the second, or add "
+                   "partition.reviews=0"));
+}
+
 absl::Status CheckMapping(const MappingOptions& options, const JobShape& job) {
   if (options.preset == MappingPreset::kPaper && options.start != MappingStart::kIncremental) {
     return absl::InvalidArgumentError(
@@ -91,9 +104,30 @@ absl::Status CheckMatching(const PipelineOptions& options, const JobShape& job) 
 
 }  // namespace
 
+absl::Status CheckDenseOptions(const SourceOptions& options) {
+  if (options.near_m >= options.far_m) {
+    return absl::InvalidArgumentError(absl::StrCat("sources.near_m=",
+                                                   options.near_m,
+                                                   " is not nearer than sources.far_m=",
+                                                   options.far_m,
+                                                   ": lower the first or raise the second"));
+  }
+  if (options.min_angle_deg >= options.max_angle_deg) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("no two panoramas would be compared: sources.min_angle_deg=",
+                     options.min_angle_deg,
+                     " is not less than sources.max_angle_deg=",
+                     options.max_angle_deg,
+                     "; lower the first or raise the second"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckOptionsTogether(const PipelineOptions& options, const JobShape& job) {
   ORBWEAVE_RETURN_IF_ERROR(CheckSolver(options, job));
+  ORBWEAVE_RETURN_IF_ERROR(CheckOverlap(options.partition, job));
   ORBWEAVE_RETURN_IF_ERROR(CheckMapping(options.mapping, job));
+  ORBWEAVE_RETURN_IF_ERROR(CheckDenseOptions(options.sources));
   return job.has_matches ? absl::OkStatus() : CheckMatching(options, job);
 }
 

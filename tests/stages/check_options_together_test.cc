@@ -73,6 +73,26 @@ TEST(CheckOptionsTogether, RefusesAStartThatThePresetWouldIgnore) {
   EXPECT_EQ(ProblemOf({"mapping.preset=paper"}, {.num_images = 10}), "");
 }
 
+TEST(CheckOptionsTogether, RefusesLessOverlapAfterAReviewThanBefore) {
+  const JobShape street{.num_images = 200};
+  EXPECT_THAT(ProblemOf({"partition.overlap=60"}, street),
+              HasSubstr("partition.max_overlap=48 is less than partition.overlap=60"));
+  EXPECT_EQ(ProblemOf({"partition.overlap=48"}, street), "");
+  EXPECT_EQ(ProblemOf({"partition.overlap=60", "partition.max_overlap=60"}, street), "");
+  EXPECT_EQ(ProblemOf({"partition.overlap=60", "partition.reviews=0"}, street), "");
+  EXPECT_EQ(ProblemOf({"partition.overlap=60"}, {.num_images = 40}), "");  // stays one cluster
+}
+
+TEST(CheckOptionsTogether, LooksAtWhatACloudReads) {
+  EXPECT_THAT(ProblemOf({"sources.near_m=50"}, {.num_images = 10}), HasSubstr("sources.far_m=40"));
+  EXPECT_TRUE(CheckDenseOptions(With({"sources.near_m=50", "sources.far_m=60"}).sources).ok());
+  EXPECT_FALSE(CheckDenseOptions(With({"sources.near_m=40"}).sources).ok());
+  EXPECT_THAT(
+      CheckDenseOptions(With({"sources.min_angle_deg=30", "sources.max_angle_deg=30"}).sources)
+          .message(),
+      HasSubstr("sources.max_angle_deg=30"));
+}
+
 TEST(CheckOptionsTogether, RefusesToKeepNoModelAtAll) {
   EXPECT_THAT(ProblemOf({"mapping.min_component_images=11"}, {.num_images = 10}),
               HasSubstr("keeps no model of so few"));
