@@ -55,12 +55,28 @@ absl::Status CheckOverlap(const PartitionOptions& options, const JobShape& job) 
                    "partition.reviews=0"));
 }
 
+/// What the paper's preset settles whatever options say (ScheduleOf, AsPresetAdjusts).
+absl::Status CheckPreset(const PipelineOptions& options) {
+  const MappingOptions& mapping = options.mapping;
+  if (mapping.preset != MappingPreset::kPaper) return absl::OkStatus();
+  const auto refuse = [](const char* does, const char* option) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "mapping.preset=paper ", does, ", whatever ", option, " says: leave out one of them"));
+  };
+  if (mapping.start != MappingStart::kIncremental)
+    return refuse("starts from a seed pair", "mapping.start");
+  if (options.bundle.residual != BundleResidual::kErpPx)
+    return refuse("adjusts by pixels in the image", "bundle.residual");
+  if (options.bundle.loss != BundleLoss::kLeastSquares)
+    return refuse("adjusts without a loss", "bundle.loss");
+  if (mapping.local_window != MappingOptions{}.local_window)
+    return refuse("adjusts new images alone", "mapping.local_window");
+  if (mapping.two_view_below != MappingOptions{}.two_view_below)
+    return refuse("keeps points of two images", "mapping.two_view_below");
+  return absl::OkStatus();
+}
+
 absl::Status CheckMapping(const MappingOptions& options, const JobShape& job) {
-  if (options.preset == MappingPreset::kPaper && options.start != MappingStart::kIncremental) {
-    return absl::InvalidArgumentError(
-        "mapping.preset=paper starts from a seed pair, whatever mapping.start says: leave out one "
-        "of them");
-  }
   // Too few images for the default are for the report to say.
   const bool is_asked_for = options.min_component_images > MappingOptions{}.min_component_images;
   if (is_asked_for && static_cast<size_t>(options.min_component_images) > job.num_images) {
@@ -126,6 +142,7 @@ absl::Status CheckDenseOptions(const SourceOptions& options) {
 absl::Status CheckOptionsTogether(const PipelineOptions& options, const JobShape& job) {
   ORBWEAVE_RETURN_IF_ERROR(CheckSolver(options, job));
   ORBWEAVE_RETURN_IF_ERROR(CheckOverlap(options.partition, job));
+  ORBWEAVE_RETURN_IF_ERROR(CheckPreset(options));
   ORBWEAVE_RETURN_IF_ERROR(CheckMapping(options.mapping, job));
   ORBWEAVE_RETURN_IF_ERROR(CheckDenseOptions(options.sources));
   return job.has_matches ? absl::OkStatus() : CheckMatching(options, job);

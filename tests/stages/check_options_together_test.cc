@@ -7,6 +7,9 @@
 
 #include <initializer_list>
 #include <string>
+#include <vector>
+
+#include "stages/preset_options.h"
 
 namespace orbweave {
 namespace {
@@ -67,10 +70,25 @@ TEST(CheckOptionsTogether, RefusesCeresWhereSubproblemsAreDistributed) {
       "");
 }
 
-TEST(CheckOptionsTogether, RefusesAStartThatThePresetWouldIgnore) {
-  EXPECT_THAT(ProblemOf({"mapping.preset=paper", "mapping.start=global"}, {.num_images = 10}),
-              HasSubstr("mapping.start"));
-  EXPECT_EQ(ProblemOf({"mapping.preset=paper"}, {.num_images = 10}), "");
+/// Options over the defaults of the paper, as commands read them.
+std::string ProblemUnderPaper(std::vector<std::string> assignments) {
+  assignments.insert(assignments.begin(), "mapping.preset=paper");
+  return std::string(
+      CheckOptionsTogether(OptionsOverPreset("", "", assignments).value(), {.num_images = 10})
+          .message());
+}
+
+TEST(CheckOptionsTogether, RefusesWhatThePresetWouldIgnore) {
+  EXPECT_EQ(ProblemUnderPaper({}), "");
+  EXPECT_EQ(ProblemUnderPaper({"bundle.residual=erp_px", "mapping.max_error_px=3"}), "");
+  for (const std::string ignored : {"mapping.start=global",
+                                    "bundle.residual=angle",
+                                    "bundle.loss=cauchy",
+                                    "mapping.local_window=6",
+                                    "mapping.two_view_below=0"}) {
+    EXPECT_THAT(ProblemUnderPaper({ignored}), HasSubstr(ignored.substr(0, ignored.find('='))));
+    EXPECT_EQ(ProblemOf({ignored.c_str()}, {.num_images = 10}), "");
+  }
 }
 
 TEST(CheckOptionsTogether, RefusesLessOverlapAfterAReviewThanBefore) {
