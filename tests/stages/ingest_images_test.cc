@@ -346,14 +346,14 @@ TEST(CountFromEllipsoid, TurnsTheAltitudesThatAreKnown) {
   manifest.images.resize(3);
   manifest.images[0].prior.geodetic = GeodeticPosition{47.0, 8.0, 400.0};
   manifest.images[1].prior.geodetic = GeodeticPosition{47.0, 8.0, std::nan("")};
-  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, manifest, folder.path()).ok());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, {}, manifest, folder.path()).ok());
   EXPECT_NEAR(manifest.images[0].prior.geodetic->altitude_m, 447.25, 1e-9);
   EXPECT_TRUE(std::isnan(manifest.images[1].prior.geodetic->altitude_m));
   EXPECT_THAT(manifest.warnings, IsEmpty());
-  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEllipsoid, manifest, folder.path()).ok());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEllipsoid, {}, manifest, folder.path()).ok());
   EXPECT_NEAR(manifest.images[0].prior.geodetic->altitude_m, 447.25, 1e-9);
   manifest.images.resize(0);
-  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, manifest, folder.path()).ok());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, {}, manifest, folder.path()).ok());
   EXPECT_THAT(manifest.warnings, ElementsAre(HasSubstr("changes nothing")));
 }
 
@@ -370,6 +370,13 @@ TEST(IngestImages, CountsAltitudesFromTheGeoidThatIsAskedFor) {
   EXPECT_EQ(IngestImages(sources, options, {}).status().code(),
             absl::StatusCode::kFailedPrecondition);
   folder.Write("egm96-5.pgm", GeoidGrid(-20.5));
+  EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 379.5, 1e-9);
+  // Who says that it is counted from the ellipsoid is believed, but for the table's altitudes.
+  sources.images[1].metadata.altitude_of_ellipsoid = true;
+  EXPECT_NEAR(Ingest(sources, options).images[0].prior.geodetic->altitude_m, 379.5, 1e-9);
+  EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 400.0, 1e-9);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,latitude,longitude,altitude\nimg1.jpg,47,8,400\n";
   EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 379.5, 1e-9);
   ASSERT_EQ(::unsetenv("GEOGRAPHICLIB_GEOID_PATH"), 0);
 }
