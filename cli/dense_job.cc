@@ -7,6 +7,7 @@
 #include "cli/finished_job.h"
 #include "cli/run_local_job.h"
 #include "cli/write_job.h"
+#include "stages/check_options_together.h"
 #include "stages/codecs.h"
 #include "stages/conclude_adjustment/stage.h"
 #include "stages/job_reader.h"
@@ -36,6 +37,7 @@ absl::Status RunInto(const std::string& folder,
 absl::StatusOr<JobSpec> DenseJobOf(ClientApi& coordinator,
                                    const JobStatus& sparse,
                                    const PipelineOptions& options) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckDenseOptions(options.sources));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(sparse.spec.kind));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<TaskOutcome> outcomes,
                             coordinator.GetOutcomes(sparse.id));

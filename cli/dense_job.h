@@ -13,7 +13,8 @@
 
 namespace orbweave {
 
-/// A job on the poses and points that the finished sparse job `sparse` of a coordinator left.
+/// A job on the poses and points that the finished sparse job `sparse` of a coordinator left. Codes
+/// of CheckDenseOptions.
 [[nodiscard]] absl::StatusOr<JobSpec> DenseJobOf(ClientApi& coordinator,
                                                  const JobStatus& sparse,
                                                  const PipelineOptions& options);

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/io/first_names.h"
 #include "core/io/group_messages.h"
 #include "core/io/html_text.h"
 #include "core/io/level_text.h"
@@ -16,6 +17,7 @@
 namespace orbweave {
 namespace {
 
+constexpr size_t kNamesShown = 3;
 constexpr size_t kLinesShown = 12;  ///< of a kind; report.html has all
 
 std::string GnssLine(const JobReport& report) {
@@ -25,8 +27,13 @@ std::string GnssLine(const JobReport& report) {
                                      gnss.num_inliers,
                                      gnss.num_priors,
                                      gnss.residual_rms_inliers_m);
-  if (!gnss.outliers.empty())
-    absl::StrAppend(&line, "; ", gnss.outliers.size(), " contradicted, see report.html");
+  if (!gnss.outliers.empty()) {
+    absl::StrAppend(&line,
+                    "; ",
+                    gnss.outliers.size(),
+                    " contradicted: ",
+                    PrintableText(FirstNames(gnss.outliers, kNamesShown)));
+  }
   if (report.models > 1) line += " (model 0)";
   if (gnss.deformation_m == 0.0) return line;
   return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.deformation_m);

@@ -42,12 +42,41 @@ absl::Status CheckSolver(const PipelineOptions& options, const JobShape& job) {
   return absl::OkStatus();
 }
 
+/// A seam gets more overlap up to partition.max_overlap (ReviewSeams).
+absl::Status CheckOverlap(const PartitionOptions& options, const JobShape& job) {
+  if (options.reviews == 0 || options.max_overlap >= options.overlap || !MayBeDivided(options, job))
+    return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("partition.max_overlap=",
+                   options.max_overlap,
+                   " is less than partition.overlap=",
+                   options.overlap,
+                   ", so no seam could be given more: raise the first, lower the second, or add "
+                   "partition.reviews=0"));
+}
+
+/// What the paper's preset settles whatever options say (ScheduleOf, AsPresetAdjusts).
+absl::Status CheckPreset(const PipelineOptions& options) {
+  const MappingOptions& mapping = options.mapping;
+  if (mapping.preset != MappingPreset::kPaper) return absl::OkStatus();
+  const auto refuse = [](const char* does, const char* option) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "mapping.preset=paper ", does, ", whatever ", option, " says: leave out one of them"));
+  };
+  if (mapping.start != MappingStart::kIncremental)
+    return refuse("starts from a seed pair", "mapping.start");
+  if (options.bundle.residual != BundleResidual::kErpPx)
+    return refuse("adjusts by pixels in the image", "bundle.residual");
+  if (options.bundle.loss != BundleLoss::kLeastSquares)
+    return refuse("adjusts without a loss", "bundle.loss");
+  if (mapping.local_window != MappingOptions{}.local_window)
+    return refuse("adjusts new images alone", "mapping.local_window");
+  if (mapping.two_view_below != MappingOptions{}.two_view_below)
+    return refuse("keeps points of two images", "mapping.two_view_below");
+  return absl::OkStatus();
+}
+
 absl::Status CheckMapping(const MappingOptions& options, const JobShape& job) {
-  if (options.preset == MappingPreset::kPaper && options.start != MappingStart::kIncremental) {
-    return absl::InvalidArgumentError(
-        "mapping.preset=paper starts from a seed pair, whatever mapping.start says: leave out one "
-        "of them");
-  }
   // Too few images for the default are for the report to say.
   const bool is_asked_for = options.min_component_images > MappingOptions{}.min_component_images;
   if (is_asked_for && static_cast<size_t>(options.min_component_images) > job.num_images) {
@@ -91,9 +120,31 @@ absl::Status CheckMatching(const PipelineOptions& options, const JobShape& job) 
 
 }  // namespace
 
+absl::Status CheckDenseOptions(const SourceOptions& options) {
+  if (options.near_m >= options.far_m) {
+    return absl::InvalidArgumentError(absl::StrCat("sources.near_m=",
+                                                   options.near_m,
+                                                   " is not nearer than sources.far_m=",
+                                                   options.far_m,
+                                                   ": lower the first or raise the second"));
+  }
+  if (options.min_angle_deg >= options.max_angle_deg) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("no two panoramas would be compared: sources.min_angle_deg=",
+                     options.min_angle_deg,
+                     " is not less than sources.max_angle_deg=",
+                     options.max_angle_deg,
+                     "; lower the first or raise the second"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckOptionsTogether(const PipelineOptions& options, const JobShape& job) {
   ORBWEAVE_RETURN_IF_ERROR(CheckSolver(options, job));
+  ORBWEAVE_RETURN_IF_ERROR(CheckOverlap(options.partition, job));
+  ORBWEAVE_RETURN_IF_ERROR(CheckPreset(options));
   ORBWEAVE_RETURN_IF_ERROR(CheckMapping(options.mapping, job));
+  ORBWEAVE_RETURN_IF_ERROR(CheckDenseOptions(options.sources));
   return job.has_matches ? absl::OkStatus() : CheckMatching(options, job);
 }
 

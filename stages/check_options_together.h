@@ -19,7 +19,11 @@ struct JobShape {
 /// InvalidArgument where options, each within its range, cannot work together or with the job: it
 /// would fail at its end, or one of them would do nothing without a word. The message names the
 /// options and says what to do.
+/// A job on images may go on to a cloud (`run --dense`): what that reads is looked at too.
 [[nodiscard]] absl::Status CheckOptionsTogether(const PipelineOptions& options,
                                                 const JobShape& job);
+
+/// The same of what dense jobs alone read.
+[[nodiscard]] absl::Status CheckDenseOptions(const SourceOptions& options);
 
 }  // namespace orbweave

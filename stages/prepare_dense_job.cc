@@ -8,6 +8,7 @@
 
 #include "core/base/status.h"
 #include "core/io/printable_text.h"
+#include "stages/check_options_together.h"
 #include "stages/codecs.h"
 #include "stages/ingest_images/ingest_images.h"
 #include "stages/model_from_colmap.h"
@@ -22,6 +23,7 @@ absl::StatusOr<JobSpec> PrepareDenseJob(BlobDepot& depot,
                                         const ScanRequest& request,
                                         const PipelineOptions& options,
                                         const StageContext& context) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckDenseOptions(options.sources));
   const ImagePlaces places = FoldersOf(request);
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageSources sources, ScanImagePlaces(places, request, context));
   ORBWEAVE_ASSIGN_OR_RETURN(ImageManifest manifest, IngestImages(sources, options.ingest, context));

@@ -15,7 +15,7 @@ namespace orbweave {
 
 /// Makes everything known that a dense job on the poses of a model (its points are not needed)
 /// and a folder of its panoramas reads. The job is not submitted. Images of the model that the
-/// folder lacks count as excluded. Codes of ScanImagePlaces and ModelFromColmap.
+/// folder lacks count as excluded. Codes of CheckDenseOptions, ScanImagePlaces and ModelFromColmap.
 [[nodiscard]] absl::StatusOr<JobSpec> PrepareDenseJob(BlobDepot& depot,
                                                       const ColmapModel& model,
                                                       const ScanRequest& request,

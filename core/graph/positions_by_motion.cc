@@ -174,11 +174,11 @@ Track TrackOf(const ImageManifest& manifest,
   return track;
 }
 
+/// `sequence`: images with times.
 void SmoothDrive(const ImageManifest& manifest,
                  std::span<const ImageId> sequence,
                  std::vector<PositionByMotion>& positions) {
-  if (!HaveTimes(manifest, sequence) || CountPositions(manifest, sequence) < kFewestPositions)
-    return;
+  if (CountPositions(manifest, sequence) < kFewestPositions) return;
   const Track plan = TrackOf(manifest, sequence, 0, 2);
   const Track heights = TrackOf(manifest, sequence, 2, 1);
   if (!(plan.times_s.front() < plan.times_s.back())) return;
@@ -205,7 +205,7 @@ std::vector<PositionByMotion> PositionsByMotion(const ImageManifest& manifest) {
   std::vector<PositionByMotion> positions;
   for (const ImageRecord& image : manifest.images) positions.push_back({.prior = image.prior});
   for (const auto& [drive, sequence] : SequenceOfDrives(manifest))
-    SmoothDrive(manifest, sequence, positions);
+    SmoothDrive(manifest, TimedAmong(manifest, sequence), positions);
   return positions;
 }
 

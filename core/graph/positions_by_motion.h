@@ -24,10 +24,10 @@ struct PositionByMotion {
 /// stated as they prove (reweighted, Geman-McClure, so that single ones may be wrong): a tenth at
 /// least, or 1 for fewer than 20. Times in whole seconds tell the place at speed v to v / sqrt(12).
 ///
-/// Priors stay as they are where a drive has fewer than five positions, no times, speeds beyond
-/// 60 m/s, positions ten times worse than stated, or three tenths of them off what the others say
-/// by four sigmas: then times or order are not those of the drive. Linear in the images but for
-/// sorting.
+/// Priors stay as they are of images without a time, and where a drive has fewer than five
+/// positions at known times, speeds beyond 60 m/s, positions ten times worse than stated, or three
+/// tenths of them off what the others say by four sigmas: then times or order are not those of the
+/// drive. Linear in the images but for sorting.
 [[nodiscard]] std::vector<PositionByMotion> PositionsByMotion(const ImageManifest& manifest);
 
 }  // namespace orbweave

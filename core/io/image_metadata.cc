@@ -23,14 +23,15 @@ namespace {
 constexpr int kMaxSidePx = 1 << 20;
 
 /// Rational number `i` of an EXIF value, signed or unsigned as its type says; nullopt when absent,
-/// of another type or 0/0.
+/// of another type or 0/0, which stands for "unknown"; infinite when it is any other number over
+/// zero.
 std::optional<double> Rational(const Exiv2::ExifData& exif, const char* key, size_t i = 0) {
   const auto datum = exif.findKey(Exiv2::ExifKey(key));
   if (datum == exif.end()) return std::nullopt;
   const auto quotient = [i](const auto* rationals) -> std::optional<double> {
-    if (rationals == nullptr || i >= rationals->value_.size() || rationals->value_[i].second == 0)
-      return std::nullopt;
+    if (rationals == nullptr || i >= rationals->value_.size()) return std::nullopt;
     const auto [numerator, denominator] = rationals->value_[i];
+    if (numerator == 0 && denominator == 0) return std::nullopt;
     return static_cast<double>(numerator) / static_cast<double>(denominator);
   };
   const Exiv2::Value& value = datum->value();
@@ -43,11 +44,11 @@ std::string Text(const Exiv2::ExifData& exif, const char* key) {
   return datum == exif.end() ? std::string() : datum->toString();
 }
 
+/// NaN where something else than a number is written there.
 std::optional<double> XmpNumber(const Exiv2::XmpData& xmp, const char* key) {
   const auto datum = xmp.findKey(Exiv2::XmpKey(key));
-  if (datum == xmp.end()) return std::nullopt;
-  const std::optional<double> value = NumberFromText(datum->toString());
-  return value && std::isfinite(*value) ? value : std::nullopt;
+  if (datum == xmp.end() || TrimmedText(datum->toString()).empty()) return std::nullopt;
+  return NumberFromText(datum->toString()).value_or(NAN);
 }
 
 /// Degrees, minutes and seconds of a latitude or longitude, and the letter of its hemisphere.
@@ -90,6 +91,7 @@ std::string ProblemOf(const WrittenAngle& angle, std::string_view letters) {
                         std::string(1, letters[1]));
   }
   for (const double part : angle.parts) {
+    if (!std::isfinite(part)) return absl::StrCat("its ", angle.name, " has a number over zero");
     if (part < 0.0) return absl::StrCat("its ", angle.name, " has a part below zero");
   }
   for (const double part : {angle.parts[1], angle.parts[2]}) {
@@ -101,12 +103,16 @@ std::string ProblemOf(const WrittenAngle& angle, std::string_view letters) {
 void ReadAltitude(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
   const std::optional<double> altitude = Rational(exif, "Exif.GPSInfo.GPSAltitude");
   if (!altitude) return;
-  // 0 and 1: above and below the sea; 2 and 3: above and below the ellipsoid.
+  if (!IsPlausibleHeight(*altitude)) {
+    metadata.left_out["EXIF altitude"] = absl::StrCat(*altitude, " m");
+    return;
+  }
+  // 0 and 1: above and below the sea; 2 and 3 (EXIF 3.0): above and below the ellipsoid.
   const std::string reference = Text(exif, "Exif.GPSInfo.GPSAltitudeRef");
   const bool below = reference.starts_with('1') || reference.starts_with('3');
-  if (!IsPlausibleHeight(*altitude)) return;
   metadata.position->altitude_m = below ? -*altitude : *altitude;
   metadata.altitude_known = true;
+  metadata.altitude_of_ellipsoid = reference.starts_with('2') || reference.starts_with('3');
 }
 
 void ReadPosition(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
@@ -117,7 +123,8 @@ void ReadPosition(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
   const double longitude_deg = longitude->Degrees();
   if (latitude_deg == 0.0 && longitude_deg == 0.0) return;
   std::string& problem = metadata.position_problem;
-  if (std::abs(latitude_deg) > 90.0 || std::abs(longitude_deg) > 180.0) {
+  const bool is_finite = std::isfinite(latitude_deg) && std::isfinite(longitude_deg);
+  if (is_finite && (std::abs(latitude_deg) > 90.0 || std::abs(longitude_deg) > 180.0)) {
     problem = absl::StrCat(
         "latitude ", latitude_deg, ", longitude ", longitude_deg, " is nowhere on Earth");
   }
@@ -125,7 +132,7 @@ void ReadPosition(const Exiv2::ExifData& exif, ImageMetadata& metadata) {
   if (problem.empty()) problem = ProblemOf(*longitude, "EW");
   if (!problem.empty()) return;
   const auto error_m = Rational(exif, "Exif.GPSInfo.GPSHPositioningError");
-  if (error_m && *error_m > kLargestSigma_m) {
+  if (error_m && std::isfinite(*error_m) && *error_m > kLargestSigma_m) {
     problem = absl::StrCat("it is good to ", *error_m / 1000.0, " km");
     return;
   }
@@ -140,16 +147,23 @@ void ReadOrientation(const Exiv2::ExifData& exif,
   metadata.heading_deg = XmpNumber(xmp, "Xmp.GPano.PoseHeadingDegrees");
   metadata.pitch_deg = XmpNumber(xmp, "Xmp.GPano.PosePitchDegrees");
   metadata.roll_deg = XmpNumber(xmp, "Xmp.GPano.PoseRollDegrees");
-  // A magnetic direction is off by the declination, up to tens of degrees: not taken.
-  if (!metadata.heading_deg && !Text(exif, "Exif.GPSInfo.GPSImgDirectionRef").starts_with('M')) {
-    metadata.heading_deg = Rational(exif, "Exif.GPSInfo.GPSImgDirection");
+  const auto direction_deg = Rational(exif, "Exif.GPSInfo.GPSImgDirection");
+  if (!metadata.heading_deg && direction_deg) {
+    // A magnetic direction is off by the declination, up to tens of degrees: not taken.
+    if (Text(exif, "Exif.GPSInfo.GPSImgDirectionRef").starts_with('M')) {
+      metadata.left_out["magnetic heading"] = absl::StrCat(*direction_deg);
+    } else {
+      metadata.heading_deg = direction_deg;
+    }
   }
-  const auto keep = [](std::optional<double>& angle_deg, bool (*is_plausible)(double)) {
-    if (angle_deg && !is_plausible(*angle_deg)) angle_deg.reset();
+  const auto keep = [&](const char* name, std::optional<double>& angle_deg, auto is_plausible) {
+    if (!angle_deg || is_plausible(*angle_deg)) return;
+    metadata.left_out[name] = absl::StrCat(*angle_deg);
+    angle_deg.reset();
   };
-  keep(metadata.heading_deg, IsPlausibleHeading);
-  keep(metadata.pitch_deg, IsPlausiblePitch);
-  keep(metadata.roll_deg, IsPlausibleRoll);
+  keep("heading", metadata.heading_deg, IsPlausibleHeading);
+  keep("pitch", metadata.pitch_deg, IsPlausiblePitch);
+  keep("roll", metadata.roll_deg, IsPlausibleRoll);
 }
 
 void ReadTime(const Exiv2::ExifData& exif, ImageMetadata& metadata) {

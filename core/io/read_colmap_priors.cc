@@ -27,6 +27,18 @@ constexpr size_t kNamesShown = 3;
 /// What is left out, with the names of its images.
 using Problems = std::map<std::string, std::vector<std::string>>;
 
+/// Whether nothing is stated: NULL, or NaN throughout, as COLMAP writes then.
+bool IsUnset(const SqliteStatement& rows, int column) {
+  if (rows.IsNull(column)) return true;
+  const std::string_view blob = rows.Blob(column);
+  if (blob.empty() || blob.size() % sizeof(double) != 0) return false;
+  ByteReader in(blob);
+  for (size_t i = 0; i < blob.size() / sizeof(double); ++i) {
+    if (!std::isnan(in.Take<double>())) return false;
+  }
+  return true;
+}
+
 void SetGeodetic(const std::array<double, 3>& position, DatabaseImage& image, Problems& problems) {
   if (std::abs(position[0]) > 90.0 || std::abs(position[1]) > 180.0 ||
       (position[0] == 0.0 && position[1] == 0.0)) {
@@ -43,8 +55,11 @@ void SetPrior(const std::array<double, 3>& position,
               int64_t coordinate_system,
               DatabaseImage& image,
               Problems& problems) {
-  if (coordinate_system == kWgs84) SetGeodetic(position, image, problems);
-  if (coordinate_system != kCartesian) return;
+  if (coordinate_system == kWgs84) return SetGeodetic(position, image, problems);
+  if (coordinate_system != kCartesian) {
+    problems["a position in a coordinate system that is not known"].push_back(image.name);
+    return;
+  }
   for (const double coordinate : position) {
     if (IsPlausibleCoordinate(coordinate)) continue;
     problems["a position that is nowhere, or 0/0,"].push_back(image.name);
@@ -114,11 +129,18 @@ absl::Status ReadColmapPriors(const SqliteConnection& connection, ColmapDatabase
     ORBWEAVE_ASSIGN_OR_RETURN(const bool more, rows.Step());
     if (!more) break;
     const auto id = ids.find(rows.Integer(0));
+    if (id == ids.end() || IsUnset(rows, 1)) continue;
+    DatabaseImage& image = database.images[id->second.value];
     const auto position = NumbersFromBlob<3>(rows.Blob(1));
-    if (id == ids.end() || !position) continue;
-    const auto covariance = rows.IsNull(3) ? std::nullopt : NumbersFromBlob<9>(rows.Blob(3));
-    SetPrior(*position, rows.Integer(2), database.images[id->second.value], problems);
-    SetSigma(covariance, database.images[id->second.value], problems);
+    if (!position) {
+      problems["a position that is not three numbers"].push_back(image.name);
+      continue;
+    }
+    const auto covariance = NumbersFromBlob<9>(rows.Blob(3));
+    if (!covariance && !IsUnset(rows, 3))
+      problems["a covariance that is not nine numbers"].push_back(image.name);
+    SetPrior(*position, rows.Integer(2), image, problems);
+    SetSigma(covariance, image, problems);
   }
   DropSharedZeros(database, problems);
   for (const auto& [problem, names] : problems) {

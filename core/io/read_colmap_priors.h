@@ -10,8 +10,9 @@ namespace orbweave {
 
 /// Reads the table pose_priors, if there is one, into the images' priors. Positions that cannot be
 /// (latitude and longitude off the Earth or both 0, coordinates beyond 100,000 km, several images
-/// at exactly 0/0/0), heights and covariances that cannot be are left out, and database.warnings
-/// counts and names them.
+/// at exactly 0/0/0; other than three numbers, or in a coordinate system that is not known),
+/// heights and covariances that cannot be are left out, and database.warnings counts and names
+/// them.
 [[nodiscard]] absl::Status ReadColmapPriors(const SqliteConnection& connection,
                                             ColmapDatabase& database);
 

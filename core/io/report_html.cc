@@ -39,7 +39,8 @@ std::string Cards(const JobReport& report) {
                    Card(DecimalText(report.mean_track_length, 2), "images", "mean track length"),
                    Card(DecimalText(report.residual_px_mean, 3),
                         "px",
-                        "mean residual (rms " + DecimalText(report.residual_px_rms, 3) + ")"),
+                        "mean residual (rms " + DecimalText(report.residual_px_rms, 3) +
+                            "; in the image " + DecimalText(report.residual_erp_px_mean, 3) + ")"),
                    Card(CountText(report.clusters.size()),
                         "",
                         report.clusters.size() == 1 ? "cluster" : "clusters"));

@@ -99,6 +99,19 @@ void WarnOfUnusedMasks(const MaskIndex& masks,
                                                    FirstNames(unused, kNamesShown))));
 }
 
+void WarnOfValues(const std::string& what,
+                  const std::vector<std::string>& images,
+                  ImageSources& sources) {
+  if (images.empty()) return;
+  sources.warnings.push_back(absl::StrCat("the ",
+                                          what,
+                                          " of ",
+                                          images.size(),
+                                          images.size() == 1 ? " image" : " images",
+                                          " is not used: ",
+                                          FirstNames(images, kNamesShown)));
+}
+
 /// "the EXIF position of 2 images is not used: a.jpg (latitude -95, ...), ..." or nothing.
 void WarnOfPositions(ImageSources& sources) {
   std::vector<std::string> left_out;
@@ -106,12 +119,17 @@ void WarnOfPositions(ImageSources& sources) {
     const std::string& problem = image.metadata.position_problem;
     if (!problem.empty()) left_out.push_back(absl::StrCat(image.name, " (", problem, ")"));
   }
-  if (left_out.empty()) return;
-  sources.warnings.push_back(absl::StrCat("the EXIF position of ",
-                                          left_out.size(),
-                                          left_out.size() == 1 ? " image" : " images",
-                                          " is not used: ",
-                                          FirstNames(left_out, kNamesShown)));
+  WarnOfValues("EXIF position", left_out, sources);
+}
+
+/// The same of other values: "the heading of 1 image is not used: a.jpg (1e+30)".
+void WarnOfImpossibleValues(ImageSources& sources) {
+  std::map<std::string, std::vector<std::string>> left_out;
+  for (const SourceImage& image : sources.images) {
+    for (const auto& [name, value] : image.metadata.left_out)
+      left_out[name].push_back(absl::StrCat(image.name, " (", value, ")"));
+  }
+  for (const auto& [name, images] : left_out) WarnOfValues(name, images, sources);
 }
 
 /// One entry per name; `mask_path` is relative to the mask folder as yet.
@@ -204,6 +222,7 @@ absl::StatusOr<ImageSources> ScanImagePlaces(const ImagePlaces& places,
   AssignNamesAndMasks(names, masks, sources);
   ORBWEAVE_RETURN_IF_ERROR(ScanAll(places, context, sources));
   WarnOfPositions(sources);
+  WarnOfImpossibleValues(sources);
   return sources;
 }
 

@@ -42,8 +42,7 @@ std::vector<Passage> PassagesOf(std::span<const ImageId> sequence,
                                 const std::map<ImageId, RegisteredImage>& images,
                                 const ImageManifest& manifest) {
   std::vector<Passage> passages;
-  if (!HaveTimes(manifest, sequence)) return passages;
-  for (const ImageId id : sequence) {
+  for (const ImageId id : TimedAmong(manifest, sequence)) {
     const auto image = images.find(id);
     if (image == images.end() || image->second.loose) continue;
     passages.push_back({.id = id,

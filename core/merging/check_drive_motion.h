@@ -19,8 +19,8 @@ namespace orbweave {
 /// when that is further away than a dt_1 dt_2 / 2 with a = 12 m/s^2, which is beyond the grip of
 /// tyres, and six times the median of all of the drive, which holds what its times are wrong by.
 /// Positions that confirm it to half, and gaps of more than 20 s, are not asked. Only for models
-/// in metres (`images` in east, north, up). Loose images take no part. Linear but for sorting.
-/// Value: how far the worst is off, in metres.
+/// in metres (`images` in east, north, up). Loose images and those without a time take no part.
+/// Linear but for sorting. Value: how far the worst is off, in metres.
 [[nodiscard]] CrossCheck CheckDriveMotion(const std::map<ImageId, RegisteredImage>& images,
                                           const ImageManifest& manifest);
 

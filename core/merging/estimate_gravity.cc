@@ -7,81 +7,29 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
+#include "core/merging/drive_attitudes.h"
 #include "core/merging/find_gravity.h"
-#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // What a drive can know of down in its cameras: roads slope and bank by some per cent, for long.
 constexpr double kRoadSigma_rad = 0.02;
 // Of the ground as a whole: carriers stand at right angles to it, and hillsides slope by as much as
 // towns are built on.
 constexpr double kGroundSigma_rad = 0.05;
 constexpr double kLeastScatter_rad = 1e-3;
-constexpr double kMinStatedShare = 0.5;
 constexpr int kRounds = 20;
 constexpr int kSteps = 30;
 
-// The attitudes of a drive: from the world to the cameras, made level where that is stated.
-struct Attitudes {
-  uint32_t drive = 0;
-  std::vector<Eigen::Matrix3d> level_from_world{};
-  double sigma_rad = kMountSigma_rad;  // of d_k about y
-  bool is_stated = false;
-};
-
-bool StatesTilt(const PosePrior& prior) { return prior.pitch_deg && prior.roll_deg; }
-
-Eigen::Matrix3d LevelFromCamera(const PosePrior& prior) {
-  const Eigen::Vector3d down =
-      DownInCamera(kRadPerDeg * *prior.pitch_deg, kRadPerDeg * *prior.roll_deg);
-  return RotationBetween(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
-}
-
-Attitudes AttitudesOf(const Reconstruction& reconstruction,
-                      const ImageManifest& manifest,
-                      uint32_t drive,
-                      const std::vector<ImageId>& images) {
-  const auto num_stating = static_cast<double>(
-      std::ranges::count_if(images, [&](ImageId id) { return StatesTilt(manifest.At(id).prior); }));
-  const bool is_stated = num_stating >= kMinStatedShare * static_cast<double>(images.size());
-  Attitudes attitudes{.drive = drive, .is_stated = is_stated};
-  double sigma_deg = 0.0;
-  for (const ImageId id : images) {
-    const Eigen::Matrix3d R =
-        reconstruction.images.at(id).cam_from_world.rotation.toRotationMatrix();
-    const PosePrior& prior = manifest.At(id).prior;
-    if (!is_stated) {
-      attitudes.level_from_world.push_back(R);
-    } else if (StatesTilt(prior)) {
-      attitudes.level_from_world.push_back(LevelFromCamera(prior) * R);
-      sigma_deg = std::max(sigma_deg, prior.tilt_sigma_deg);
-    }
-  }
-  if (is_stated) attitudes.sigma_rad = kRadPerDeg * sigma_deg;
-  return attitudes;
-}
-
-std::vector<Attitudes> AllAttitudes(const Reconstruction& reconstruction,
-                                    const ImageManifest& manifest) {
-  std::vector<Attitudes> drives;
-  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    std::vector<ImageId> images;
-    for (const ImageId id : sequence) {
-      const auto image = reconstruction.images.find(id);
-      if (image != reconstruction.images.end() && !image->second.loose) images.push_back(id);
-    }
-    if (!images.empty()) drives.push_back(AttitudesOf(reconstruction, manifest, drive, images));
-  }
-  return drives;
+// Of d_k about y, in any direction.
+double MountSigma_rad(const DriveAttitudes& drive) {
+  return drive.stated_sigma_rad.value_or(kMountSigma_rad);
 }
 
 // A drive's part of the cost with d_k eliminated: constant - |S g + u y|^2 / (W + u).
@@ -92,6 +40,10 @@ struct DriveTerm {
 
   [[nodiscard]] Eigen::Vector3d DownInMount(const Eigen::Vector3d& down) const {
     return (S * down + u * Eigen::Vector3d::UnitY()) / (W + u);
+  }
+  // Of that, where down is known to `down_sigma_rad`.
+  [[nodiscard]] double MountSigma_rad(double down_sigma_rad) const {
+    return std::hypot(1.0 / std::sqrt(W + u), W / (W + u) * down_sigma_rad);
   }
 };
 
@@ -157,10 +109,10 @@ Eigen::Vector3d Minimise(const std::vector<DriveTerm>& terms, Eigen::Vector3d do
 
 class Estimate {
  public:
-  Estimate(const std::vector<Attitudes>& drives, const Eigen::Vector3d& start)
+  Estimate(const std::vector<DriveAttitudes>& drives, const Eigen::Vector3d& start)
       : drives_(drives), down_(start) {
-    for (const Attitudes& drive : drives) {
-      terms_.push_back({.u = 1.0 / (drive.sigma_rad * drive.sigma_rad)});
+    for (const DriveAttitudes& drive : drives) {
+      terms_.push_back({.u = 1.0 / std::pow(MountSigma_rad(drive), 2)});
       in_mount_.push_back(MeanDown(drive));
     }
   }
@@ -175,13 +127,15 @@ class Estimate {
     Gravity gravity{.down_in_world = down_};
     gravity.sigma_rad = Sigma_rad();
     gravity.mount_share = MountShare(terms_, down_);
-    for (size_t k = 0; k < drives_.size(); ++k)
+    for (size_t k = 0; k < drives_.size(); ++k) {
       gravity.down_in_mount[drives_[k].drive] = in_mount_[k].normalized();
+      gravity.mount_sigma_rad[drives_[k].drive] = terms_[k].MountSigma_rad(gravity.sigma_rad);
+    }
     return gravity;
   }
 
  private:
-  [[nodiscard]] Eigen::Vector3d MeanDown(const Attitudes& drive) const {
+  [[nodiscard]] Eigen::Vector3d MeanDown(const DriveAttitudes& drive) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Matrix3d& R : drive.level_from_world) sum += R * down_;
     return sum / static_cast<double>(drive.level_from_world.size());
@@ -192,7 +146,7 @@ class Estimate {
   [[nodiscard]] double Sigma_rad() const {
     std::vector<DriveTerm> stated;
     for (size_t k = 0; k < terms_.size(); ++k) {
-      if (drives_[k].is_stated) stated.push_back(terms_[k]);
+      if (drives_[k].stated_sigma_rad) stated.push_back(terms_[k]);
     }
     const double sigma_rad = std::max(SigmaOf(terms_, down_), kGroundSigma_rad);
     return stated.empty() ? sigma_rad : std::min(sigma_rad, SigmaOf(stated, down_));
@@ -227,11 +181,11 @@ class Estimate {
   void Forgive() {
     for (size_t k = 0; k < drives_.size(); ++k) {
       const double lean = (in_mount_[k] - Eigen::Vector3d::UnitY()).norm();
-      terms_[k].u = 1.0 / (drives_[k].sigma_rad * drives_[k].sigma_rad + lean * lean);
+      terms_[k].u = 1.0 / (std::pow(MountSigma_rad(drives_[k]), 2) + lean * lean);
     }
   }
 
-  const std::vector<Attitudes>& drives_;
+  const std::vector<DriveAttitudes>& drives_;
   Eigen::Vector3d down_;
   std::vector<DriveTerm> terms_{};
   std::vector<Eigen::Vector3d> in_mount_{};
@@ -239,18 +193,12 @@ class Estimate {
 
 }  // namespace
 
-Eigen::Vector3d DownInCamera(double pitch_rad, double roll_rad) {
-  return {std::sin(roll_rad) * std::cos(pitch_rad),
-          std::cos(roll_rad) * std::cos(pitch_rad),
-          -std::sin(pitch_rad)};
-}
-
 std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,
                                        const ImageManifest& manifest) {
-  const std::vector<Attitudes> drives = AllAttitudes(reconstruction, manifest);
+  const std::vector<DriveAttitudes> drives = AttitudesOfDrives(reconstruction, manifest);
   Reconstruction level;
   uint32_t next = 0;
-  for (const Attitudes& drive : drives) {
+  for (const DriveAttitudes& drive : drives) {
     for (const Eigen::Matrix3d& R : drive.level_from_world)
       level.images[ImageId(next++)].cam_from_world.rotation = Eigen::Quaterniond(R);
   }

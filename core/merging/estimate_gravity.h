@@ -31,6 +31,8 @@ struct Gravity {
   /// Per drive the mean of down in the cameras, unit: what its mount makes of it, after what is
   /// stated of each panorama is taken off.
   std::map<uint32_t, Eigen::Vector3d> down_in_mount{};
+  /// Standard deviation of each of these in any direction, that of down included.
+  std::map<uint32_t, double> mount_sigma_rad{};
 
   /// Where GNSS finds down `away_rad` from here, mounts lean more than most: as with Cauchy's loss
   /// they then count for less, down to a third: none leans much further than kMaxLean_rad. What
@@ -40,9 +42,6 @@ struct Gravity {
   }
 };
 
-/// Down in a camera whose pitch (up) and roll (clockwise) are stated.
-[[nodiscard]] Eigen::Vector3d DownInCamera(double pitch_rad, double roll_rad);
-
 /// The carrier of a drive keeps upright but for slopes, its mount leans by an unknown but constant
 /// rotation: so down, seen from the cameras of a drive, is one direction d_k, wherever they look,
 /// and the one direction g of the world that stays where the cameras turn is down. Minimises
@@ -50,9 +49,9 @@ struct Gravity {
 /// over g and all d_k; rho is Cauchy's at the scatter found, rho' at kMountSigma_rad: most mounts
 /// stand upright, some lean far. In a street without turns the second term decides ("cameras are
 /// upright"), with its sigma. Slopes keep a drive from knowing d_k to better than a degree, and
-/// ground that slopes as a whole keeps all of them from knowing g to better than three. Where half
-/// a drive's panoramas or more state pitch and roll, R_i is that from the world into a level
-/// camera, and d_k is within their tilt_sigma_deg.
+/// ground that slopes as a whole keeps all of them from knowing g to better than three. Where
+/// enough of a drive's panoramas state pitch and roll (DriveAttitudes), R_i is that from the world
+/// into a level camera, and d_k is within their tilt_sigma_deg.
 ///
 /// nullopt where panoramas are not upright on average (FindGravity) or there are none.
 [[nodiscard]] std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,

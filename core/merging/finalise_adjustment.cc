@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/merging/assess_world.h"
+#include "core/merging/check_attitudes.h"
 #include "core/merging/check_drive_motion.h"
 #include "core/merging/check_gnss.h"
 #include "core/merging/check_sequence_steps.h"
@@ -174,6 +175,7 @@ FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
   const std::map<ImageId, RegisteredImage> images = ModelImages(world);
   world.report.checks.push_back(CheckSequenceSteps(images, manifest, is_in_metres));
   if (is_in_metres) world.report.checks.push_back(CheckDriveMotion(images, manifest));
+  std::ranges::move(CheckAttitudes(images, manifest), std::back_inserter(world.report.checks));
   return world;
 }
 

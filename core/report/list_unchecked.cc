@@ -3,9 +3,9 @@
 #include "core/report/list_unchecked.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
-#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -17,15 +17,13 @@ std::string CountOf(size_t part, size_t whole) {
 /// Loose images hold nothing: no length rests on them.
 bool IsSupported(const ReportImage& image) { return image.registered && !image.loose; }
 
-/// Registered images of drives without capture times.
+/// Registered images without a capture time.
 size_t CountWithoutTimes(const JobResults& results, const JobReport& report) {
-  size_t count = 0;
-  for (const auto& [drive, sequence] : SequenceOfDrives(results.manifest)) {
-    if (HaveTimes(results.manifest, sequence)) continue;
-    count += static_cast<size_t>(std::ranges::count_if(
-        sequence, [&](ImageId image) { return IsSupported(report.images[image.value]); }));
-  }
-  return count;
+  return static_cast<size_t>(
+      std::ranges::count_if(results.manifest.images, [&report](const ImageRecord& image) {
+        return IsSupported(report.images[image.id.value]) &&
+               !std::isfinite(image.capture_time_s.value_or(NAN));
+      }));
 }
 
 }  // namespace

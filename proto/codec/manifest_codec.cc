@@ -66,6 +66,7 @@ void ToProto(const ImageMetadata& value, v1::ImageMetadata* proto) {
   proto->set_height_px(value.height_px);
   if (value.position) ToProto(*value.position, proto->mutable_position());
   proto->set_altitude_known(value.altitude_known);
+  proto->set_altitude_of_ellipsoid(value.altitude_of_ellipsoid);
   if (value.position_error_m) proto->set_position_error_m(*value.position_error_m);
   AnglesToProto(value, proto);
   if (value.capture_time_s) proto->set_capture_time_s(*value.capture_time_s);
@@ -75,6 +76,7 @@ absl::StatusOr<ImageMetadata> FromProto(const v1::ImageMetadata& proto) {
   ImageMetadata value{.width_px = proto.width_px(), .height_px = proto.height_px()};
   if (proto.has_position()) value.position = FromProto(proto.position());
   value.altitude_known = proto.altitude_known();
+  value.altitude_of_ellipsoid = proto.altitude_of_ellipsoid();
   if (proto.has_position_error_m()) value.position_error_m = proto.position_error_m();
   AnglesFromProto(proto, value);
   if (proto.has_capture_time_s()) value.capture_time_s = proto.capture_time_s();

@@ -10,11 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/sequence_of_drive.h"
+#include "stages/ingest_images/join_gnss_rows.h"
+
 namespace orbweave {
 namespace {
 
-/// Indices of images that are gone through one after another.
-using Sequence = std::vector<size_t>;
+/// Images that are gone through one after another.
+using Sequence = std::vector<ImageId>;
 
 std::string FolderOf(const std::string& name) { return name.substr(0, name.rfind('/') + 1); }
 
@@ -22,8 +25,10 @@ std::string FolderOf(const std::string& name) { return name.substr(0, name.rfind
 bool TimesOverlap(const std::map<std::string, Sequence>& folders, const ImageManifest& manifest) {
   std::vector<std::pair<double, double>> spans_s;
   for (const auto& [folder, images] : folders) {
-    const auto time_s = [&](size_t i) { return *manifest.images[i].capture_time_s; };
-    const auto [first, last] = std::ranges::minmax_element(images, {}, time_s);
+    const Sequence timed = TimedAmong(manifest, images);
+    if (timed.empty()) continue;
+    const auto time_s = [&](ImageId id) { return *manifest.At(id).capture_time_s; };
+    const auto [first, last] = std::ranges::minmax_element(timed, {}, time_s);
     spans_s.emplace_back(time_s(*first), time_s(*last));
   }
   std::ranges::sort(spans_s);
@@ -35,21 +40,13 @@ bool TimesOverlap(const std::map<std::string, Sequence>& folders, const ImageMan
 }
 
 /// The images without a label, in the order in which they were taken as far as that is known.
-std::vector<Sequence> Sequences(const Sequence& unlabelled, const ImageManifest& manifest) {
-  const auto has_time = [&](size_t i) { return manifest.images[i].capture_time_s.has_value(); };
-  if (!std::ranges::all_of(unlabelled, has_time)) return {unlabelled};
+std::vector<TimeOrder> OrdersOf(const Sequence& unlabelled, const ImageManifest& manifest) {
   std::map<std::string, Sequence> folders;
-  for (const size_t i : unlabelled) folders[FolderOf(manifest.images[i].name)].push_back(i);
-  std::vector<Sequence> sequences = {unlabelled};
-  if (TimesOverlap(folders, manifest)) {
-    sequences.clear();
-    for (auto& [folder, images] : folders) sequences.push_back(std::move(images));
-  }
-  for (Sequence& sequence : sequences) {
-    std::ranges::stable_sort(
-        sequence, {}, [&](size_t i) { return *manifest.images[i].capture_time_s; });
-  }
-  return sequences;
+  for (const ImageId id : unlabelled) folders[FolderOf(manifest.At(id).name)].push_back(id);
+  if (!TimesOverlap(folders, manifest)) return {OrderByTime(manifest, unlabelled)};
+  std::vector<TimeOrder> orders;
+  for (const auto& [folder, images] : folders) orders.push_back(OrderByTime(manifest, images));
+  return orders;
 }
 
 /// Cuts a sequence at its pauses; appends to `groups`.
@@ -59,12 +56,24 @@ void CutAtPauses(const Sequence& sequence,
                  std::vector<Sequence>& groups) {
   std::optional<double> last_time_s;
   for (size_t k = 0; k < sequence.size(); ++k) {
-    const std::optional<double>& time_s = manifest.images[sequence[k]].capture_time_s;
+    const std::optional<double>& time_s = manifest.At(sequence[k]).capture_time_s;
     const bool paused = time_s && last_time_s && std::abs(*time_s - *last_time_s) > gap_s;
     if (k == 0 || paused) groups.emplace_back();
     if (time_s) last_time_s = time_s;
     groups.back().push_back(sequence[k]);
   }
+}
+
+void WarnOfUnsure(std::vector<ImageId> unsure, ImageManifest& manifest) {
+  std::ranges::sort(unsure);
+  std::vector<std::string> names;
+  for (const ImageId id : unsure) names.push_back(manifest.At(id).name);
+  WarnOfNames(names,
+              "image has no capture time, and the times of others do not follow names there; it "
+              "is taken to follow the one before it by name",
+              "images have no capture time, and the times of others do not follow names there; "
+              "they are taken to follow the ones before them by name",
+              manifest);
 }
 
 }  // namespace
@@ -95,17 +104,25 @@ void AssignDrives(std::span<const IngestCandidate> candidates,
   Sequence unlabelled;
   for (size_t i = 0; i < candidates.size(); ++i) {
     const GnssRow* row = candidates[i].row;
-    (row != nullptr && row->drive ? labelled[*row->drive] : unlabelled).push_back(i);
+    (row != nullptr && row->drive ? labelled[*row->drive] : unlabelled)
+        .push_back(manifest.images[i].id);
   }
   std::vector<Sequence> groups;
-  for (auto& [label, images] : labelled) groups.push_back(std::move(images));
-  for (const Sequence& sequence : Sequences(unlabelled, manifest))
-    CutAtPauses(sequence, gap_s, manifest, groups);
+  Sequence unsure;
+  const auto order_of_group = [&](const TimeOrder& order) {
+    unsure.insert(unsure.end(), order.unsure.begin(), order.unsure.end());
+    return order.sequence;
+  };
+  for (const auto& [label, images] : labelled)
+    groups.push_back(order_of_group(OrderByTime(manifest, images)));
+  for (const TimeOrder& order : OrdersOf(unlabelled, manifest))
+    CutAtPauses(order_of_group(order), gap_s, manifest, groups);
   std::ranges::sort(
       groups, {}, [](const Sequence& group) { return *std::ranges::min_element(group); });
   for (uint32_t drive = 0; drive < groups.size(); ++drive) {
-    for (const size_t i : groups[drive]) manifest.images[i].drive = drive;
+    for (const ImageId id : groups[drive]) manifest.images[id.value].drive = drive;
   }
+  WarnOfUnsure(std::move(unsure), manifest);
 }
 
 }  // namespace orbweave

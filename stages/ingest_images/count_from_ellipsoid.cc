@@ -9,6 +9,7 @@
 namespace orbweave {
 
 absl::Status CountFromEllipsoid(HeightDatum datum,
+                                const std::set<ImageId>& of_ellipsoid,
                                 ImageManifest& manifest,
                                 const std::string& folder) {
   if (datum == HeightDatum::kEllipsoid) return absl::OkStatus();
@@ -16,6 +17,7 @@ absl::Status CountFromEllipsoid(HeightDatum datum,
   size_t count = 0;
   for (ImageRecord& image : manifest.images) {
     if (!image.prior.geodetic || !std::isfinite(image.prior.geodetic->altitude_m)) continue;
+    if (of_ellipsoid.contains(image.id)) continue;
     GeodeticPosition& position = *image.prior.geodetic;
     ORBWEAVE_ASSIGN_OR_RETURN(
         position.altitude_m,
@@ -26,7 +28,7 @@ absl::Status CountFromEllipsoid(HeightDatum datum,
   if (count == 0) {
     manifest.warnings.emplace_back(
         "ingest.height (--height) changes nothing: no position has latitude, longitude and "
-        "altitude");
+        "an altitude that may be counted from a geoid");
   }
   return absl::OkStatus();
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include "absl/strings/str_cat.h"
 #include "core/io/natural_order.h"
@@ -108,6 +109,16 @@ ImageRecord RecordOf(const SourceImage& source, uint32_t index, ImageManifest& m
   return record;
 }
 
+/// The images whose position is that of EXIF and says that its altitude is above the ellipsoid.
+std::set<ImageId> WithAltitudeOfEllipsoid(const std::vector<IngestCandidate>& candidates) {
+  std::set<ImageId> images;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].row == nullptr && candidates[i].source->metadata.altitude_of_ellipsoid)
+      images.insert(ImageId(static_cast<uint32_t>(i)));
+  }
+  return images;
+}
+
 /// What the person who gave a table or masks will want to know of images that have none.
 void WarnOfGaps(const std::vector<IngestCandidate>& candidates,
                 const GnssTable& table,
@@ -155,7 +166,8 @@ absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
     record.prior = PriorOf(candidate, local, options);
     context.Report(manifest.images.size(), candidates.size(), "images");
   }
-  ORBWEAVE_RETURN_IF_ERROR(CountFromEllipsoid(options.height, manifest));
+  ORBWEAVE_RETURN_IF_ERROR(
+      CountFromEllipsoid(options.height, WithAltitudeOfEllipsoid(candidates), manifest));
   PlaceInLocalFrame(manifest);
   DropSharedAngles(candidates, manifest);
   SetCaptureTimes(candidates, manifest);

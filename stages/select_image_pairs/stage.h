@@ -12,7 +12,7 @@ namespace orbweave {
 
 /// Where images are and what they look like -> the pairs to try, and when (ListPairCandidates).
 struct SelectImagePairsStage {
-  static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "4", .weight = 3.0};
+  static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "5", .weight = 3.0};
   using Options = OptionSections<PairOptions, RetrievalOptions>;
 
   One<ImageManifest> manifest;

@@ -233,6 +233,39 @@ TEST(BadInput, AnOptionOutOfRangeIsRefused) {
   EXPECT_THAT(run.err, HasSubstr("[0.1, 1]"));
 }
 
+/// Three images in clusters of two at most.
+const std::vector<std::string> kCeresInClusters = {
+    "--set", "bundle.solver=ceres", "--set", "partition.cluster_size=2"};
+
+TEST(BadInput, OptionsThatCannotWorkTogetherAreRefusedByRun) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  const CommandOutcome run = RunImages(folder, kCeresInClusters);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("add partition.cluster_size=0, or leave out bundle.solver=ceres"));
+  const CommandOutcome dense = RunImages(folder, {"--dense", "--set", "sources.near_m=50"});
+  EXPECT_EQ(dense.exit_code, 2);
+  EXPECT_THAT(dense.err, HasSubstr("sources.far_m"));
+}
+
+TEST(BadInput, OptionsThatCannotWorkTogetherAreRefusedBySubmit) {
+  const TemporaryFolder folder;
+  WriteGoodImages(folder);
+  const std::string address = "unix:" + (folder / "s");
+  Command serve({ORBWEAVE_BINARY, "serve", "--listen", address, "--state", folder / "state"});
+  ASSERT_TRUE(WaitUntil([&] { return serve.ErrSoFar().find("ready") != std::string::npos; }, 60.0));
+  std::vector<std::string> submit = {
+      ORBWEAVE_BINARY, "submit", "--coordinator", address, folder / "images"};
+  submit.insert(submit.end(), kCeresInClusters.begin(), kCeresInClusters.end());
+  const CommandOutcome outcome = RunCommand(submit);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("add partition.cluster_size=0, or leave out bundle.solver=ceres"));
+  EXPECT_EQ(outcome.out, "");
+  serve.Signal(SIGTERM);
+  serve.Wait();
+}
+
 TEST(BadInput, AnOutputThatCannotBeWrittenIsRefusedBeforeAnyWork) {
   const TemporaryFolder folder;
   WriteGoodImages(folder);

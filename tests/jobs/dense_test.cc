@@ -115,6 +115,25 @@ TEST_F(DenseTest, CutsTilesIntoPiecesWithTheSamePoints) {
             ReadAll(*folder_ / "model/dense/from_above.png"));
 }
 
+TEST_F(DenseTest, RefusesOptionsThatCannotWorkTogether) {
+  const std::vector<std::string> wrong = {
+      "--set", "sources.min_angle_deg=20", "--set", "sources.max_angle_deg=10"};
+  const std::vector<std::vector<std::string>> commands = {{"dense", *folder_ / "model"},
+                                                          {"dense",
+                                                           "--colmap",
+                                                           *folder_ / "model/sparse/0",
+                                                           "--images",
+                                                           *folder_ / "street/images",
+                                                           "--output",
+                                                           *folder_ / "refused"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), wrong.begin(), wrong.end());
+    const CommandOutcome dense = Orbweave(command);
+    EXPECT_EQ(dense.exit_code, 2) << command[1];
+    EXPECT_THAT(dense.err, HasSubstr("sources.max_angle_deg=10"));
+  }
+}
+
 TEST_F(DenseTest, OneAndThreeWorkersWriteTheSameBytes) {
   const auto before = FilesOf(*folder_ / "model/dense");
   for (const std::string workers : {"1", "3"}) {

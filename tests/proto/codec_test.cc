@@ -259,6 +259,7 @@ TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
       .name = "a.jpg", .path = "/somewhere/a.jpg", .content = DigestOf("a"), .size_bytes = 7};
   image.metadata = {.width_px = 100, .height_px = 50};
   image.metadata.position = GeodeticPosition{47.0, 8.0, 400.0};
+  image.metadata.altitude_known = image.metadata.altitude_of_ellipsoid = true;
   image.mask_path = "/somewhere/masks/a.png";
   image.mask = DigestOf("m");
   image.mask_width_px = 100;
@@ -276,6 +277,7 @@ TEST(SourcesCodec, KeepsWhatIngestLooksAtAndNoPaths) {
   EXPECT_EQ(out->images[0].mask_width_px, 100);
   EXPECT_EQ(out->images[0].metadata.width_px, 100);
   EXPECT_EQ(out->images[0].metadata.position->altitude_m, 400.0);
+  EXPECT_TRUE(out->images[0].metadata.altitude_of_ellipsoid);
   EXPECT_EQ(out->images[0].position_in_local, image.position_in_local);
   EXPECT_EQ(out->images[0].position_sigma_m, image.position_sigma_m);
   EXPECT_EQ(out->gnss_text, in.gnss_text);

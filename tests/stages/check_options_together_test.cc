@@ -7,6 +7,9 @@
 
 #include <initializer_list>
 #include <string>
+#include <vector>
+
+#include "stages/preset_options.h"
 
 namespace orbweave {
 namespace {
@@ -67,10 +70,45 @@ TEST(CheckOptionsTogether, RefusesCeresWhereSubproblemsAreDistributed) {
       "");
 }
 
-TEST(CheckOptionsTogether, RefusesAStartThatThePresetWouldIgnore) {
-  EXPECT_THAT(ProblemOf({"mapping.preset=paper", "mapping.start=global"}, {.num_images = 10}),
-              HasSubstr("mapping.start"));
-  EXPECT_EQ(ProblemOf({"mapping.preset=paper"}, {.num_images = 10}), "");
+/// Options over the defaults of the paper, as commands read them.
+std::string ProblemUnderPaper(std::vector<std::string> assignments) {
+  assignments.insert(assignments.begin(), "mapping.preset=paper");
+  return std::string(
+      CheckOptionsTogether(OptionsOverPreset("", "", assignments).value(), {.num_images = 10})
+          .message());
+}
+
+TEST(CheckOptionsTogether, RefusesWhatThePresetWouldIgnore) {
+  EXPECT_EQ(ProblemUnderPaper({}), "");
+  EXPECT_EQ(ProblemUnderPaper({"bundle.residual=erp_px", "mapping.max_error_px=3"}), "");
+  for (const std::string ignored : {"mapping.start=global",
+                                    "bundle.residual=angle",
+                                    "bundle.loss=cauchy",
+                                    "mapping.local_window=6",
+                                    "mapping.two_view_below=0"}) {
+    EXPECT_THAT(ProblemUnderPaper({ignored}), HasSubstr(ignored.substr(0, ignored.find('='))));
+    EXPECT_EQ(ProblemOf({ignored.c_str()}, {.num_images = 10}), "");
+  }
+}
+
+TEST(CheckOptionsTogether, RefusesLessOverlapAfterAReviewThanBefore) {
+  const JobShape street{.num_images = 200};
+  EXPECT_THAT(ProblemOf({"partition.overlap=60"}, street),
+              HasSubstr("partition.max_overlap=48 is less than partition.overlap=60"));
+  EXPECT_EQ(ProblemOf({"partition.overlap=48"}, street), "");
+  EXPECT_EQ(ProblemOf({"partition.overlap=60", "partition.max_overlap=60"}, street), "");
+  EXPECT_EQ(ProblemOf({"partition.overlap=60", "partition.reviews=0"}, street), "");
+  EXPECT_EQ(ProblemOf({"partition.overlap=60"}, {.num_images = 40}), "");  // stays one cluster
+}
+
+TEST(CheckOptionsTogether, LooksAtWhatACloudReads) {
+  EXPECT_THAT(ProblemOf({"sources.near_m=50"}, {.num_images = 10}), HasSubstr("sources.far_m=40"));
+  EXPECT_TRUE(CheckDenseOptions(With({"sources.near_m=50", "sources.far_m=60"}).sources).ok());
+  EXPECT_FALSE(CheckDenseOptions(With({"sources.near_m=40"}).sources).ok());
+  EXPECT_THAT(
+      CheckDenseOptions(With({"sources.min_angle_deg=30", "sources.max_angle_deg=30"}).sources)
+          .message(),
+      HasSubstr("sources.max_angle_deg=30"));
 }
 
 TEST(CheckOptionsTogether, RefusesToKeepNoModelAtAll) {

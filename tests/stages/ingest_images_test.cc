@@ -10,6 +10,7 @@
 
 #include "core/io/scan_image_folder.h"
 #include "core/scene/local_frame.h"
+#include "core/scene/sequence_of_drive.h"
 #include "stages/ingest_images/count_from_ellipsoid.h"
 #include "stages/ingest_images/ingest_options.h"
 #include "tests/core/io/geoid_grid.h"
@@ -202,6 +203,57 @@ TEST(IngestImages, FindsDrivesByTimeWhereNamesAreInAnotherOrder) {
   EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 1, 0, 1, 0, 1));
 }
 
+TEST(IngestImages, OneImageWithoutATimeLeavesTheOthersInOrder) {
+  // Two drives a day apart, the later one first by name.
+  ImageSources sources = GoodSources(6);
+  const double times_s[6] = {86400.0, 86410.0, 86420.0, 0.0, 10.0, 20.0};
+  for (size_t i = 0; i < 6; ++i) sources.images[i].metadata.capture_time_s = times_s[i];
+  sources.images[4].metadata.capture_time_s.reset();
+  ImageManifest manifest = Ingest(sources);
+  EXPECT_THAT(DrivesOf(manifest), ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(manifest.warnings, IsEmpty());
+  // Between the last of one drive and the first of the other by name, which is no place by time.
+  sources.images[4].metadata.capture_time_s = times_s[4];
+  sources.images[3].metadata.capture_time_s.reset();
+  manifest = Ingest(sources);
+  EXPECT_THAT(DrivesOf(manifest), ElementsAre(0, 0, 0, 0, 1, 1));
+  EXPECT_THAT(manifest.warnings,
+              ElementsAre(AllOf(HasSubstr("no capture time"), HasSubstr(": img3.jpg"))));
+}
+
+TEST(IngestImages, NamesImagesOfALabelledDriveThatNothingPlaces) {
+  ImageSources sources = GoodSources(4);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text =
+      "name,x,y,z,drive,time\nimg0.jpg,0,0,0,a,30\nimg1.jpg,1,0,0,a,\nimg2.jpg,2,0,0,a,10\n"
+      "img3.jpg,3,0,0,a,\n";
+  EXPECT_THAT(Ingest(sources).warnings, ElementsAre(HasSubstr(": img1.jpg, img3.jpg")));
+}
+
+TEST(IngestImages, AnImageWithoutARowStaysBetweenItsNeighboursByName) {
+  ImageSources sources = GoodSources(4);
+  for (SourceImage& image : sources.images) image.metadata.capture_time_s = 7200.0;  // local time
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text =
+      "name,x,y,z,time\nimg0.jpg,0,0,0,100\nimg2.jpg,2,0,0,102\nimg3.jpg,3,0,0,2\n"
+      "img9.jpg,0,0,0,1\n";
+  sources.images[0].metadata.capture_time_s.reset();
+  const ImageManifest manifest = Ingest(sources);
+  EXPECT_FALSE(manifest.images[1].capture_time_s);
+  EXPECT_EQ(SequenceOfDrives(manifest).at(0),
+            (std::vector<ImageId>{ImageId(3), ImageId(0), ImageId(1), ImageId(2)}));
+}
+
+TEST(IngestImages, KeepsApartFoldersOfTwoCamerasWhereOnePictureHasNoTime) {
+  ImageSources sources = GoodSources(6);
+  for (size_t i = 0; i < 6; ++i) {
+    sources.images[i].name = (i < 3 ? "a/" : "b/") + sources.images[i].name;
+    sources.images[i].metadata.capture_time_s = 10.0 * static_cast<double>(i % 3);
+  }
+  sources.images[4].metadata.capture_time_s.reset();
+  EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 0, 0, 1, 1, 1));
+}
+
 TEST(IngestImages, KeepsApartFoldersOfTwoCamerasThatWereOnTheWayAtOnce) {
   ImageSources sources = GoodSources(6);
   for (size_t i = 0; i < 6; ++i) {
@@ -294,14 +346,14 @@ TEST(CountFromEllipsoid, TurnsTheAltitudesThatAreKnown) {
   manifest.images.resize(3);
   manifest.images[0].prior.geodetic = GeodeticPosition{47.0, 8.0, 400.0};
   manifest.images[1].prior.geodetic = GeodeticPosition{47.0, 8.0, std::nan("")};
-  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, manifest, folder.path()).ok());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, {}, manifest, folder.path()).ok());
   EXPECT_NEAR(manifest.images[0].prior.geodetic->altitude_m, 447.25, 1e-9);
   EXPECT_TRUE(std::isnan(manifest.images[1].prior.geodetic->altitude_m));
   EXPECT_THAT(manifest.warnings, IsEmpty());
-  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEllipsoid, manifest, folder.path()).ok());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEllipsoid, {}, manifest, folder.path()).ok());
   EXPECT_NEAR(manifest.images[0].prior.geodetic->altitude_m, 447.25, 1e-9);
   manifest.images.resize(0);
-  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, manifest, folder.path()).ok());
+  ASSERT_TRUE(CountFromEllipsoid(HeightDatum::kEgm2008, {}, manifest, folder.path()).ok());
   EXPECT_THAT(manifest.warnings, ElementsAre(HasSubstr("changes nothing")));
 }
 
@@ -318,6 +370,13 @@ TEST(IngestImages, CountsAltitudesFromTheGeoidThatIsAskedFor) {
   EXPECT_EQ(IngestImages(sources, options, {}).status().code(),
             absl::StatusCode::kFailedPrecondition);
   folder.Write("egm96-5.pgm", GeoidGrid(-20.5));
+  EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 379.5, 1e-9);
+  // Who says that it is counted from the ellipsoid is believed, but for the table's altitudes.
+  sources.images[1].metadata.altitude_of_ellipsoid = true;
+  EXPECT_NEAR(Ingest(sources, options).images[0].prior.geodetic->altitude_m, 379.5, 1e-9);
+  EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 400.0, 1e-9);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,latitude,longitude,altitude\nimg1.jpg,47,8,400\n";
   EXPECT_NEAR(Ingest(sources, options).images[1].prior.geodetic->altitude_m, 379.5, 1e-9);
   ASSERT_EQ(::unsetenv("GEOGRAPHICLIB_GEOID_PATH"), 0);
 }

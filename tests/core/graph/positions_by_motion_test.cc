@@ -72,6 +72,16 @@ TEST(PositionsByMotion, AnImageWithoutAPositionGetsOne) {
   EXPECT_LT(street.Error(positions, 20), 2.0);
 }
 
+TEST(PositionsByMotion, AnImageWithoutATimeKeepsItsPositionAndNoOtherDoes) {
+  Street street(0.5);
+  street.Move(7, {-30.0, 6.0, 0.0});
+  street.manifest.images[20].capture_time_s.reset();
+  const std::vector<PositionByMotion> positions = PositionsByMotion(street.manifest);
+  EXPECT_LT(street.Error(positions, 7), 4.0);
+  EXPECT_FALSE(positions[20].is_of_drive);
+  EXPECT_EQ(positions[20].prior.position_in_enu, street.manifest.images[20].prior.position_in_enu);
+}
+
 TEST(PositionsByMotion, TheLastPositionOfADriveIsDoubtedNotBelieved) {
   Street street(0.5, 6);
   street.Move(5, {25.0, 20.0, 0.0});
@@ -82,7 +92,7 @@ TEST(PositionsByMotion, TheLastPositionOfADriveIsDoubtedNotBelieved) {
 
 TEST(PositionsByMotion, LeavesWhatItCannotJudge) {
   Street without_times(1.0);
-  without_times.manifest.images[3].capture_time_s.reset();
+  for (size_t i = 4; i < 30; ++i) without_times.manifest.images[i].capture_time_s.reset();
   EXPECT_TRUE(without_times.IsUnchangedBy(PositionsByMotion(without_times.manifest)));
   const Street few(1.0, 4);
   EXPECT_TRUE(few.IsUnchangedBy(PositionsByMotion(few.manifest)));

@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Three images of two sizes with keypoints, descriptors, priors and two pairs.
 struct SmallJob {
@@ -375,6 +376,27 @@ TEST_F(DatabaseFile, LeavesOutCovariancesThatCannotBeAndSaysSo) {
   const ColmapDatabase database = ReadColmapDatabase(path_).value();
   EXPECT_FALSE(database.images[0].prior_sigma_known);
   EXPECT_THAT(database.warnings, ElementsAre(HasSubstr("a covariance that cannot be")));
+}
+
+TEST_F(DatabaseFile, NamesPriorsThatCannotBeRead) {
+  const auto warnings = [&](const std::string& position, int system, const char* covariance) {
+    Execute("UPDATE pose_priors SET position = " + position + ", coordinate_system = " +
+            std::to_string(system) + ", position_covariance = " + covariance);
+    const ColmapDatabase database = ReadColmapDatabase(path_).value();
+    for (const DatabaseImage& image : database.images) EXPECT_FALSE(image.prior_sigma_known);
+    return database.warnings;
+  };
+  EXPECT_THAT(warnings("x'0011'", 0, "NULL"),
+              ElementsAre(HasSubstr("a position that is not three numbers is not used (2 images")));
+  EXPECT_THAT(warnings(PositionBlob(NAN, 8, 0), 0, "NULL"), ElementsAre(HasSubstr("not three")));
+  EXPECT_THAT(
+      warnings(PositionBlob(47, 8, 0), 2, "NULL"),
+      ElementsAre(HasSubstr("a coordinate system that is not known is not used (2 images")));
+  EXPECT_THAT(warnings(PositionBlob(47, 8, 0), 0, "x'00'"),
+              ElementsAre(HasSubstr("a covariance that is not nine numbers")));
+  // What COLMAP writes where it knows nothing.
+  EXPECT_THAT(warnings(PositionBlob(NAN, NAN, NAN), -1, "NULL"), IsEmpty());
+  EXPECT_THAT(warnings("NULL", -1, "NULL"), IsEmpty());
 }
 
 TEST_F(DatabaseFile, RefusesCountsWhoseProductsWrapToTheSizeOfTheBlob) {

@@ -13,6 +13,11 @@
 namespace orbweave {
 namespace {
 
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+
 TEST(ReadImageMetadata, GivesTheSizeOfEveryKind) {
   for (const char* extension : {".jpg", ".png", ".tif", ".bmp", ".webp", ".ppm"}) {
     const absl::StatusOr<ImageMetadata> metadata =
@@ -111,6 +116,9 @@ TEST(ReadImageMetadata, LeavesOutAPositionThatContradictsItselfAndSaysSo) {
        {std::tuple("47/1 99/1 0/1", "N", "has 99 minutes or seconds"),
         std::tuple("47/1 0/1 61/1", "N", "has 61 minutes or seconds"),
         std::tuple("-47/1 30/1 0/1", "N", "has a part below zero"),
+        std::tuple("47/1 30/0 0/1", "N", "its latitude has a number over zero"),
+        std::tuple("47/1 30/1 12/0", "N", "its latitude has a number over zero"),
+        std::tuple("47/0 30/1 0/1", "N", "its latitude has a number over zero"),
         std::tuple("47/1 30/1 0/1", "X", "latitude is 'X', neither N nor S"),
         std::tuple("47/1 30/1 0/1", "E", "latitude is 'E', neither N nor S"),
         std::tuple("47/1 30/1 0/1", "", "latitude is '', neither N nor S")}) {
@@ -120,6 +128,9 @@ TEST(ReadImageMetadata, LeavesOutAPositionThatContradictsItselfAndSaysSo) {
     EXPECT_THAT(metadata.position_problem, ::testing::HasSubstr(problem));
   }
   EXPECT_TRUE(ReadImageMetadata(AtPosition("47/1 59/1 60/1", "N", "8/1 0/1 0/1", "E"))->position);
+  // 0/0 stands for "unknown".
+  EXPECT_TRUE(
+      ReadImageMetadata(AtPosition("47/1 5950/100 0/0", "N", "8/1 0/1 0/1", "E"))->position);
 }
 
 TEST(ReadImageMetadata, LeavesOutAPositionThatIsGoodToManyKilometresAndSaysSo) {
@@ -143,6 +154,46 @@ TEST(ReadImageMetadata, LeavesOutAnglesHeightsAndAccuraciesThatCannotBe) {
   EXPECT_FALSE(metadata.altitude_known);
   EXPECT_FALSE(metadata.position_error_m);
   EXPECT_FALSE(metadata.heading_deg || metadata.pitch_deg || metadata.roll_deg);
+  EXPECT_THAT(metadata.left_out,
+              ElementsAre(Pair("EXIF altitude", HasSubstr("e+09 m")),
+                          Pair("heading", "1e+30"),
+                          Pair("pitch", "91"),
+                          Pair("roll", "-181")));
+}
+
+TEST(ReadImageMetadata, NamesAMagneticHeading) {
+  const auto tagged = [](const char* reference, const std::string& heading_of_xmp) {
+    std::vector<std::pair<std::string, std::string>> xmp;
+    if (!heading_of_xmp.empty()) xmp = {{"Xmp.GPano.PoseHeadingDegrees", heading_of_xmp}};
+    return ReadImageMetadata(Tagged(EncodedImage(64, 32, ".jpg"),
+                                    {{"Exif.GPSInfo.GPSImgDirectionRef", reference},
+                                     {"Exif.GPSInfo.GPSImgDirection", "25/2"}},
+                                    xmp))
+        .value();
+  };
+  EXPECT_FALSE(tagged("M", "").heading_deg);
+  EXPECT_THAT(tagged("M", "").left_out, ElementsAre(Pair("magnetic heading", "12.5")));
+  EXPECT_EQ(tagged("T", "").heading_deg, 12.5);
+  EXPECT_THAT(tagged("T", "").left_out, IsEmpty());
+  EXPECT_EQ(tagged("M", "14").heading_deg, 14.0);
+  EXPECT_THAT(tagged("M", "14").left_out, IsEmpty());
+  EXPECT_THAT(tagged("T", "north").left_out, ElementsAre(Pair("heading", "nan")));
+}
+
+TEST(ReadImageMetadata, KnowsWhichAltitudesAreCountedFromTheEllipsoid) {
+  for (const auto& [reference, altitude_m, of_ellipsoid] : {std::tuple("0", 12.5, false),
+                                                            std::tuple("1", -12.5, false),
+                                                            std::tuple("2", 12.5, true),
+                                                            std::tuple("3", -12.5, true)}) {
+    const ImageMetadata metadata =
+        ReadImageMetadata(Tagged(AtPosition("47/1 0/1 0/1", "N", "8/1 0/1 0/1", "E"),
+                                 {{"Exif.GPSInfo.GPSAltitude", "25/2"},
+                                  {"Exif.GPSInfo.GPSAltitudeRef", reference}}))
+            .value();
+    ASSERT_TRUE(metadata.position);
+    EXPECT_EQ(metadata.position->altitude_m, altitude_m) << reference;
+    EXPECT_EQ(metadata.altitude_of_ellipsoid, of_ellipsoid) << reference;
+  }
 }
 
 TEST(ReadImageMetadata, RefusesEveryTruncation) {

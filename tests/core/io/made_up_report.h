@@ -41,6 +41,7 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
   report.mean_track_length = 4.757;
   report.residual_px_mean = 0.712;
   report.residual_px_rms = 0.913;
+  report.residual_erp_px_mean = 0.847;
   report.residual_histogram.counts.resize(41);
   for (size_t i = 0; i < 41; ++i) {
     const double px = (static_cast<double>(i) + 0.5) * 0.1;

@@ -59,6 +59,7 @@ TEST(ReportJson, HasEveryKeyAndIsDeterministic) {
                           "mean_track_length",
                           "residual_px_mean",
                           "residual_px_rms",
+                          "residual_erp_px",
                           "clusters",
                           "seams",
                           "gnss",
@@ -68,6 +69,7 @@ TEST(ReportJson, HasEveryKeyAndIsDeterministic) {
                           "version"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
+  EXPECT_EQ(json["residual_erp_px"], report.residual_erp_px_mean);
   EXPECT_EQ(json["not_registered"][0]["name"], "IMG_0007 <script>.jpg");
   EXPECT_EQ(json["stages"][2]["cpu_s"], 92.4);
   EXPECT_EQ(json["seams"][1]["clusters"], nlohmann::json::array({1, 2}));
@@ -119,6 +121,11 @@ TEST(ReportHtml, IsOnePageThatFetchesNothing) {
   EXPECT_THAT(html, HasSubstr("Harbour street, &lt;second&gt; drive &amp; return"));
   EXPECT_THAT(html, HasSubstr("IMG_0007 &lt;script&gt;.jpg"));
   EXPECT_LT(html.size(), 80000U);
+}
+
+TEST(ReportHtml, HasTheResidualInTheImageBesideTheAngle) {
+  EXPECT_THAT(ReportHtml(MadeUpReport(40, 3)),
+              HasSubstr("mean residual (rms 0.913; in the image 0.847)"));
 }
 
 TEST(ReportHtml, DefusesStrangersTextWhereverItStands) {

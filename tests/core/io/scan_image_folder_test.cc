@@ -84,6 +84,20 @@ TEST(ScanImageFolder, SaysWhichPositionsAreNotUsedAndWhy) {
                           problem + "3.jpg" + problem + "..."));
 }
 
+TEST(ScanImageFolder, SaysWhichOtherValuesAreNotUsed) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 3; ++i) {
+    folder.Write(std::to_string(i) + ".jpg",
+                 Tagged(EncodedImage(64, 32, ".jpg"),
+                        {{"Exif.GPSInfo.GPSImgDirectionRef", i == 1 ? "T" : "M"},
+                         {"Exif.GPSInfo.GPSImgDirection", "90/1"}},
+                        {{"Xmp.GPano.PoseRollDegrees", i == 1 ? "400" : "4"}}));
+  }
+  EXPECT_THAT(ScanImageFolder({.image_folder = folder.path()}, {}).value().warnings,
+              ElementsAre("the magnetic heading of 2 images is not used: 0.jpg (90), 2.jpg (90)",
+                          "the roll of 1 image is not used: 1.jpg (400)"));
+}
+
 TEST(ScanImageFolder, LeavesOutNamesAndBytesThatNoMessageTakes) {
   const TemporaryFolder folder;
   folder.Write("a.jpg", EncodedImage(64, 32, ".jpg", 1));

@@ -52,6 +52,15 @@ TEST(CheckDriveMotion, NamesThePanoramaAHouseTooFarAlong) {
   EXPECT_THAT(check.sentence, HasSubstr("reached at 19.0 and left at 3.0 m/s"));
 }
 
+TEST(CheckDriveMotion, AsksTheOthersWhereATimeIsMissing) {
+  Drive drive;
+  drive.Move(20, {11.0, 0.0, 0.0});
+  drive.manifest.images[5].capture_time_s.reset();
+  const CrossCheck check = drive.Check();
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_THAT(check.sentence, HasSubstr("1 of 37 panoramas"));
+}
+
 TEST(CheckDriveMotion, FindsAStretchThatStandsAHouseTooFar) {
   Drive drive;
   for (uint32_t i = 20; i < 40; ++i) drive.Move(i, {-14.0, 0.0, 0.0});
@@ -87,7 +96,7 @@ TEST(CheckDriveMotion, AsksNothingWithoutTimesOrOfLooseImages) {
   drive.images.at(ImageId(20)).loose = true;
   EXPECT_EQ(drive.Check().level, CheckLevel::kGood);
   drive.images.at(ImageId(20)).loose = false;
-  drive.manifest.images[3].capture_time_s.reset();
+  for (ImageRecord& image : drive.manifest.images) image.capture_time_s.reset();
   EXPECT_EQ(drive.Check().level, CheckLevel::kGood);
   EXPECT_THAT(drive.Check().sentence, HasSubstr("no five panoramas"));
   EXPECT_EQ(CheckDriveMotion({}, {}).level, CheckLevel::kGood);

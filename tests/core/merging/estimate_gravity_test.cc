@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/merging/drive_attitudes.h"
 #include "tests/core/merging/driven_street.h"
 
 namespace orbweave {
@@ -30,6 +31,7 @@ TEST(EstimateGravity, FindsTheLeanOfAMountWhereTheDriveTurns) {
   ASSERT_TRUE(gravity.has_value());
   EXPECT_LT(AngleBetween(gravity->down_in_world, kDown), 0.02);
   EXPECT_LT(gravity->sigma_rad, 0.06);
+  EXPECT_LT(gravity->mount_sigma_rad.at(0), 0.06);
   EXPECT_LT(AngleBetween(gravity->down_in_mount.at(0), kLean * Eigen::Vector3d::UnitY()), 0.03);
 }
 
@@ -39,6 +41,7 @@ TEST(EstimateGravity, OwnsThatItMayBeWrongOnAStraightStreet) {
   ASSERT_TRUE(gravity.has_value());
   EXPECT_NEAR(AngleBetween(gravity->down_in_world, kDown), 0.2, 0.02);
   EXPECT_NEAR(gravity->sigma_rad, kMountSigma_rad, 0.01);
+  EXPECT_NEAR(gravity->mount_sigma_rad.at(0), kMountSigma_rad, 0.01);
 }
 
 TEST(EstimateGravity, TakesAwayWhatPitchAndRollSay) {

@@ -111,6 +111,9 @@ TEST(JudgeModel, SaysWhatNothingCouldCheck) {
               ElementsAre(HasSubstr("whether a vehicle can have made the steps: they have no")));
   for (ImageRecord& image : on_earth.manifest.images) image.capture_time_s = 2.0 * image.id.value;
   EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked, IsEmpty());
+  on_earth.manifest.images[7].capture_time_s.reset();
+  EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked,
+              ElementsAre(HasSubstr("of 1 of 36 registered panoramas: they have no")));
   JobResults both = Street(36, {{0, 30}, {30, 36}}, true);
   both.models[1].report.gnss.used = false;
   EXPECT_THAT(BuildJobReport(both).verdict.unchecked.front(),

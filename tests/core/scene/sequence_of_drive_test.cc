@@ -31,10 +31,41 @@ TEST(SequenceOfDrives, FollowsTimesWhereAllImagesHaveOne) {
   EXPECT_EQ(SequenceOfFirst(ImagesTakenAt({30.0, 10.0, 20.0})), (std::vector<uint32_t>{1, 2, 0}));
 }
 
-TEST(SequenceOfDrives, FollowsIdsWhereATimeIsMissingOrNoNumber) {
-  EXPECT_EQ(SequenceOfFirst(ImagesTakenAt({30.0, std::nullopt, 20.0})),
+TEST(SequenceOfDrives, FollowsIdsWithoutTimes) {
+  EXPECT_EQ(SequenceOfFirst(ImagesTakenAt({std::nullopt, NAN, std::nullopt})),
             (std::vector<uint32_t>{0, 1, 2}));
-  EXPECT_EQ(SequenceOfFirst(ImagesTakenAt({30.0, NAN, 20.0})), (std::vector<uint32_t>{0, 1, 2}));
+}
+
+TEST(SequenceOfDrives, ATimeThatIsMissingLeavesTheOrderOfTheOthers) {
+  EXPECT_EQ(SequenceOfFirst(ImagesTakenAt({40.0, 50.0, std::nullopt, NAN, 60.0, 10.0, 20.0})),
+            (std::vector<uint32_t>{5, 6, 0, 1, 2, 3, 4}));
+}
+
+TEST(OrderByTime, IsSureOfAnImageBetweenOthersThatFollowOneAnother) {
+  const ImageManifest manifest = ImagesTakenAt({std::nullopt, 10.0, std::nullopt, 20.0, 30.0, NAN});
+  std::vector<ImageId> ids;
+  for (const ImageRecord& image : manifest.images) ids.push_back(image.id);
+  EXPECT_EQ(OrderByTime(manifest, ids).sequence, ids);
+  EXPECT_TRUE(OrderByTime(manifest, ids).unsure.empty());
+}
+
+TEST(OrderByTime, NamesAnImageWhosePlaceTimesAndNamesTellDifferently) {
+  // Between 30 and 10 by name: that is nowhere by time. Before 30 and behind 20 are others, too.
+  const ImageManifest manifest =
+      ImagesTakenAt({std::nullopt, 30.0, std::nullopt, 10.0, 20.0, std::nullopt});
+  std::vector<ImageId> ids;
+  for (const ImageRecord& image : manifest.images) ids.push_back(image.id);
+  const TimeOrder order = OrderByTime(manifest, ids);
+  EXPECT_EQ(order.unsure, (std::vector<ImageId>{ImageId(0), ImageId(2), ImageId(5)}));
+  std::vector<uint32_t> values;
+  for (const ImageId id : order.sequence) values.push_back(id.value);
+  EXPECT_EQ(values, (std::vector<uint32_t>{3, 4, 0, 5, 1, 2}));
+}
+
+TEST(TimedAmong, LeavesOutWhatHasNoFiniteTime) {
+  const ImageManifest manifest = ImagesTakenAt({30.0, std::nullopt, 10.0, NAN});
+  const std::vector<ImageId> ids = {ImageId(2), ImageId(1), ImageId(3), ImageId(0)};
+  EXPECT_EQ(TimedAmong(manifest, ids), (std::vector<ImageId>{ImageId(2), ImageId(0)}));
 }
 
 TEST(SequenceOfDrives, KeepsTheOrderOfIdsAtEqualTimes) {
