@@ -122,9 +122,19 @@ struct ReportModel {
   uint64_t observations = 0;
   double residual_px_mean = 0.0;
   ReportGnss gnss{};  ///< used: the model has the job's east-north-up frame
-  /// Between registered images that follow each other in a drive, world units.
+  /// Between registered images that follow each other in a drive (JobReport.paths), world units.
   double step_median = 0.0;
   double path_length = 0.0;
+  /// Else nothing tells the order of some drive: its part of step_median is the distance to the
+  /// nearest image, and path_length lacks it.
+  bool is_in_order = true;
+};
+
+/// Registered images of a model that follow one another in a drive, without a gap.
+struct ReportPath {
+  uint32_t model = 0;
+  uint32_t drive = 0;
+  std::vector<uint32_t> images{};  ///< of JobReport.images, as they were taken; two at least
 };
 
 /// Sigmas of the main model's poses: of positions root of the trace, in its units (metres with
@@ -188,6 +198,7 @@ struct JobReport {
       not_registered{};  ///< excluded files and images without a pose, with reasons
   uint32_t models = 0;   ///< sparse/0 ... sparse/(models - 1)
   std::vector<ReportModel> each_model{};  ///< in order; most images first
+  std::vector<ReportPath> paths{};        ///< by model, then drive (TracePaths)
   uint64_t points = 0;
   uint64_t observations = 0;
   double mean_track_length = 0.0;

@@ -103,6 +103,9 @@ Json Checks(const JobReport& report) {
   return list;
 }
 
+/// null where it is not known.
+Json LengthJson(double length) { return length > 0.0 ? Json(length) : Json(nullptr); }
+
 Json EachModel(const JobReport& report) {
   Json list = Json::array();
   for (const ReportModel& model : report.each_model) {
@@ -113,8 +116,9 @@ Json EachModel(const JobReport& report) {
                     {"residual_px_mean", model.residual_px_mean},
                     {"georeferenced", model.gnss.used},
                     {"gnss", Gnss(model.gnss)},
-                    {"step_median", model.step_median},
-                    {"path_length", model.path_length}});
+                    {"in_order", model.is_in_order},
+                    {"step_median", LengthJson(model.step_median)},
+                    {"path_length", LengthJson(model.path_length)}});
   }
   return list;
 }
@@ -169,8 +173,9 @@ Json Uncertainty(const JobReport& report) {
     const auto share = [&](double length) {
       return length > 0.0 ? Json(uncertainty.position_median / length) : Json(nullptr);
     };
-    json["relative"] = {{"path_length", model.path_length},
-                        {"step_median", model.step_median},
+    json["relative"] = {{"in_order", model.is_in_order},
+                        {"path_length", LengthJson(model.path_length)},
+                        {"step_median", LengthJson(model.step_median)},
                         {"position_sigma_median_share_of_path", share(model.path_length)},
                         {"position_sigma_median_share_of_step", share(model.step_median)}};
   }

@@ -80,22 +80,23 @@ std::string PairText(const Eigen::Vector2d& p) {
   return DecimalText(p.x(), 1) + "," + DecimalText(p.y(), 1);
 }
 
-/// A thin line per model and drive through its registered images.
-std::string DriveLines(const MapImages& images, const MapView& view) {
-  std::map<std::pair<uint32_t, uint32_t>, std::string> points;
-  std::map<std::pair<uint32_t, uint32_t>, Eigen::Vector2d> last;
-  for (const ReportImage* image : images) {
-    if (image->loose) continue;
-    const Eigen::Vector2d p = view.Page(image->centre_in_world);
-    const std::pair line(image->model, image->drive);
-    const auto [previous, is_first] = last.emplace(line, p);
-    if (!is_first && (p - previous->second).norm() < 0.7) continue;
-    previous->second = p;
-    absl::StrAppend(&points[line], PairText(p), " ");
-  }
+/// A thin line per path of the frame's models.
+std::string PathLines(const JobReport& report, const MapFrame& frame, const MapView& view) {
+  constexpr double kShortest_px = 0.7;
   std::string svg;
-  for (const auto& [line, list] : points)
-    absl::StrAppend(&svg, "<polyline class=\"path\" points=\"", list, "\"/>");
+  for (const ReportPath& path : report.paths) {
+    if (!std::ranges::binary_search(frame.models, path.model)) continue;
+    std::string points;
+    Eigen::Vector2d last = Eigen::Vector2d::Zero();
+    for (const uint32_t image : path.images) {
+      const Eigen::Vector2d p = view.Page(report.images[image].centre_in_world);
+      const bool is_end = image == path.images.front() || image == path.images.back();
+      if (!is_end && (p - last).norm() < kShortest_px) continue;
+      last = p;
+      absl::StrAppend(&points, PairText(p), " ");
+    }
+    absl::StrAppend(&svg, "<polyline class=\"path\" points=\"", points, "\"/>");
+  }
   return svg;
 }
 
@@ -387,7 +388,7 @@ std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame) {
                       " ",
                       DecimalText(view.height, 0),
                       "\" role=\"img\" aria-label=\"Trajectory from above\">",
-                      DriveLines(images, view),
+                      PathLines(report, frame, view),
                       UncertaintyEllipses(images, view),
                       Missing(missing, view),
                       GnssOutliers(contradicted, view),

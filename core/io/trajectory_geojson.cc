@@ -4,7 +4,6 @@
 #include "core/io/trajectory_geojson.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/io/json_text.h"
@@ -47,25 +46,28 @@ Json PropertiesOf(const ReportImage& image) {
   return properties;
 }
 
+Json LineOf(const ReportPath& path, const JobReport& report) {
+  Json positions = Json::array();
+  for (const uint32_t image : path.images)
+    positions.push_back(PositionOf(report.images[image].cam_from_world, *report.origin));
+  return Feature(
+      "LineString", std::move(positions), {{"model", path.model}, {"drive", path.drive}});
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> TrajectoryGeoJson(const JobReport& report) {
   if (!report.origin) return absl::FailedPreconditionError("the job has no latitude and longitude");
-  std::map<std::pair<uint32_t, uint32_t>, Json> lines;  // by model and drive
-  Json points = Json::array();
+  Json features = Json::array();
+  for (const ReportPath& path : report.paths) {
+    if (report.IsGeoreferenced(report.images[path.images.front()]))
+      features.push_back(LineOf(path, report));
+  }
   for (const ReportImage& image : report.images) {
     if (!report.IsGeoreferenced(image)) continue;
-    Json position = PositionOf(image.cam_from_world, *report.origin);
-    if (!image.loose) lines[{image.model, image.drive}].push_back(position);
-    points.push_back(Feature("Point", std::move(position), PropertiesOf(image)));
-  }
-  Json features = Json::array();
-  for (auto& [place, line] : lines) {
-    if (line.size() < 2) continue;  // a LineString has two positions at least
     features.push_back(
-        Feature("LineString", std::move(line), {{"model", place.first}, {"drive", place.second}}));
+        Feature("Point", PositionOf(image.cam_from_world, *report.origin), PropertiesOf(image)));
   }
-  for (Json& point : points) features.push_back(std::move(point));
   return JsonText({{"type", "FeatureCollection"}, {"features", std::move(features)}});
 }
 

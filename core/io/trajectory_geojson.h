@@ -10,9 +10,9 @@
 namespace orbweave {
 
 /// RFC 7946 FeatureCollection in WGS84 of all models that are georeferenced: one LineString per
-/// model and drive through its registered images in id order, then one Point per placed image with
-/// its name, state (registered or loose), model, drive, cluster, observations, mean residual and
-/// sigmas. FailedPrecondition: the report has no origin.
+/// path (JobReport.paths) with its model and drive, then one Point per placed image with its name,
+/// state (registered or loose), model, drive, cluster, observations, mean residual and sigmas.
+/// FailedPrecondition: the report has no origin.
 [[nodiscard]] absl::StatusOr<std::string> TrajectoryGeoJson(const JobReport& report);
 
 }  // namespace orbweave

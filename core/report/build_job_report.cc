@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <set>
 
-#include "core/base/quantile.h"
 #include "core/report/check_contradicted_pairs.h"
 #include "core/report/check_job.h"
 #include "core/report/check_lengths.h"
@@ -20,6 +18,7 @@
 #include "core/report/list_missing_images.h"
 #include "core/report/list_unchecked.h"
 #include "core/report/summarise_uncertainty.h"
+#include "core/report/trace_paths.h"
 
 namespace orbweave {
 namespace {
@@ -200,21 +199,6 @@ ReportGnss GnssRow(const GnssReport& gnss) {
           .outliers = gnss.outliers};
 }
 
-/// Steps between images of a model that follow each other in a drive.
-void MeasurePath(const JobReport& report, uint32_t number, ReportModel& row) {
-  std::map<uint32_t, Eigen::Vector3d> last_of_drive;
-  std::vector<double> steps;
-  for (const ReportImage& image : report.images) {
-    if (!image.registered || image.loose || image.model != number) continue;
-    const auto [last, is_first] = last_of_drive.emplace(image.drive, image.centre_in_world);
-    if (is_first) continue;
-    steps.push_back((image.centre_in_world - last->second).norm());
-    row.path_length += steps.back();
-    last->second = image.centre_in_world;
-  }
-  row.step_median = Quantile(std::move(steps), 0.5);
-}
-
 std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& report) {
   std::vector<ReportModel> rows;
   for (uint32_t number = 0; number < results.models.size(); ++number) {
@@ -224,7 +208,6 @@ std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& r
     row.observations = model.measures.observations;
     row.residual_px_mean = model.measures.residual_px_mean;
     row.gnss = GnssRow(model.report.gnss);
-    MeasurePath(report, number, row);
   }
   for (const ReportImage& image : report.images) {
     if (image.registered) ++(image.loose ? rows[image.model].loose : rows[image.model].images);
@@ -326,6 +309,7 @@ JobReport BuildJobReport(const JobResults& results) {
     report.uncertainty = SummariseUncertainty(main.report.uncertainty, main.images);
   }
   report.each_model = ModelRows(results, report);
+  TracePaths(results.manifest, report);
   PlaceMissingByGnss(results.manifest, report);
   Judge(results, report);
   return report;

@@ -125,18 +125,23 @@ TEST(CamerasCsv, OfPosesAloneHasNoMeasures) {
   EXPECT_EQ(SplitFields(SplitLines(csv)[0], ',').size(), 16U);
 }
 
-TEST(TrajectoryGeoJson, HasALinePerModelAndDriveAndAPointPerImageOnEarth) {
+TEST(TrajectoryGeoJson, HasALinePerPathAndAPointPerImageOnEarth) {
   SmallScene scene = GeoreferencedScene();
   scene.reconstruction.images[ImageId(0)].uncertainty = {
       Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
   scene.reconstruction.images[ImageId(3)].loose = true;
   JobReport report = ReportOf(scene);
+  report.paths = {{.images = {5, 0, 2, 4}},
+                  {.drive = 1, .images = {6, 7}},
+                  {.model = 1, .drive = 1, .images = {8, 9, 10}}};
   const auto json = nlohmann::json::parse(TrajectoryGeoJson(report).value());
   EXPECT_EQ(json["type"], "FeatureCollection");
   // Images 0 to 7 but 1, of two drives.
   ASSERT_EQ(json["features"].size(), 2 + 7U);
   EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
-  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"].size(), 4U) << "of 0 to 5 not 1 and 3";
+  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"].size(), 4U);
+  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"][1],
+            json["features"][2]["geometry"]["coordinates"]);
   EXPECT_EQ(json["features"][1]["properties"]["drive"], 1);
   const auto& point = json["features"][2];
   EXPECT_EQ(point["properties"]["name"], "street/img0.jpg");

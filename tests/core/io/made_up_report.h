@@ -133,6 +133,11 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
     if (i == 5) image.uncertainty.reset();
     report.images.push_back(image);
   }
+  ReportPath path;
+  for (uint32_t i = 0; i < num_images; ++i) {
+    if (!report.images[i].loose) path.images.push_back(i);
+  }
+  if (path.images.size() > 1) report.paths = {path};
   report.uncertainty = {.known = num_images > 3,
                         .reason = num_images > 3 ? "" : "too few <images>",
                         .position_median = 0.037,

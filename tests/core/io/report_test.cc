@@ -357,6 +357,22 @@ TEST(ReportHtml, GivesPrecisionAsShareOfPathAndStepToo) {
               HasSubstr("178 ppm of a path of 208 m, 0.71 % of a step of 5.2 m"));
 }
 
+TEST(ReportHtml, DrawsNoLineAndNamesNoPathWhereNothingTellsTheOrder) {
+  JobReport report = MadeUpReport(40, 3);
+  EXPECT_EQ(CountOf(ReportHtml(report), "<polyline class=\"path\""), 1U);
+  report.paths.clear();
+  report.each_model[0].is_in_order = false;
+  report.each_model[0].path_length = 0.0;
+  const std::string html = ReportHtml(report);
+  EXPECT_THAT(html, Not(HasSubstr("<polyline class=\"path\"")));
+  EXPECT_THAT(html, HasSubstr(": 0.71 % of the distance to the nearest panorama, 5.2 m"));
+  EXPECT_THAT(html, Not(HasSubstr("of a step")));
+  const auto json = nlohmann::json::parse(ReportJson(report));
+  EXPECT_EQ(json["uncertainty"]["relative"]["in_order"], false);
+  EXPECT_TRUE(json["uncertainty"]["relative"]["path_length"].is_null());
+  EXPECT_TRUE(json["uncertainty"]["relative"]["position_sigma_median_share_of_path"].is_null());
+}
+
 TEST(EscapeHtml, KeepsTextAndDefusesTheRest) {
   EXPECT_EQ(EscapeHtml("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
   EXPECT_EQ(EscapeHtml("Straße 東京 🚋"), "Straße 東京 🚋");
