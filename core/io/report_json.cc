@@ -93,9 +93,11 @@ Json Contradicted(const JobReport& report) {
 Json Checks(const JobReport& report) {
   Json list = Json::array();
   for (const CrossCheck& check : report.checks) {
+    const bool has_limit = check.limit != 0.0;
     list.push_back({{"name", check.name},
                     {"value", check.value},
-                    {"limit", check.limit},
+                    {"limit", has_limit ? Json(check.limit) : Json(nullptr)},
+                    {"limit_is", has_limit ? Json(BoundText(check.bound)) : Json(nullptr)},
                     {"unit", check.unit},
                     {"level", LevelText(check.level)},
                     {"sentence", check.sentence}});

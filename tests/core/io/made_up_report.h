@@ -33,8 +33,15 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                         .step_median = 5.2,
                         .path_length = 5.2 * num_images}};
   report.checks = {
-      {"images_registered", 1.0, 0.95, "share", CheckLevel::kGood, "all are registered"},
-      {"gnss_clock", 0.83, 0.2, "s", CheckLevel::kDoubtful, "the GNSS clock is <late> by 0.8 s"}};
+      {"images_registered",
+       1.0,
+       0.95,
+       "share",
+       CheckLevel::kGood,
+       "all are registered",
+       CheckBound::kAtLeast},
+      {"gnss_clock", 0.83, 0.2, "s", CheckLevel::kDoubtful, "the GNSS clock is <late> by 0.8 s"},
+      {"look_alikes", 5.0, 0.0, "count", CheckLevel::kGood, "5 pairs look alike"}};
   report.verdict = {CheckLevel::kDoubtful, {"the GNSS clock is <late> by 0.8 s"}};
   report.points = 38412;
   report.observations = 182734;

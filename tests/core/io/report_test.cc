@@ -324,6 +324,12 @@ TEST(ReportHtml, SaysTheVerdictFirstThenWarningsThenFigures) {
   EXPECT_LT(html.find("gnss_<wbr/>clock"), html.find("images_<wbr/>registered"));
   EXPECT_THAT(html, HasSubstr("<td>0.83 s</td><td>≤ 0.2 s</td>"));
   EXPECT_THAT(html, HasSubstr("<td>100 %</td><td>≥ 95 %</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>5</td><td></td>")) << "no limit is known";
+  const auto checks = nlohmann::json::parse(ReportJson(report))["checks"];
+  EXPECT_EQ(checks[0]["limit_is"], "at_least");
+  EXPECT_EQ(checks[1]["limit_is"], "at_most");
+  EXPECT_TRUE(checks[2]["limit"].is_null());
+  EXPECT_TRUE(checks[2]["limit_is"].is_null());
   report.verdict = {};
   EXPECT_THAT(ReportHtml(report), HasSubstr("nothing that speaks against the model"));
 }
