@@ -57,7 +57,7 @@ void FillModel(const JobResults& results, uint32_t number, JobReport& report) {
     row.centre_in_world = image.cam_from_world.Centre();
     row.gnss_in_world.reset();
     if (model.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
-    row.gnss_outlier = outliers.contains(record.name);
+    row.gnss_outlier = !image.loose && outliers.contains(record.name);
     row.observations = 0;
     row.residual_px_mean = 0.0;
     if (const auto found = model.measures.images.find(id); found != model.measures.images.end()) {
