@@ -25,6 +25,7 @@ struct ReportImage {
   std::string name{};
   bool registered = false;
   bool loose = false;       ///< placed by GNSS and neighbours only
+  std::string reason{};     ///< why it is not registered, or loose
   uint32_t model = 0;       ///< index of the written model (sparse/0, sparse/1, ...)
   int cluster = -1;         ///< cluster it is interior to; -1: none
   bool in_overlap = false;  ///< shared by two or more clusters

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "core/io/group_messages.h"
 #include "core/io/json_text.h"
 #include "core/io/level_text.h"
 #include "core/io/report_gnss.h"
@@ -255,7 +256,8 @@ std::string ReportJson(const JobReport& report) {
   json["stages"] = StagesJson(report.stages);
   json["workers"] = Workers(report);
   json["elapsed_s"] = report.elapsed_s;
-  json["warnings"] = report.warnings;
+  json["warnings"] = CountedLines(report.warnings);
+  json["warnings_in_full"] = report.warnings;
   json["options"] = report.options_text;
   return WithImages(JsonText(json), report);
 }
