@@ -80,13 +80,6 @@ std::string Lines(const char* label, const std::vector<std::string>& lines, cons
   return text;
 }
 
-/// The verdict stands last.
-std::string VerdictLines(const Verdict& verdict) {
-  return Lines("unchecked", verdict.unchecked, "things") +
-         absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
-         Lines("", verdict.reasons, "reasons");
-}
-
 std::string StageTable(const JobReport& report) {
   std::string text = absl::StrFormat(
       "  %-22s %10s %10s %9s %8s\n", "stage", "wall s", "CPU s", "computed", "reused");
@@ -103,6 +96,12 @@ std::string StageTable(const JobReport& report) {
 }
 
 }  // namespace
+
+std::string FormatVerdict(const Verdict& verdict) {
+  return Lines("unchecked", verdict.unchecked, "things") +
+         absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
+         Lines("", verdict.reasons, "reasons");
+}
 
 std::string FormatSummary(const JobReport& report, const std::string& output) {
   std::string text;
@@ -128,8 +127,7 @@ std::string FormatSummary(const JobReport& report, const std::string& output) {
                   "  outputs     ",
                   output,
                   " (open report.html; sparse/0 in COLMAP; points.ply in CloudCompare)\n");
-  text += VerdictLines(report.verdict);
-  return text;
+  return text + FormatVerdict(report.verdict);
 }
 
 }  // namespace orbweave
