@@ -43,7 +43,7 @@ std::string SigmaLine(const JobReport& report) {
                       uncertainty.held_image.empty()
                           ? "absolute"
                           : "relative to " + PrintableText(uncertainty.held_image),
-                      ")");
+                      report.models > 1 ? "; model 0)" : ")");
 }
 
 /// Seams between clusters, and what is wrong with them.

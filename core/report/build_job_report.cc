@@ -207,6 +207,7 @@ std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& r
     row.points = model.measures.points;
     row.observations = model.measures.observations;
     row.residual_px_mean = model.measures.residual_px_mean;
+    row.uncertainty = SummariseUncertainty(model.report.uncertainty, model.images);
     row.gnss = GnssRow(model.report.gnss);
   }
   for (const ReportImage& image : report.images) {
@@ -303,12 +304,11 @@ JobReport BuildJobReport(const JobResults& results) {
   if (std::optional<CrossCheck> standing = CheckStandingCamera(results, report.images))
     report.checks.push_back(*std::move(standing));
   report.checks.push_back(CheckLookAlikes(results));
-  if (!results.models.empty()) {
-    const AdjustedModel& main = results.models.front();
-    report.gnss = GnssRow(main.report.gnss);
-    report.uncertainty = SummariseUncertainty(main.report.uncertainty, main.images);
-  }
   report.each_model = ModelRows(results, report);
+  if (!report.each_model.empty()) {
+    report.gnss = report.each_model.front().gnss;
+    report.uncertainty = report.each_model.front().uncertainty;
+  }
   TracePaths(results.manifest, report);
   PlaceMissingByGnss(results.manifest, report);
   Judge(results, report);

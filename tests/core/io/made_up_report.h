@@ -152,6 +152,7 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                         .rotation_median_deg = 0.0057,
                         .rotation_p95_deg = 0.006};
   if (num_images > 3) report.uncertainty.worst = {3, 0};
+  report.each_model.front().uncertainty = report.uncertainty;
   return report;
 }
 

@@ -219,6 +219,22 @@ TEST(TrajectoryMap, PutsGeoreferencedModelsIntoOneFrameAndOthersIntoTheirOwn) {
   EXPECT_THAT(ReportHtml(report), HasSubstr("38 of 40 agree in model 0"));
 }
 
+TEST(ReportHtml, TellsTheUncertaintyOfEveryModelAndWhoseTheSummaryIs) {
+  JobReport report = MadeUpReport(60, 3);
+  EXPECT_THAT(ReportHtml(report), Not(HasSubstr("of model 0")));
+  report.models = 2;
+  report.each_model.push_back({.uncertainty = {.known = true, .position_median = 0.0042}});
+  const std::string html = ReportHtml(report);
+  EXPECT_THAT(html, HasSubstr("One standard deviation of poses of model 0, absolute"));
+  EXPECT_THAT(html, HasSubstr("<td>0.037 m</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>0.0042 units</td>"));
+  const auto json = nlohmann::json::parse(ReportJson(report));
+  EXPECT_EQ(json["uncertainty"]["model"], 0);
+  EXPECT_EQ(json["each_model"][0]["uncertainty"]["position_sigma_median"], 0.037);
+  EXPECT_EQ(json["each_model"][1]["uncertainty"]["position_sigma_median"], 0.0042);
+  EXPECT_EQ(json["each_model"][1]["uncertainty"]["unit"], "free");
+}
+
 TEST(MapKey, ListsWhatIsShownAndNothingElse) {
   JobReport report = MadeUpReport(96, 5);
   const auto key = [&] {

@@ -370,6 +370,7 @@ TEST(BuildJobReport, HasARowForEveryModelAndPlacesMissingImagesByGnss) {
   EXPECT_EQ(report.each_model[0].images, 20U);
   EXPECT_EQ(report.each_model[1].images, 14U);
   EXPECT_EQ(report.each_model[1].loose, 1U);
+  EXPECT_TRUE(report.each_model[1].uncertainty.known);
   EXPECT_DOUBLE_EQ(report.each_model[0].step_median, 3.0);
   EXPECT_DOUBLE_EQ(report.each_model[0].path_length, 57.0);
   EXPECT_TRUE(report.origin.has_value());
