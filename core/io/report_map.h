@@ -29,7 +29,7 @@ struct MapFrame {
 /// spread least. Long trajectories are thinned for drawing. Empty when the frame has no image.
 [[nodiscard]] std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame);
 
-/// What is seen on `map`, the drawing of that frame, and no more.
+/// What is seen on `map`, the drawing of that frame, and no more; and how much was left off it.
 [[nodiscard]] std::string MapKeyHtml(const JobReport& report,
                                      const MapFrame& frame,
                                      const std::string& map);

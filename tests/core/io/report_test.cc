@@ -5,9 +5,11 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/io/cluster_colors.h"
 #include "core/io/html_text.h"
+#include "core/io/map_symbols.h"
 #include "core/io/report_html.h"
 #include "core/io/report_json.h"
 #include "core/io/report_map.h"
@@ -258,6 +260,56 @@ TEST(MapKey, ListsWhatIsShownAndNothingElse) {
     image.uncertainty.reset();
   }
   EXPECT_EQ(key(), "");
+}
+
+TEST(MapKey, TellsTenModelsApartAndSaysWhereLooksRepeat) {
+  JobReport report = MadeUpReport(48, 3);
+  const ReportModel model = report.each_model.front();
+  report.models = 12;
+  report.each_model.assign(12, model);
+  for (size_t i = 0; i < 48; ++i) report.images[i].model = static_cast<uint32_t>(i / 4);
+  const MapFrame frame = MapFrames(report).front();
+  const std::string map = TrajectoryMapSvg(report, frame);
+  const std::string key = MapKeyHtml(report, frame, map);
+  EXPECT_THAT(key, HasSubstr("<i class=\"k1\"></i>model 1 "));
+  EXPECT_THAT(key, HasSubstr("<i class=\"k1 hollow\"></i>model 6 "));
+  EXPECT_THAT(key, Not(HasSubstr("model 10 ")));
+  EXPECT_THAT(key, HasSubstr("and 2 smaller models, in the same colours again"));
+  EXPECT_THAT(map, HasSubstr("k1 hollow"));
+}
+
+TEST(MapKey, SaysHowManyMarksAreNotDrawn) {
+  const auto key = [](const JobReport& report) {
+    const MapFrame frame = MapFrames(report).front();
+    return MapKeyHtml(report, frame, TrajectoryMapSvg(report, frame));
+  };
+  EXPECT_THAT(key(MadeUpReport(96, 5)), Not(HasSubstr("not drawn")));
+  JobReport report = MadeUpReport(6001, 20);
+  EXPECT_THAT(key(report), HasSubstr("4,000 of 6,001 panoramas with a pose are not drawn"));
+  for (size_t i = 0; i < 800; ++i) report.images[i].gnss_outlier = true;
+  ReportImage missing;
+  missing.gnss_in_world = Eigen::Vector3d::Zero();
+  report.images.insert(report.images.end(), 700, missing);
+  EXPECT_THAT(key(report), HasSubstr("200 of 700 panoramas without a pose are not drawn"));
+  EXPECT_THAT(key(report), HasSubstr("of 80"));
+  EXPECT_THAT(key(report), HasSubstr("contradicted GNSS positions are not drawn"));
+}
+
+TEST(MapSymbols, HaveShapesOfTheirOwn) {
+  const auto drawn = [](MapSymbol symbol) {
+    const std::string svg = DrawnSymbol(symbol, {0, 0}, 5.0, "", "");
+    return svg.substr(svg.find(" d="));
+  };
+  std::set<std::string> shapes;
+  for (const MapSymbol symbol : {MapSymbol::kLoose,
+                                 MapSymbol::kMissing,
+                                 MapSymbol::kContradicted,
+                                 MapSymbol::kSeamGood,
+                                 MapSymbol::kSeamUnknown,
+                                 MapSymbol::kSeamDoubtful,
+                                 MapSymbol::kSeamBad,
+                                 MapSymbol::kSeamUnused})
+    EXPECT_TRUE(shapes.insert(drawn(symbol)).second) << SymbolClass(symbol);
 }
 
 TEST(ColorsOfClusters, DifferAcrossEverySeam) {
