@@ -36,7 +36,7 @@ CrossCheck CheckCorrelation(const GlobalProblem& problem, const GnssVariance& va
                 "%.0f GNSS positions are worth %.1f independent ones; sigmas allow for it",
                 count,
                 std::max(count / worst.inflation, 1.0));
-  return {.name = "gnss_correlation", .value = worst.inflation, .unit = "share", .sentence = text};
+  return {.name = "gnss_correlation", .value = worst.inflation, .unit = "count", .sentence = text};
 }
 
 // The way of a model that runs straight, and how well anything but attitudes holds its roll.
