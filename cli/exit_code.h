@@ -11,7 +11,7 @@ namespace orbweave {
 /// What `orbweave` returns to the shell.
 enum ExitCode : int {
   kExitOk = 0,
-  kExitFailed = 1,        ///< the job failed, or something broke on the way
+  kExitFailed = 1,        ///< the job failed or registered nothing, or something broke on the way
   kExitUsage = 2,         ///< the command line or the input is not right
   kExitUnavailable = 3,   ///< no coordinator there
   kExitVerdict = 4,       ///< the job is done, its model judged as --fail-on does not take it

@@ -22,8 +22,8 @@ CLI::Option* AddFailOnArgument(CLI::App& command, FailOn& fail_on) {
           [&fail_on](const std::string& level) {
             fail_on = level == "bad" ? CheckLevel::kBad : CheckLevel::kDoubtful;
           },
-          "End with exit code 4 when the model is judged so, or worse; results are written all the "
-          "same")
+          "End with exit code 4 when the model is judged so, or worse, as is a job that registers "
+          "nothing (exit code 1 without this); all results are written all the same")
       ->check(CLI::Validator([problem](std::string& level) { return problem(level); }, "", "level"))
       ->type_name("doubtful|bad");
 }

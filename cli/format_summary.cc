@@ -50,7 +50,7 @@ std::string SigmaLine(const JobReport& report) {
                       uncertainty.held_image.empty()
                           ? "absolute"
                           : "relative to " + PrintableText(uncertainty.held_image),
-                      ")");
+                      report.models > 1 ? "; model 0)" : ")");
 }
 
 /// Seams between clusters, and what is wrong with them.
@@ -87,13 +87,6 @@ std::string Lines(const char* label, const std::vector<std::string>& lines, cons
   return text;
 }
 
-/// The verdict stands last.
-std::string VerdictLines(const Verdict& verdict) {
-  return Lines("unchecked", verdict.unchecked, "things") +
-         absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
-         Lines("", verdict.reasons, "reasons");
-}
-
 std::string StageTable(const JobReport& report) {
   std::string text = absl::StrFormat(
       "  %-22s %10s %10s %9s %8s\n", "stage", "wall s", "CPU s", "computed", "reused");
@@ -110,6 +103,12 @@ std::string StageTable(const JobReport& report) {
 }
 
 }  // namespace
+
+std::string FormatVerdict(const Verdict& verdict) {
+  return Lines("unchecked", verdict.unchecked, "things") +
+         absl::StrFormat("  %-11s %s\n", "verdict", LevelText(verdict.level)) +
+         Lines("", verdict.reasons, "reasons");
+}
 
 std::string FormatSummary(const JobReport& report, const std::string& output) {
   std::string text;
@@ -135,8 +134,7 @@ std::string FormatSummary(const JobReport& report, const std::string& output) {
                   "  outputs     ",
                   output,
                   " (open report.html; sparse/0 in COLMAP; points.ply in CloudCompare)\n");
-  text += VerdictLines(report.verdict);
-  return text;
+  return text + FormatVerdict(report.verdict);
 }
 
 }  // namespace orbweave

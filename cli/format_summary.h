@@ -12,4 +12,7 @@ namespace orbweave {
 /// outputs are.
 [[nodiscard]] std::string FormatSummary(const JobReport& report, const std::string& output);
 
+/// The verdict with its reasons, and what could not be checked: the summary's last lines.
+[[nodiscard]] std::string FormatVerdict(const Verdict& verdict);
+
 }  // namespace orbweave

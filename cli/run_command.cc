@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/run_command.h"
 
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -9,9 +10,11 @@
 #include "cli/exit_code.h"
 #include "cli/fail_on_argument.h"
 #include "cli/fleet_argument.h"
+#include "cli/format_summary.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/run_local_job.h"
+#include "cli/write_job.h"
 #include "objects/object_place.h"
 #include "stages/prepare_job.h"
 
@@ -32,18 +35,28 @@ absl::Status Run(const RunArguments& arguments) {
   const StopSignals signals;
   ORBWEAVE_ASSIGN_OR_RETURN(const PipelineOptions options, ReadOptions(arguments.options));
   ORBWEAVE_ASSIGN_OR_RETURN(const ImagePlaces places, OpenImagePlaces(arguments.scan));
+  Verdict verdict;
+  const auto conclude = [&](ClientApi& coordinator, const JobStatus& status) -> absl::Status {
+    ORBWEAVE_ASSIGN_OR_RETURN(verdict,
+                              WriteModel(coordinator, status, arguments.output, arguments.fail_on));
+    return absl::OkStatus();
+  };
   const LocalJob sparse{
       .output = arguments.output,
       .fleet = arguments.fleet,
-      .fail_on = arguments.fail_on,
       .is_last = !arguments.dense,
-      .prepare = [&](BlobDepot& coordinator, const StageContext& context) {
-        return PrepareImageJob(
-            coordinator, places, arguments.scan, arguments.clusters, options, context);
-      }};
+      .prepare =
+          [&](BlobDepot& coordinator, const StageContext& context) {
+            return PrepareImageJob(
+                coordinator, places, arguments.scan, arguments.clusters, options, context);
+          },
+      .conclude = conclude};
   ORBWEAVE_RETURN_IF_ERROR(RunLocalJob(sparse, signals));
-  if (!arguments.dense) return absl::OkStatus();
-  return RunDenseJob(arguments.output, arguments.fleet, options, signals);
+  if (arguments.dense) {
+    ORBWEAVE_RETURN_IF_ERROR(RunDenseJob(arguments.output, arguments.fleet, options, signals));
+    std::fputs(FormatVerdict(verdict).c_str(), stdout);
+  }
+  return CheckVerdict(verdict, arguments.fail_on);
 }
 
 }  // namespace

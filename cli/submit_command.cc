@@ -11,6 +11,7 @@
 #include "cli/dense_job.h"
 #include "cli/exit_code.h"
 #include "cli/fail_on_argument.h"
+#include "cli/format_summary.h"
 #include "cli/image_arguments.h"
 #include "cli/option_arguments.h"
 #include "cli/preparation_bar.h"
@@ -72,19 +73,31 @@ absl::StatusOr<JobStatus> Wait(ClientApi& coordinator,
   return status;
 }
 
+absl::Status WaitAndWriteCloud(ClientApi& coordinator,
+                               const JobStatus& sparse,
+                               const SubmitArguments& arguments,
+                               const PipelineOptions& options,
+                               const std::stop_token& stop) {
+  ORBWEAVE_ASSIGN_OR_RETURN(JobSpec spec, DenseJobOf(coordinator, sparse, options));
+  spec.traceparent = arguments.traceparent;
+  ORBWEAVE_ASSIGN_OR_RETURN(const Digest dense, coordinator.SubmitJob(spec));
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus cloud, Wait(coordinator, dense, stop));
+  return WriteJob(coordinator, cloud, arguments.output + "/dense");
+}
+
 absl::Status WaitAndWrite(ClientApi& coordinator,
                           const Digest& job,
                           const SubmitArguments& arguments,
                           const PipelineOptions& options,
                           const std::stop_token& stop) {
   ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus sparse, Wait(coordinator, job, stop));
-  ORBWEAVE_RETURN_IF_ERROR(WriteJob(coordinator, sparse, arguments.output, arguments.fail_on));
-  if (!arguments.dense) return absl::OkStatus();
-  ORBWEAVE_ASSIGN_OR_RETURN(JobSpec spec, DenseJobOf(coordinator, sparse, options));
-  spec.traceparent = arguments.traceparent;
-  ORBWEAVE_ASSIGN_OR_RETURN(const Digest dense, coordinator.SubmitJob(spec));
-  ORBWEAVE_ASSIGN_OR_RETURN(const JobStatus cloud, Wait(coordinator, dense, stop));
-  return WriteJob(coordinator, cloud, arguments.output + "/dense");
+  ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict,
+                            WriteModel(coordinator, sparse, arguments.output, arguments.fail_on));
+  if (arguments.dense) {
+    ORBWEAVE_RETURN_IF_ERROR(WaitAndWriteCloud(coordinator, sparse, arguments, options, stop));
+    std::fputs(FormatVerdict(verdict).c_str(), stdout);
+  }
+  return CheckVerdict(verdict, arguments.fail_on);
 }
 
 absl::Status Submit(const SubmitArguments& arguments) {

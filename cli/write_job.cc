@@ -30,33 +30,35 @@ absl::Status CheckEnd(const JobStatus& status) {
 absl::Status WriteCloud(ClientApi& coordinator,
                         const JobStatus& status,
                         const std::string& folder) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckEnd(status));
   ORBWEAVE_ASSIGN_OR_RETURN(const DenseReport report, WriteDense(coordinator, status, folder));
   std::fputs(FormatDense(report, folder).c_str(), stdout);
   return absl::OkStatus();
 }
 
-absl::Status WriteModel(ClientApi& coordinator,
-                        const JobStatus& status,
-                        const std::string& folder,
-                        const FailOn& fail_on) {
+}  // namespace
+
+absl::StatusOr<Verdict> WriteModel(ClientApi& coordinator,
+                                   const JobStatus& status,
+                                   const std::string& folder,
+                                   const FailOn& fail_on) {
+  ORBWEAVE_RETURN_IF_ERROR(CheckEnd(status));
   ORBWEAVE_ASSIGN_OR_RETURN(const JobReport report, WriteOutputs(coordinator, status, folder));
   std::fputs(FormatSummary(report, folder).c_str(), stdout);
-  if (report.registered == 0) {
-    return absl::InternalError("no image could be registered; the reasons are in " + folder +
-                               "/report.html");
-  }
-  return CheckVerdict(report.verdict, fail_on);
+  if (report.registered > 0) return report.verdict;
+  ORBWEAVE_RETURN_IF_ERROR(CheckVerdict(report.verdict, fail_on));
+  return absl::InternalError("no image could be registered; the reasons are in " + folder +
+                             "/report.html");
 }
-
-}  // namespace
 
 absl::Status WriteJob(ClientApi& coordinator,
                       const JobStatus& status,
                       const std::string& folder,
                       const FailOn& fail_on) {
-  ORBWEAVE_RETURN_IF_ERROR(CheckEnd(status));
   if (status.spec.kind == DenseJob::kKind) return WriteCloud(coordinator, status, folder);
-  return WriteModel(coordinator, status, folder, fail_on);
+  ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict,
+                            WriteModel(coordinator, status, folder, fail_on));
+  return CheckVerdict(verdict, fail_on);
 }
 
 }  // namespace orbweave

@@ -9,7 +9,9 @@
 namespace orbweave {
 
 std::string ColorClass(int color) {
-  return color < 0 ? "kn" : absl::StrCat("k", color % kMapColors);
+  if (color < 0) return "kn";
+  const bool is_hollow = color % kMapLooks >= kMapColors;
+  return absl::StrCat("k", color % kMapColors, is_hollow ? " hollow" : "");
 }
 
 std::vector<int> ColorsOfClusters(const JobReport& report) {

@@ -25,6 +25,7 @@ struct ReportImage {
   std::string name{};
   bool registered = false;
   bool loose = false;       ///< placed by GNSS and neighbours only
+  std::string reason{};     ///< why it is not registered, or loose
   uint32_t model = 0;       ///< index of the written model (sparse/0, sparse/1, ...)
   int cluster = -1;         ///< cluster it is interior to; -1: none
   bool in_overlap = false;  ///< shared by two or more clusters
@@ -114,20 +115,7 @@ struct ReportGnss {
   std::vector<std::string> outliers{};  ///< names
 };
 
-/// One of the written models: sparse/N.
-struct ReportModel {
-  uint32_t images = 0;  ///< registered in it
-  uint32_t loose = 0;   ///< placed in it loosely
-  uint64_t points = 0;
-  uint64_t observations = 0;
-  double residual_px_mean = 0.0;
-  ReportGnss gnss{};  ///< used: the model has the job's east-north-up frame
-  /// Between registered images that follow each other in a drive, world units.
-  double step_median = 0.0;
-  double path_length = 0.0;
-};
-
-/// Sigmas of the main model's poses: of positions root of the trace, in its units (metres with
+/// Sigmas of a model's poses: of positions root of the trace, in its units (metres with
 /// GNSS), of rotations rms angles.
 struct ReportUncertainty {
   bool known = false;
@@ -142,6 +130,30 @@ struct ReportUncertainty {
   double rotation_median_deg = 0.0;
   double rotation_p95_deg = 0.0;
   std::vector<uint32_t> worst{};  ///< of JobReport.images, least certain first
+};
+
+/// One of the written models: sparse/N.
+struct ReportModel {
+  uint32_t images = 0;  ///< registered in it
+  uint32_t loose = 0;   ///< placed in it loosely
+  uint64_t points = 0;
+  uint64_t observations = 0;
+  double residual_px_mean = 0.0;
+  ReportUncertainty uncertainty{};
+  ReportGnss gnss{};  ///< used: the model has the job's east-north-up frame
+  /// Between registered images that follow each other in a drive (JobReport.paths), world units.
+  double step_median = 0.0;
+  double path_length = 0.0;
+  /// Else nothing tells the order of some drive: its part of step_median is the distance to the
+  /// nearest image, and path_length lacks it.
+  bool is_in_order = true;
+};
+
+/// Registered images of a model that follow one another in a drive, without a gap.
+struct ReportPath {
+  uint32_t model = 0;
+  uint32_t drive = 0;
+  std::vector<uint32_t> images{};  ///< of JobReport.images, as they were taken; two at least
 };
 
 /// One minimisation of the global adjustment: costs are half the sum of losses.
@@ -188,6 +200,7 @@ struct JobReport {
       not_registered{};  ///< excluded files and images without a pose, with reasons
   uint32_t models = 0;   ///< sparse/0 ... sparse/(models - 1)
   std::vector<ReportModel> each_model{};  ///< in order; most images first
+  std::vector<ReportPath> paths{};        ///< by model, then drive (TracePaths)
   uint64_t points = 0;
   uint64_t observations = 0;
   double mean_track_length = 0.0;

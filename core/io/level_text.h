@@ -16,4 +16,9 @@ namespace orbweave {
   return "unknown";
 }
 
+/// "at_most" or "at_least".
+[[nodiscard]] inline std::string BoundText(CheckBound bound) {
+  return bound == CheckBound::kAtMost ? "at_most" : "at_least";
+}
+
 }  // namespace orbweave

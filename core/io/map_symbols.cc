@@ -49,6 +49,10 @@ std::string PathOf(MapSymbol symbol, double r) {
       return absl::StrCat("M0,", low, "l", one, ",", two, "h-", two, "z");
     case MapSymbol::kSeamBad:
       return absl::StrCat("M", low, ",", low, "h", two, "l-", one, ",", two, "z");
+    case MapSymbol::kSeamUnknown:
+      return absl::StrCat(
+                 "M0,", low, "l", one, ",", one, "l-", one, ",", one, "l-", one, ",-", one, "z") +
+             absl::StrCat("M", low, ",0h", two);
     case MapSymbol::kSeamUnused:
       return absl::StrCat("M", low, ",", low, "h", two, "l-", two, ",", two, "h", two, "z");
     default:

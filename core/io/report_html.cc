@@ -132,10 +132,12 @@ std::string Seams(const JobReport& report) {
 
 std::string Uncertainty(const JobReport& report) {
   if (report.images.empty()) return "";
-  return Section("Uncertainty",
-                 "One standard deviation of poses, " +
-                     EscapeHtml(UncertaintyFrameText(report.uncertainty)) + ".",
-                 UncertaintyHtml(report));
+  return Section(
+      "Uncertainty",
+      absl::StrCat(
+          "One standard deviation of poses", report.models > 1 ? " of model 0" : "", ", ") +
+          EscapeHtml(UncertaintyFrameText(report.uncertainty)) + ".",
+      UncertaintyHtml(report));
 }
 
 std::string Adjustment(const JobReport& report) {

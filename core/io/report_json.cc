@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "core/io/group_messages.h"
 #include "core/io/json_text.h"
 #include "core/io/level_text.h"
 #include "core/io/report_gnss.h"
@@ -93,14 +94,51 @@ Json Contradicted(const JobReport& report) {
 Json Checks(const JobReport& report) {
   Json list = Json::array();
   for (const CrossCheck& check : report.checks) {
+    const bool has_limit = check.limit != 0.0;
     list.push_back({{"name", check.name},
                     {"value", check.value},
-                    {"limit", check.limit},
+                    {"limit", has_limit ? Json(check.limit) : Json(nullptr)},
+                    {"limit_is", has_limit ? Json(BoundText(check.bound)) : Json(nullptr)},
                     {"unit", check.unit},
                     {"level", LevelText(check.level)},
                     {"sentence", check.sentence}});
   }
   return list;
+}
+
+/// null where it is not known.
+Json LengthJson(double length) { return length > 0.0 ? Json(length) : Json(nullptr); }
+
+/// Of one model.
+Json Uncertainty(const ReportUncertainty& uncertainty,
+                 const ReportModel& model,
+                 const JobReport& report) {
+  Json json = {{"known", uncertainty.known}, {"frame", UncertaintyFrameText(uncertainty)}};
+  if (!uncertainty.known) return json;
+  json["unit"] = model.gnss.used ? "metre" : "free";
+  json["position_sigma_median"] = uncertainty.position_median;
+  json["position_sigma_p95"] = uncertainty.position_p95;
+  json["rotation_sigma_median_deg"] = uncertainty.rotation_median_deg;
+  json["rotation_sigma_p95_deg"] = uncertainty.rotation_p95_deg;
+  json["bearing_sigma_factor"] = uncertainty.bearing_sigma_factor;
+  json["gnss_sigma_factors"] = {{"horizontal", uncertainty.horizontal_gnss_sigma_factor},
+                                {"vertical", uncertainty.vertical_gnss_sigma_factor}};
+  const auto share = [&](double length) {
+    return length > 0.0 ? Json(uncertainty.position_median / length) : Json(nullptr);
+  };
+  json["relative"] = {{"in_order", model.is_in_order},
+                      {"path_length", LengthJson(model.path_length)},
+                      {"step_median", LengthJson(model.step_median)},
+                      {"position_sigma_median_share_of_path", share(model.path_length)},
+                      {"position_sigma_median_share_of_step", share(model.step_median)}};
+  json["worst"] = Json::array();
+  for (const uint32_t index : uncertainty.worst) {
+    const ReportImage& image = report.images[index];
+    json["worst"].push_back({{"name", image.name},
+                             {"position_sigma", image.uncertainty->PositionSigma()},
+                             {"rotation_sigma_deg", image.uncertainty->RotationSigma_deg()}});
+  }
+  return json;
 }
 
 Json EachModel(const JobReport& report) {
@@ -113,8 +151,10 @@ Json EachModel(const JobReport& report) {
                     {"residual_px_mean", model.residual_px_mean},
                     {"georeferenced", model.gnss.used},
                     {"gnss", Gnss(model.gnss)},
-                    {"step_median", model.step_median},
-                    {"path_length", model.path_length}});
+                    {"uncertainty", Uncertainty(model.uncertainty, model, report)},
+                    {"in_order", model.is_in_order},
+                    {"step_median", LengthJson(model.step_median)},
+                    {"path_length", LengthJson(model.path_length)}});
   }
   return list;
 }
@@ -150,38 +190,6 @@ std::string WithImages(std::string json, const JobReport& report) {
     separator = ",\n  ";
   }
   return json + "\n ]\n}\n";
-}
-
-Json Uncertainty(const JobReport& report) {
-  const ReportUncertainty& uncertainty = report.uncertainty;
-  Json json = {{"known", uncertainty.known}, {"frame", UncertaintyFrameText(uncertainty)}};
-  if (!uncertainty.known) return json;
-  json["unit"] = report.gnss.used ? "metre" : "free";
-  json["position_sigma_median"] = uncertainty.position_median;
-  json["position_sigma_p95"] = uncertainty.position_p95;
-  json["rotation_sigma_median_deg"] = uncertainty.rotation_median_deg;
-  json["rotation_sigma_p95_deg"] = uncertainty.rotation_p95_deg;
-  json["bearing_sigma_factor"] = uncertainty.bearing_sigma_factor;
-  json["gnss_sigma_factors"] = {{"horizontal", uncertainty.horizontal_gnss_sigma_factor},
-                                {"vertical", uncertainty.vertical_gnss_sigma_factor}};
-  if (!report.each_model.empty()) {
-    const ReportModel& model = report.each_model.front();
-    const auto share = [&](double length) {
-      return length > 0.0 ? Json(uncertainty.position_median / length) : Json(nullptr);
-    };
-    json["relative"] = {{"path_length", model.path_length},
-                        {"step_median", model.step_median},
-                        {"position_sigma_median_share_of_path", share(model.path_length)},
-                        {"position_sigma_median_share_of_step", share(model.step_median)}};
-  }
-  json["worst"] = Json::array();
-  for (const uint32_t index : uncertainty.worst) {
-    const ReportImage& image = report.images[index];
-    json["worst"].push_back({{"name", image.name},
-                             {"position_sigma", image.uncertainty->PositionSigma()},
-                             {"rotation_sigma_deg", image.uncertainty->RotationSigma_deg()}});
-  }
-  return json;
 }
 
 Json Adjustments(const JobReport& report) {
@@ -243,12 +251,17 @@ std::string ReportJson(const JobReport& report) {
   json["checks"] = Checks(report);
   json["gnss"] = Gnss(report.gnss);
   json["gnss"]["contradicted"] = Contradicted(report);
-  json["uncertainty"] = Uncertainty(report);
+  json["uncertainty"] =
+      Uncertainty(report.uncertainty,
+                  report.each_model.empty() ? ReportModel{} : report.each_model.front(),
+                  report);
+  if (report.models > 1) json["uncertainty"]["model"] = 0;
   json["global_adjustment"] = Adjustments(report);
   json["stages"] = StagesJson(report.stages);
   json["workers"] = Workers(report);
   json["elapsed_s"] = report.elapsed_s;
-  json["warnings"] = report.warnings;
+  json["warnings"] = CountedLines(report.warnings);
+  json["warnings_in_full"] = report.warnings;
   json["options"] = report.options_text;
   return WithImages(JsonText(json), report);
 }

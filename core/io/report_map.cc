@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -35,25 +36,32 @@ MapImages ImagesOf(const JobReport& report, const MapFrame& frame) {
   return images;
 }
 
-/// Images without a pose, where GNSS says.
+/// Images without a pose that have a place on the map by GNSS.
 MapImages MissingImages(const JobReport& report, const MapFrame& frame) {
   MapImages images;
   if (!frame.georeferenced) return images;
   for (const ReportImage& image : report.images) {
-    if (!image.registered && image.gnss_in_world && images.size() < kMaxMarks)
-      images.push_back(&image);
+    if (!image.registered && image.gnss_in_world) images.push_back(&image);
   }
   return images;
 }
 
 MapImages ContradictedImages(const MapImages& images) {
   MapImages contradicted;
-  for (const ReportImage* image : images) {
-    if (image->gnss_outlier && image->gnss_in_world && contradicted.size() < kMaxMarks)
-      contradicted.push_back(image);
-  }
+  std::ranges::copy_if(images, std::back_inserter(contradicted), [](const ReportImage* image) {
+    return image->gnss_outlier && image->gnss_in_world;
+  });
   return contradicted;
 }
+
+/// Those of them that are drawn.
+MapImages FirstMarks(MapImages images) {
+  if (images.size() > kMaxMarks) images.resize(kMaxMarks);
+  return images;
+}
+
+/// Every how manieth of so many images is drawn.
+size_t StrideOf(size_t num_images) { return (num_images + kMaxDots - 1) / kMaxDots; }
 
 /// The colour of an image: its model's where the frame has several, else its cluster's.
 class MapColors {
@@ -80,22 +88,23 @@ std::string PairText(const Eigen::Vector2d& p) {
   return DecimalText(p.x(), 1) + "," + DecimalText(p.y(), 1);
 }
 
-/// A thin line per model and drive through its registered images.
-std::string DriveLines(const MapImages& images, const MapView& view) {
-  std::map<std::pair<uint32_t, uint32_t>, std::string> points;
-  std::map<std::pair<uint32_t, uint32_t>, Eigen::Vector2d> last;
-  for (const ReportImage* image : images) {
-    if (image->loose) continue;
-    const Eigen::Vector2d p = view.Page(image->centre_in_world);
-    const std::pair line(image->model, image->drive);
-    const auto [previous, is_first] = last.emplace(line, p);
-    if (!is_first && (p - previous->second).norm() < 0.7) continue;
-    previous->second = p;
-    absl::StrAppend(&points[line], PairText(p), " ");
-  }
+/// A thin line per path of the frame's models.
+std::string PathLines(const JobReport& report, const MapFrame& frame, const MapView& view) {
+  constexpr double kShortest_px = 0.7;
   std::string svg;
-  for (const auto& [line, list] : points)
-    absl::StrAppend(&svg, "<polyline class=\"path\" points=\"", list, "\"/>");
+  for (const ReportPath& path : report.paths) {
+    if (!std::ranges::binary_search(frame.models, path.model)) continue;
+    std::string points;
+    Eigen::Vector2d last = Eigen::Vector2d::Zero();
+    for (const uint32_t image : path.images) {
+      const Eigen::Vector2d p = view.Page(report.images[image].centre_in_world);
+      const bool is_end = image == path.images.front() || image == path.images.back();
+      if (!is_end && (p - last).norm() < kShortest_px) continue;
+      last = p;
+      absl::StrAppend(&points, PairText(p), " ");
+    }
+    absl::StrAppend(&svg, "<polyline class=\"path\" points=\"", points, "\"/>");
+  }
   return svg;
 }
 
@@ -128,7 +137,7 @@ std::string Dots(const JobReport& report,
                  const MapImages& images,
                  const MapColors& colors,
                  const MapView& view) {
-  const size_t stride = (images.size() + kMaxDots - 1) / kMaxDots;
+  const size_t stride = StrideOf(images.size());
   const double radius = images.size() > 1000 ? 2.0 : images.size() > 200 ? 3.0 : 4.2;
   std::string svg;
   for (size_t i = 0; i < images.size(); i += stride) {
@@ -315,14 +324,18 @@ std::string ColorEntry(int color, const std::string& text) {
 
 std::string ModelKey(const JobReport& report, const MapFrame& frame) {
   std::string key;
-  for (size_t i = 0; i < std::min<size_t>(frame.models.size(), kMapColors); ++i) {
+  for (size_t i = 0; i < std::min<size_t>(frame.models.size(), kMapLooks); ++i) {
     const uint32_t model = frame.models[i];
     key += ColorEntry(
         static_cast<int>(i),
         absl::StrCat("model ", model, " (", CountText(report.each_model[model].images), ")"));
   }
-  if (frame.models.size() > kMapColors)
-    absl::StrAppend(&key, "<span>and ", frame.models.size() - kMapColors, " more models</span>");
+  if (frame.models.size() > kMapLooks) {
+    absl::StrAppend(&key,
+                    "<span>and ",
+                    frame.models.size() - kMapLooks,
+                    " smaller models, in the same colours again</span>");
+  }
   return key;
 }
 
@@ -335,7 +348,11 @@ std::string ClusterKey(const JobReport& report, const MapFrame& frame) {
   }
   if (shown.size() < 2) return "";
   if (shown.size() > kMapColors)
-    return absl::StrCat("<span>colours: ", shown.size(), " clusters</span>");
+    return absl::StrCat("<span>colours: ",
+                        shown.size(),
+                        " clusters; those with a seam between them differ, others share ",
+                        kMapColors,
+                        " colours</span>");
   std::string key;
   for (const auto& [cluster, yes] : shown) {
     const bool known = cluster >= 0 && std::cmp_less(cluster, colors.size());
@@ -343,6 +360,21 @@ std::string ClusterKey(const JobReport& report, const MapFrame& frame) {
                       cluster < 0 ? "no cluster" : absl::StrCat("cluster ", cluster));
   }
   return key;
+}
+
+/// "17,000 of 20,000 panoramas are not drawn"; empty where all are.
+std::string NotDrawn(size_t drawn, size_t all, const char* what) {
+  if (drawn >= all) return "";
+  return absl::StrCat(
+      "<span>", CountText(all - drawn), " of ", CountText(all), " ", what, " are not drawn</span>");
+}
+
+std::string LeftOffTheMap(const JobReport& report, const MapFrame& frame) {
+  const MapImages images = ImagesOf(report, frame);
+  const size_t stride = std::max<size_t>(StrideOf(images.size()), 1);
+  return NotDrawn((images.size() + stride - 1) / stride, images.size(), "panoramas with a pose") +
+         NotDrawn(kMaxMarks, MissingImages(report, frame).size(), "panoramas without a pose") +
+         NotDrawn(kMaxMarks, ContradictedImages(images).size(), "contradicted GNSS positions");
 }
 
 }  // namespace
@@ -373,8 +405,8 @@ std::vector<MapFrame> MapFrames(const JobReport& report) {
 std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame) {
   const MapImages images = ImagesOf(report, frame);
   if (images.empty()) return "";
-  const MapImages missing = MissingImages(report, frame);
-  const MapImages contradicted = ContradictedImages(images);
+  const MapImages missing = FirstMarks(MissingImages(report, frame));
+  const MapImages contradicted = FirstMarks(ContradictedImages(images));
   std::vector<Eigen::Vector3d> marks;
   for (const MapImages* list : {&missing, &contradicted}) {
     for (const ReportImage* image : *list) marks.push_back(*image->gnss_in_world);
@@ -387,7 +419,7 @@ std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame) {
                       " ",
                       DecimalText(view.height, 0),
                       "\" role=\"img\" aria-label=\"Trajectory from above\">",
-                      DriveLines(images, view),
+                      PathLines(report, frame, view),
                       UncertaintyEllipses(images, view),
                       Missing(missing, view),
                       GnssOutliers(contradicted, view),
@@ -401,7 +433,7 @@ std::string TrajectoryMapSvg(const JobReport& report, const MapFrame& frame) {
 std::string MapKeyHtml(const JobReport& report, const MapFrame& frame, const std::string& map) {
   const std::string key =
       (frame.models.size() > 1 ? ModelKey(report, frame) : ClusterKey(report, frame)) +
-      LegendOfSymbols(map);
+      LegendOfSymbols(map) + LeftOffTheMap(report, frame);
   return key.empty() ? "" : "<div class=\"key\">" + key + "</div>";
 }
 

@@ -24,6 +24,12 @@ std::string FrameText(const ReportGnss& gnss) {
   return gnss.reason.empty() ? "free" : "free: " + EscapeHtml(gnss.reason);
 }
 
+/// Median position sigma.
+std::string PrecisionText(const ReportModel& model) {
+  if (!model.uncertainty.known) return "-";
+  return SigmaText(model.uncertainty.position_median) + (model.gnss.used ? " m" : " units");
+}
+
 std::string Row(size_t number, const ReportModel& model) {
   return absl::StrCat("<tr><td>",
                       number,
@@ -37,6 +43,8 @@ std::string Row(size_t number, const ReportModel& model) {
                       CountText(model.observations),
                       "</td><td>",
                       DecimalText(model.residual_px_mean, 3),
+                      "</td><td>",
+                      PrecisionText(model),
                       "</td><td class=\"text\">",
                       FrameText(model.gnss),
                       "</td></tr>");
@@ -52,7 +60,7 @@ std::string ModelsHtml(const JobReport& report) {
     rows += Row(number, models[number]);
   if (models.size() > kMaxRows) {
     absl::StrAppend(&rows,
-                    "<tr><td class=\"text\" colspan=\"7\">and ",
+                    "<tr><td class=\"text\" colspan=\"8\">and ",
                     CountText(models.size() - kMaxRows),
                     " smaller ones, all in report.json</td></tr>");
   }
@@ -61,7 +69,7 @@ std::string ModelsHtml(const JobReport& report) {
                  "share one frame; a free one has a place and scale of its own.",
                  "<table><thead><tr><th>model</th><th>registered</th><th class=\"minor\">loose</th>"
                  "<th class=\"minor\">points</th><th class=\"minor\">observations</th><th>mean px"
-                 "</th><th class=\"text\">frame</th></tr></thead><tbody>" +
+                 "</th><th>median sigma</th><th class=\"text\">frame</th></tr></thead><tbody>" +
                      rows + "</tbody></table>");
 }
 

@@ -8,7 +8,8 @@
 
 namespace orbweave {
 
-/// The written models as a table: what each holds and where it lies. Empty for fewer than two.
+/// The written models as a table: what each holds, how well it is known and where it lies. Empty
+/// for fewer than two.
 [[nodiscard]] std::string ModelsHtml(const JobReport& report);
 
 }  // namespace orbweave

@@ -50,7 +50,8 @@ svg text{fill:var(--soft);font-size:12px;font-variant-numeric:tabular-nums}
 .map{border-radius:8px;background:var(--bg)}
 .path{fill:none;stroke:var(--soft);opacity:.35;stroke-width:2.5;stroke-linejoin:round}
 .dot{fill:currentColor}
-.overlap{stroke:var(--ink);stroke-width:1.3}
+.dot.hollow{fill-opacity:.2;stroke:currentColor;stroke-width:1.5}
+.dot.overlap{stroke:var(--ink);stroke-width:1.3}
 .sym{fill:none;stroke-width:1.8;stroke-linejoin:round}
 .loose{fill:var(--bg);stroke:currentColor}
 .missing{stroke:var(--ink)}
@@ -88,6 +89,7 @@ td.text{overflow-wrap:anywhere}
 .key{display:flex;flex-wrap:wrap;gap:4px 18px;color:var(--soft);font-size:13px;margin:10px 0 0}
 .key i{display:inline-block;width:11px;height:11px;border-radius:50%;margin-right:6px;vertical-align:-1px;background:currentColor}
 .key i.wall,.key i.cpu{border-radius:3px}
+.key i.hollow{background:none;border:2px solid currentColor}
 .icon{display:inline-block;width:16px;height:16px;margin-right:5px;vertical-align:-3px}
 .good{color:var(--good)}.bad{color:var(--bad)}.warn{color:var(--warn)}
 p.warn{margin:0 0 4px}

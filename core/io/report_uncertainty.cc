@@ -47,16 +47,21 @@ std::string UncertaintyFrameText(const ReportUncertainty& uncertainty) {
 std::string RelativePrecisionText(const JobReport& report) {
   if (!report.uncertainty.known || report.each_model.empty()) return "";
   const ReportModel& model = report.each_model.front();
-  if (!(model.path_length > 0.0) || !(model.step_median > 0.0)) return "";
   const double median = report.uncertainty.position_median;
   const std::string unit = report.gnss.used ? " m" : " units";
-  return absl::StrCat(ShareText(median / model.path_length),
-                      " of a path of ",
-                      ShortText(model.path_length),
-                      unit,
-                      ", ",
+  std::string text;
+  if (model.path_length > 0.0 && model.is_in_order) {
+    text = absl::StrCat(ShareText(median / model.path_length),
+                        " of a path of ",
+                        ShortText(model.path_length),
+                        unit);
+  }
+  if (!(model.step_median > 0.0)) return text;
+  return absl::StrCat(text,
+                      text.empty() ? "" : ", ",
                       ShareText(median / model.step_median),
-                      " of a step of ",
+                      " of ",
+                      model.is_in_order ? "a step of " : "the distance to the nearest panorama, ",
                       ShortText(model.step_median),
                       unit);
 }
@@ -65,6 +70,7 @@ std::string UncertaintyHtml(const JobReport& report) {
   const ReportUncertainty& uncertainty = report.uncertainty;
   if (!uncertainty.known) return "";
   const double step = report.each_model.empty() ? 0.0 : report.each_model.front().step_median;
+  const bool is_in_order = report.each_model.empty() || report.each_model.front().is_in_order;
   std::string rows =
       Row("median", uncertainty.position_median, uncertainty.rotation_median_deg, step) +
       Row("95 % below", uncertainty.position_p95, uncertainty.rotation_p95_deg, step);
@@ -89,7 +95,9 @@ std::string UncertaintyHtml(const JobReport& report) {
   return absl::StrCat(
       "<table><thead><tr><th>panorama</th><th>position, ",
       report.gnss.used ? "m" : "units",
-      "</th><th>of a step</th><th>rotation, °</th></tr></thead><tbody>",
+      "</th><th>",
+      is_in_order ? "of a step" : "of the distance to the nearest",
+      "</th><th>rotation, °</th></tr></thead><tbody>",
       rows,
       "</tbody></table><div class=\"key\"><span>",
       factors,

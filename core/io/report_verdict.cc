@@ -40,16 +40,12 @@ std::string MeasureText(double value, const std::string& unit) {
   return absl::StrCat(ShortText(value), " ", EscapeHtml(unit));
 }
 
-/// What a right model stays within: whether that is above or below follows from a value and what
-/// it was judged.
+/// What a right model stays within. A share of 1 is met exactly, if at all.
 std::string LimitText(const CrossCheck& check) {
   if (check.limit == 0.0) return "";
-  const bool within_is_below = (check.value <= check.limit) == (check.level == CheckLevel::kGood);
-  const bool is_met_exactly = check.value == check.limit;
-  return absl::StrCat(is_met_exactly    ? ""
-                      : within_is_below ? "≤ "
-                                        : "≥ ",
-                      MeasureText(check.limit, check.unit));
+  const bool is_whole = check.unit == "share" && check.limit == 1.0;
+  const char* sign = is_whole ? "" : check.bound == CheckBound::kAtMost ? "≤ " : "≥ ";
+  return sign + MeasureText(check.limit, check.unit);
 }
 
 /// A name that may be broken at its underscores.

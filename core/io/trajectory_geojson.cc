@@ -4,7 +4,6 @@
 #include "core/io/trajectory_geojson.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/io/json_text.h"
@@ -23,22 +22,35 @@ Json PositionOf(const Rigid3& cam_from_world, const GeodeticPosition& origin) {
                       Rounded(position.altitude_m, 1e-4)});
 }
 
-Json Feature(const char* type, Json coordinates, Json properties) {
+Json Geometry(const char* type, Json coordinates) {
+  return {{"type", type}, {"coordinates", std::move(coordinates)}};
+}
+
+Json Feature(Json geometry, Json properties) {
   return {{"type", "Feature"},
-          {"geometry", {{"type", type}, {"coordinates", std::move(coordinates)}}},
+          {"geometry", std::move(geometry)},
           {"properties", std::move(properties)}};
 }
 
-Json PropertiesOf(const ReportImage& image) {
-  Json properties = {{"name", image.name},
-                     {"state", image.StateText()},
-                     {"model", image.model},
-                     {"drive", image.drive},
-                     {"loose", image.loose},
-                     {"observations", image.observations}};
+/// Why it has no place on earth of its own; empty where it has.
+std::string ReasonOf(const JobReport& report, const ReportImage& image) {
+  if (!image.registered || image.loose || report.IsGeoreferenced(image)) return image.reason;
+  const bool is_known = image.model < report.each_model.size();
+  const std::string why = is_known ? report.each_model[image.model].gnss.reason : "";
+  return "its model is not georeferenced" + (why.empty() ? "" : ": " + why);
+}
+
+Json PropertiesOf(const JobReport& report, const ReportImage& image) {
+  Json properties = {{"name", image.name}, {"state", image.StateText()}, {"drive", image.drive}};
   if (image.cluster >= 0) properties["cluster"] = image.cluster;
+  if (const std::string reason = ReasonOf(report, image); !reason.empty())
+    properties["reason"] = reason;
+  if (!image.registered) return properties;
+  properties["model"] = image.model;
+  properties["loose"] = image.loose;
+  properties["observations"] = image.observations;
   if (image.observations > 0) properties["residual_px"] = Rounded(image.residual_px_mean, 1e-4);
-  if (!image.uncertainty) return properties;
+  if (!image.uncertainty || !report.IsGeoreferenced(image)) return properties;
   const Eigen::Vector3d sigmas_m = image.uncertainty->PositionSigmas();
   properties["sigma_east_m"] = Rounded(sigmas_m.x(), 1e-6);
   properties["sigma_north_m"] = Rounded(sigmas_m.y(), 1e-6);
@@ -47,25 +59,29 @@ Json PropertiesOf(const ReportImage& image) {
   return properties;
 }
 
+Json LineOf(const ReportPath& path, const JobReport& report) {
+  Json positions = Json::array();
+  for (const uint32_t image : path.images)
+    positions.push_back(PositionOf(report.images[image].cam_from_world, *report.origin));
+  return Feature(Geometry("LineString", std::move(positions)),
+                 {{"model", path.model}, {"drive", path.drive}});
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> TrajectoryGeoJson(const JobReport& report) {
   if (!report.origin) return absl::FailedPreconditionError("the job has no latitude and longitude");
-  std::map<std::pair<uint32_t, uint32_t>, Json> lines;  // by model and drive
-  Json points = Json::array();
-  for (const ReportImage& image : report.images) {
-    if (!report.IsGeoreferenced(image)) continue;
-    Json position = PositionOf(image.cam_from_world, *report.origin);
-    if (!image.loose) lines[{image.model, image.drive}].push_back(position);
-    points.push_back(Feature("Point", std::move(position), PropertiesOf(image)));
-  }
   Json features = Json::array();
-  for (auto& [place, line] : lines) {
-    if (line.size() < 2) continue;  // a LineString has two positions at least
-    features.push_back(
-        Feature("LineString", std::move(line), {{"model", place.first}, {"drive", place.second}}));
+  for (const ReportPath& path : report.paths) {
+    if (report.IsGeoreferenced(report.images[path.images.front()]))
+      features.push_back(LineOf(path, report));
   }
-  for (Json& point : points) features.push_back(std::move(point));
+  for (const ReportImage& image : report.images) {
+    Json geometry = nullptr;
+    if (report.IsGeoreferenced(image))
+      geometry = Geometry("Point", PositionOf(image.cam_from_world, *report.origin));
+    features.push_back(Feature(std::move(geometry), PropertiesOf(report, image)));
+  }
   return JsonText({{"type", "FeatureCollection"}, {"features", std::move(features)}});
 }
 

@@ -36,7 +36,7 @@ CrossCheck CheckCorrelation(const GlobalProblem& problem, const GnssVariance& va
                 "%.0f GNSS positions are worth %.1f independent ones; sigmas allow for it",
                 count,
                 std::max(count / worst.inflation, 1.0));
-  return {.name = "gnss_correlation", .value = worst.inflation, .unit = "share", .sentence = text};
+  return {.name = "gnss_correlation", .value = worst.inflation, .unit = "count", .sentence = text};
 }
 
 // The way of a model that runs straight, and how well anything but attitudes holds its roll.
@@ -95,13 +95,14 @@ std::optional<CrossCheck> CheckMountTilt(const GlobalProblem& problem,
                   "roll of the panoramas, or a drive that turns",
                   check.value);
   } else {
-    check.value = lean ? kDeg * std::abs(lean->lean_rad) : 0.0;
+    const bool is_upright = lean && std::abs(lean->lean_rad) <= kMaxLean_rad;
+    check.value = is_upright ? kDeg * std::abs(lean->lean_rad) : 0.0;
     std::snprintf(text,
                   sizeof(text),
                   "the way is too straight to tell how far the cameras lean to the side: taken as "
                   "upright within %.1f degrees%s",
                   kDeg * std::min(straightness.gnss_sigma_rad, attitude_rad),
-                  lean ? ", as ground and walls are" : "");
+                  is_upright ? ", as ground and walls are" : "");
   }
   check.sentence = text;
   return check;

@@ -192,9 +192,10 @@ CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) 
   const std::string cause = ": a clock that is off, or an antenna before or behind the camera";
   CrossCheck check{.name = "gnss_clock",
                    .value = std::abs(ahead),
-                   .limit = kBelievedSigmas * shift.sigma,
+                   .limit = kDoubtedSigmas * shift.sigma,
                    .unit = unit};
   if (shift.IsBelieved()) {
+    check.limit = 0.0;  // none for what is taken off
     check.sentence = PositionsOf(drive) + " are " + size + cause + "; this is taken off";
   } else if (shift.IsDoubted()) {
     check.level = CheckLevel::kDoubtful;
@@ -211,7 +212,6 @@ CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) 
 CrossCheck LeverCheck(const GnssDrive& drive, double left_m, double sigma_m) {
   return {.name = "gnss_lever_arm",
           .value = std::abs(left_m),
-          .limit = kBelievedSigmas * sigma_m,
           .unit = "m",
           .sentence = PositionsOf(drive) + " are " + Fixed(std::abs(left_m), "m") + " to the " +
                       (left_m > 0.0 ? "left" : "right") + " of the cameras (sigma " +
@@ -306,7 +306,7 @@ CrossCheck DatumCheck(std::span<const GnssDrive> drives,
                       bool is_majority) {
   CrossCheck check{.name = "gnss_datum",
                    .value = apart_m.norm(),
-                   .limit = kSameDatum_m,
+                   .limit = is_majority ? 0.0 : kSameDatum_m,  // none for what is taken off
                    .unit = "m",
                    .level = is_majority ? CheckLevel::kGood : CheckLevel::kDoubtful};
   check.sentence = "GNSS positions of drives " + Numbers(drives, others) + " lie " +

@@ -153,15 +153,15 @@ FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
   world.report.uncertainty = std::move(assessed.report);
   std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
                     std::back_inserter(world.report.checks));
+  LoosenUnobserved(summaries, manifest, poses, world.report);
+  JudgeSupports(supports, manifest, poses, world.report);
   if (georeference.enu_from_world) {
-    world.report.gnss = JudgeGnss(problem, biases_m, manifest);
+    world.report.gnss = JudgeGnss(problem, biases_m, manifest, poses.images);
     world.report.gnss.deformation_m = georeference.deformation_m;
     world.report.adjustments.back().biases_m = biases_m;
   } else {
     world.report.gnss.reason = georeference.reason;
   }
-  LoosenUnobserved(summaries, manifest, poses, world.report);
-  JudgeSupports(supports, manifest, poses, world.report);
   MeasureResiduals(summaries, world.report);
   if (!georeference.enu_from_world) world.model_from_world = ChooseLocalFrame(poses, manifest);
   const double sigma_factor = world.report.uncertainty.bearing_sigma_factor;

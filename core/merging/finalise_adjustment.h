@@ -35,8 +35,8 @@ struct AdjustedWorld {
 /// What only the whole world tells: which images nobody observes any more (they become loose),
 /// which ones their own observations do not place (JudgeSupport; they are no more in the world, for
 /// AttachLooseImages to put where GNSS says), how GNSS fits
-/// (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the partition) fit, cross
-/// checks, and the frame of the model.
+/// the others (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the partition) fit,
+/// cross checks, and the frame of the model.
 [[nodiscard]] FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
                                                 const std::vector<Seam>& seams,
                                                 const Georeference& georeference,

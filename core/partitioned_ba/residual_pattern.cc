@@ -106,7 +106,7 @@ CrossCheck CheckResidualPattern(const ResidualPattern& pattern, double rms_px) {
   check.sentence = "no residual repeats at the same place of every panorama";
   if (check.value < kNoticeable_px) return check;
   check.sentence = SentenceOf(over_azimuth_px, over_latitude_px);
-  if (check.value >= check.limit) check.level = CheckLevel::kDoubtful;
+  if (!check.IsWithinLimit()) check.level = CheckLevel::kDoubtful;
   return check;
 }
 

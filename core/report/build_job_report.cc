@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <set>
 
-#include "core/base/quantile.h"
 #include "core/report/check_contradicted_pairs.h"
 #include "core/report/check_job.h"
 #include "core/report/check_lengths.h"
@@ -20,6 +18,7 @@
 #include "core/report/list_missing_images.h"
 #include "core/report/list_unchecked.h"
 #include "core/report/summarise_uncertainty.h"
+#include "core/report/trace_paths.h"
 
 namespace orbweave {
 namespace {
@@ -58,7 +57,7 @@ void FillModel(const JobResults& results, uint32_t number, JobReport& report) {
     row.centre_in_world = image.cam_from_world.Centre();
     row.gnss_in_world.reset();
     if (model.report.gnss.used) row.gnss_in_world = record.prior.position_in_enu;
-    row.gnss_outlier = outliers.contains(record.name);
+    row.gnss_outlier = !image.loose && outliers.contains(record.name);
     row.observations = 0;
     row.residual_px_mean = 0.0;
     if (const auto found = model.measures.images.find(id); found != model.measures.images.end()) {
@@ -200,21 +199,6 @@ ReportGnss GnssRow(const GnssReport& gnss) {
           .outliers = gnss.outliers};
 }
 
-/// Steps between images of a model that follow each other in a drive.
-void MeasurePath(const JobReport& report, uint32_t number, ReportModel& row) {
-  std::map<uint32_t, Eigen::Vector3d> last_of_drive;
-  std::vector<double> steps;
-  for (const ReportImage& image : report.images) {
-    if (!image.registered || image.loose || image.model != number) continue;
-    const auto [last, is_first] = last_of_drive.emplace(image.drive, image.centre_in_world);
-    if (is_first) continue;
-    steps.push_back((image.centre_in_world - last->second).norm());
-    row.path_length += steps.back();
-    last->second = image.centre_in_world;
-  }
-  row.step_median = Quantile(std::move(steps), 0.5);
-}
-
 std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& report) {
   std::vector<ReportModel> rows;
   for (uint32_t number = 0; number < results.models.size(); ++number) {
@@ -223,8 +207,8 @@ std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& r
     row.points = model.measures.points;
     row.observations = model.measures.observations;
     row.residual_px_mean = model.measures.residual_px_mean;
+    row.uncertainty = SummariseUncertainty(model.report.uncertainty, model.images);
     row.gnss = GnssRow(model.report.gnss);
-    MeasurePath(report, number, row);
   }
   for (const ReportImage& image : report.images) {
     if (image.registered) ++(image.loose ? rows[image.model].loose : rows[image.model].images);
@@ -320,12 +304,12 @@ JobReport BuildJobReport(const JobResults& results) {
   if (std::optional<CrossCheck> standing = CheckStandingCamera(results, report.images))
     report.checks.push_back(*std::move(standing));
   report.checks.push_back(CheckLookAlikes(results));
-  if (!results.models.empty()) {
-    const AdjustedModel& main = results.models.front();
-    report.gnss = GnssRow(main.report.gnss);
-    report.uncertainty = SummariseUncertainty(main.report.uncertainty, main.images);
-  }
   report.each_model = ModelRows(results, report);
+  if (!report.each_model.empty()) {
+    report.gnss = report.each_model.front().gnss;
+    report.uncertainty = report.each_model.front().uncertainty;
+  }
+  TracePaths(results.manifest, report);
   PlaceMissingByGnss(results.manifest, report);
   Judge(results, report);
   return report;

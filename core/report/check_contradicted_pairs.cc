@@ -85,7 +85,8 @@ std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results) {
                     results.manifest.At(contradicted.begin()->b).name;
   if (check.value <= kExpectedShare) return check;
   const auto contested = MostContested(judged, contradicted);
-  if (!contested && check.value <= kMajority) {
+  if (!contested) check.limit = kMajority;
+  if (check.IsWithinLimit()) {
     check.sentence += ", and most pairs of every panorama agree with it: places that look alike";
     return check;
   }

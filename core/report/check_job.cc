@@ -39,12 +39,18 @@ CheckLevel LevelOfShare(size_t part, size_t whole) {
                            : CheckLevel::kGood;
 }
 
+/// Down to which it is good, of `whole`.
+double WantedShare(size_t whole) {
+  return whole < 2 ? 1.0 : std::min(kWanted, ShareOf(whole - 1, whole));
+}
+
 CrossCheck ShareCheck(const char* name, size_t part, size_t whole, CheckLevel level) {
   return {.name = name,
           .value = ShareOf(part, whole),
-          .limit = kWanted,
+          .limit = WantedShare(whole),
           .unit = "share",
-          .level = level};
+          .level = level,
+          .bound = CheckBound::kAtLeast};
 }
 
 CrossCheck CheckRegistered(const JobReport& report) {
@@ -166,7 +172,8 @@ std::optional<CrossCheck> CheckSeamFits(const JobReport& report) {
                             : fitting + 1 < certified && ShareOf(fitting, certified) < 1.0 - kMost
                                 ? CheckLevel::kBad
                                 : CheckLevel::kDoubtful,
-                   .sentence = CountOf(fitting, certified, "certified seams between clusters fit")};
+                   .sentence = CountOf(fitting, certified, "certified seams between clusters fit"),
+                   .bound = CheckBound::kAtLeast};
   if (check.level != CheckLevel::kGood) {
     absl::StrAppend(&check.sentence,
                     "; the worst, between clusters ",
@@ -191,7 +198,8 @@ std::optional<CrossCheck> CheckSeamsInLoops(const JobReport& report) {
       .limit = 1.0,
       .unit = "share",
       .level = contradicted == 0 ? CheckLevel::kGood : CheckLevel::kDoubtful,
-      .sentence = CountOf(holding, report.seams.size(), "seams agree with the loops they close")};
+      .sentence = CountOf(holding, report.seams.size(), "seams agree with the loops they close"),
+      .bound = CheckBound::kAtLeast};
   if (contradicted > 0) {
     check.sentence +=
         "; the others were switched off: places that look alike, or a cluster that is bent";
@@ -217,7 +225,8 @@ std::optional<CrossCheck> CheckCertified(const JobReport& report) {
       .limit = 1.0,
       .unit = "share",
       .level = certified == is_certified.size() ? CheckLevel::kGood : CheckLevel::kDoubtful,
-      .sentence = CountOf(certified, is_certified.size(), "joined clusters have a certified seam")};
+      .sentence = CountOf(certified, is_certified.size(), "joined clusters have a certified seam"),
+      .bound = CheckBound::kAtLeast};
   if (check.level != CheckLevel::kGood)
     check.sentence += "; whether the others fit cannot be told: too little is seen from both sides";
   return check;
@@ -259,6 +268,10 @@ void DoubtGnssInUse(const ReportGnss& gnss, double stated_m, CrossCheck& check) 
                           : ": the others are wrong, or the model is where they are";
   } else if (gnss.residual_median_m > kTooFar * stated_m) {
     check.level = CheckLevel::kDoubtful;
+    check.value = gnss.residual_median_m;
+    check.limit = kTooFar * stated_m;
+    check.unit = "m";
+    check.bound = CheckBound::kAtMost;
     check.sentence += absl::StrFormat(
         ", yet lie %.1f m from it in the median where their sigmas state %.1f m: either they are "
         "that wrong, or the model is bent, folded or of two scales",
@@ -287,7 +300,8 @@ std::optional<CrossCheck> CheckGnssUse(const JobResults& results,
   if (gnss.reason == "switched off" || (model > 0 && !gnss.used)) return std::nullopt;
   const std::vector<const PosePrior*> priors = PositionsOf(results, model);
   if (priors.size() < kMinPositions) return std::nullopt;
-  CrossCheck check{.name = "gnss_used", .limit = kMinAgreeing, .unit = "share"};
+  CrossCheck check{
+      .name = "gnss_used", .limit = kMinAgreeing, .unit = "share", .bound = CheckBound::kAtLeast};
   if (gnss.used) {
     check.value = ShareOf(gnss.num_inliers, gnss.num_priors);
     check.sentence =
@@ -297,7 +311,10 @@ std::optional<CrossCheck> CheckGnssUse(const JobResults& results,
     return check;
   }
   check.sentence = absl::StrCat(priors.size(), " GNSS positions are not used: ", gnss.reason);
-  if (!SpreadBeyondNoise(priors)) return check;
+  if (!SpreadBeyondNoise(priors)) {
+    check.limit = 0.0;  // they are no measure of it
+    return check;
+  }
   check.level = CheckLevel::kDoubtful;
   check.sentence += "; either they are wrong or the model is";
   return check;

@@ -22,7 +22,8 @@ namespace orbweave {
 ///   adjustment_converged    what the last step of an adjustment that stopped early moved
 ///   uncertainty_known       share of the registered images whose sigmas are known
 ///   gnss_used               of each model that GNSS puts on earth: share of its positions that
-///                           agree; 0 where those of the first model are not used
+///                           agree, or where they do and lie too far off their median distance in
+///                           metres; 0 where those of the first model are not used
 [[nodiscard]] std::vector<CrossCheck> CheckJob(const JobResults& results, const JobReport& report);
 
 }  // namespace orbweave

@@ -89,7 +89,7 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
 
 CrossCheck CheckLengths(const JobResults& results) {
   CrossCheck check{
-      .name = "step_lengths", .value = 1.0, .limit = kMinAgreeingLengths, .unit = "share"};
+      .name = "step_lengths", .value = 1.0, .unit = "share", .bound = CheckBound::kAtLeast};
   const std::vector<PairLength> lengths =
       LeastAgreeing(results, &ClusterSummary::pair_lengths, &PairLength::pair);
   const std::vector<GapLength> gaps =

@@ -159,13 +159,16 @@ CrossCheck CheckPairs(const JobResults& results) {
       far.insert(pair);
     }
   }
-  CrossCheck check{
-      .name = "pairs_explained", .value = 1.0, .limit = 1.0 - kBadShare, .unit = "share"};
+  CrossCheck check{.name = "pairs_explained",
+                   .value = 1.0,
+                   .limit = 1.0,
+                   .unit = "share",
+                   .bound = CheckBound::kAtLeast};
   const size_t all = explained + torn.size();
   if (all > 0) check.value = static_cast<double>(explained) / static_cast<double>(all);
   char text[512];
   if (!torn.empty()) {
-    const bool is_bad = torn.size() > 1 && check.value < check.limit;
+    const bool is_bad = torn.size() > 1 && check.value < 1.0 - kBadShare;
     check.level = is_bad ? CheckLevel::kBad : CheckLevel::kDoubtful;
     std::snprintf(text,
                   sizeof text,
@@ -181,6 +184,10 @@ CrossCheck CheckPairs(const JobResults& results) {
   const size_t run = Rows(far, places).Longest();
   if (run >= kRun) {
     check.level = CheckLevel::kDoubtful;
+    check.value = static_cast<double>(run);
+    check.limit = static_cast<double>(kRun - 1);
+    check.unit = "count";
+    check.bound = CheckBound::kAtMost;
     std::snprintf(
         text,
         sizeof text,

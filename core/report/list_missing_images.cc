@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "absl/strings/str_cat.h"
+#include "core/io/group_messages.h"
 #include "core/report/check_standing_camera.h"
 
 namespace orbweave {
@@ -45,26 +47,30 @@ std::vector<std::string> ReasonsOfImages(const JobResults& results) {
   return reasons;
 }
 
+/// "16 images are placed loosely, not registered; for example 11 images: no verified matches, first
+/// a.jpg".
+std::string LooseWarning(const std::vector<Exclusion>& loose) {
+  return absl::StrCat(loose.size(),
+                      loose.size() == 1 ? " image is" : " images are",
+                      " placed loosely, not registered; for example ",
+                      CommonestLine(loose));
+}
+
 }  // namespace
 
 void ListMissingImages(const JobResults& results, JobReport& report) {
   const std::vector<std::string> reasons = ReasonsOfImages(results);
   report.not_registered = results.manifest.excluded;
-  std::map<int, std::vector<size_t>> loose_of_cluster;
+  std::vector<Exclusion> loose;
   for (size_t i = 0; i < report.images.size(); ++i) {
-    const ReportImage& row = report.images[i];
+    ReportImage& row = report.images[i];
     if (row.registered && !row.loose) continue;
-    if (row.loose) loose_of_cluster[row.cluster].push_back(i);
+    row.reason = reasons[i];
+    if (row.loose) loose.push_back({row.name, reasons[i]});
     report.not_registered.push_back(
         {row.name, reasons[i] + (row.loose ? "; it is placed loosely" : "")});
   }
-  for (const auto& [cluster, images] : loose_of_cluster) {
-    report.warnings.push_back(
-        (cluster < 0 ? "outside of clusters" : "cluster " + std::to_string(cluster)) + ": " +
-        std::to_string(images.size()) +
-        " images have no observations and are placed loosely, first " +
-        report.images[images.front()].name + ": " + reasons[images.front()]);
-  }
+  if (!loose.empty()) report.warnings.push_back(LooseWarning(loose));
 }
 
 }  // namespace orbweave

@@ -7,9 +7,9 @@
 
 namespace orbweave {
 
-/// Fills report.not_registered from report.images: excluded files and all images that no model
-/// observes, each with its reason. Adds a warning per cluster that has images placed loosely, so
-/// that a cluster that failed is named.
+/// Fills report.not_registered, and the reasons in report.images, from what these say: excluded
+/// files and all images that no model observes, each with its reason. Adds a warning with the
+/// number of those that are placed loosely and the reason that most of them share.
 void ListMissingImages(const JobResults& results, JobReport& report);
 
 }  // namespace orbweave

@@ -23,15 +23,26 @@ struct EnumNames<CheckLevel> {
        {CheckLevel::kBad, "bad"}}};
 };
 
+/// On which side of its limit a right model stays.
+enum class CheckBound { kAtMost, kAtLeast };
+
 /// One number by which a finished model is held against something that did not make it: its own
-/// steps, the verified pairs, GNSS. Checks that are good are reported too.
+/// steps, the verified pairs, GNSS. Checks that are good are reported too: a check with a limit is
+/// good where IsWithinLimit, and nowhere else.
 struct CrossCheck {
   std::string name{};  ///< short and stable, for scripts: "sequence_steps", "gnss_clock"
-  double value = 0.0;  ///< what was found
+  double value = 0.0;  ///< what was judged
   double limit = 0.0;  ///< what a right model stays within; 0: no limit is known
   std::string unit{};  ///< of both: "m", "deg", "share", "s", "px", "count", "sigma"
   CheckLevel level = CheckLevel::kGood;
   std::string sentence{};  ///< for people; where not good: what may be wrong and what to do
+  CheckBound bound = CheckBound::kAtMost;  ///< the kind of limit
+
+  /// True where no limit is known.
+  [[nodiscard]] bool IsWithinLimit() const {
+    if (limit == 0.0) return true;
+    return bound == CheckBound::kAtMost ? value <= limit : value >= limit;
+  }
 };
 
 /// The worst of all checks, and what the checks that are not good say, worst first.

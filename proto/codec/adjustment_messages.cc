@@ -262,6 +262,7 @@ void ToProto(const CrossCheck& check, v1::CrossCheck* proto) {
   proto->set_unit(check.unit);
   proto->set_level(static_cast<uint32_t>(check.level));
   proto->set_sentence(check.sentence);
+  proto->set_at_least(check.bound == CheckBound::kAtLeast);
 }
 
 absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
@@ -274,7 +275,8 @@ absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
                     .limit = proto.limit(),
                     .unit = proto.unit(),
                     .level = static_cast<CheckLevel>(proto.level()),
-                    .sentence = proto.sentence()};
+                    .sentence = proto.sentence(),
+                    .bound = proto.at_least() ? CheckBound::kAtLeast : CheckBound::kAtMost};
 }
 
 void ToProto(const TrialCost& trial, v1::TrialCost* proto) {

@@ -101,6 +101,17 @@ TEST(BadInput, TooLittleToReconstructEndsWithWhatIsMissing) {
               HasSubstr("2 images: it is byte for byte a copy of a.jpg"));
 }
 
+TEST(BadInput, WhatRegistersNothingIsBadToWhoAsksForTheVerdict) {
+  const TemporaryFolder folder;
+  WriteAll(folder / "images/one.jpg", Jpeg(512, 256, 1));
+  for (const char* level : {"doubtful", "bad"}) {
+    const CommandOutcome run = RunImages(folder, {"--fail-on", level, "--dense"});
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("judged bad"));
+  }
+  EXPECT_EQ(ReportOf(folder / "out")["registered"], 0);
+}
+
 TEST(BadInput, TinyPicturesAreNoReasonToFail) {
   std::map<std::string, std::string> tiny;
   for (int i = 0; i < 4; ++i) {

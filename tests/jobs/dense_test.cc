@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/io/text_fields.h"
 #include "tests/jobs/corridor_job.h"
 
 namespace orbweave::testing {
@@ -62,13 +63,64 @@ class DenseTest : public ::testing::Test {
                                          "--workers",
                                          "2"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
+    said_ = run.out;
   }
   static void TearDownTestSuite() { delete folder_; }
 
   static TemporaryFolder* folder_;
+  static std::string said_;  ///< by the run that made model and cloud
 };
 
 TemporaryFolder* DenseTest::folder_ = nullptr;
+std::string DenseTest::said_;
+
+/// What stands behind the summary of the cloud.
+std::string AfterTheCloud(const std::string& said) {
+  const std::string last_of_cloud = "tiles/*.ply, from_above.png\n";
+  const size_t at = said.find(last_of_cloud);
+  return at == std::string::npos ? "" : said.substr(at + last_of_cloud.size());
+}
+
+TEST_F(DenseTest, SaysTheVerdictOnTheModelLast) {
+  const std::string level = ReportOf(*folder_ / "model")["verdict"]["level"];
+  EXPECT_THAT(AfterTheCloud(said_), HasSubstr("  verdict     " + level + "\n")) << said_;
+}
+
+TEST_F(DenseTest, WritesTheCloudOfAModelThatIsDoubtedAndThenFails) {
+  // Positions that nobody took.
+  const std::string right = ReadAll(*folder_ / "street/gnss.csv");
+  std::string table;
+  int row = 0;
+  for (const std::string_view line : SplitLines(right)) {
+    std::vector<std::string> cells = SplitFields(line, ',');
+    if (row > 0) cells[1] = std::to_string(NumberFromText(cells[1]).value() + row % 3 * 1e-3);
+    ++row;
+    for (size_t i = 0; i < cells.size(); ++i) table += (i > 0 ? "," : "") + cells[i];
+    table += "\n";
+  }
+  WriteAll(*folder_ / "wrong.csv", table);
+  const std::string copy = *folder_ / "doubted";
+  fs::copy(*folder_ / "model", copy, fs::copy_options::recursive);
+  fs::remove_all(copy + "/dense");
+  const CommandOutcome run = Orbweave({"run",
+                                       *folder_ / "street/images",
+                                       "--gnss",
+                                       *folder_ / "wrong.csv",
+                                       "--masks",
+                                       *folder_ / "street/masks",
+                                       "--output",
+                                       copy,
+                                       "--dense",
+                                       "--fail-on",
+                                       "doubtful",
+                                       "--workers",
+                                       "2"});
+  EXPECT_EQ(run.exit_code, 4) << run.out << run.err;
+  EXPECT_TRUE(fs::exists(copy + "/dense/cloud.las"));
+  const std::string level = ReportOf(copy)["verdict"]["level"];
+  EXPECT_THAT(AfterTheCloud(run.out), HasSubstr("  verdict     " + level + "\n")) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("judged " + level));
+}
 
 TEST_F(DenseTest, LeavesOneCloudInTilesAndItsReport) {
   const std::string cloud = *folder_ / "model/dense";

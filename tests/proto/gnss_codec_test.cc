@@ -25,7 +25,8 @@ std::vector<JoinedWorld> WorldWithErrors(double left_m) {
                                      {.drive = 9}};
   world.georeference.gnss_inflation = 12.5;
   world.georeference.checks = {
-      {"gnss_datum", 47.0, 12.0, "m", CheckLevel::kDoubtful, "another datum"}};
+      {"gnss_datum", 47.0, 12.0, "m", CheckLevel::kDoubtful, "another datum"},
+      {"share", 0.9, 0.7, "share", CheckLevel::kGood, "enough", CheckBound::kAtLeast}};
   return {world};
 }
 
@@ -44,9 +45,11 @@ TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
   EXPECT_EQ(errors.offset_m, Eigen::Vector3d(1.0, -2.0, 47.0));
   EXPECT_FALSE(georeference.drive_errors[1].has_times);
   EXPECT_EQ(georeference.gnss_inflation, 12.5);
-  ASSERT_EQ(georeference.checks.size(), 1U);
+  ASSERT_EQ(georeference.checks.size(), 2U);
   EXPECT_EQ(georeference.checks[0].name, "gnss_datum");
   EXPECT_EQ(georeference.checks[0].level, CheckLevel::kDoubtful);
+  EXPECT_EQ(georeference.checks[0].bound, CheckBound::kAtMost);
+  EXPECT_EQ(georeference.checks[1].bound, CheckBound::kAtLeast);
 }
 
 TEST(JoinedWorldsCodec, RefusesErrorsThatAreNoNumbers) {

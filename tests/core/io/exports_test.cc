@@ -125,18 +125,24 @@ TEST(CamerasCsv, OfPosesAloneHasNoMeasures) {
   EXPECT_EQ(SplitFields(SplitLines(csv)[0], ',').size(), 16U);
 }
 
-TEST(TrajectoryGeoJson, HasALinePerModelAndDriveAndAPointPerImageOnEarth) {
+TEST(TrajectoryGeoJson, HasALinePerPathAndAFeaturePerImage) {
   SmallScene scene = GeoreferencedScene();
   scene.reconstruction.images[ImageId(0)].uncertainty = {
       Eigen::Vector3d(4.0, 9.0, 16.0).asDiagonal(), 0.01};
   scene.reconstruction.images[ImageId(3)].loose = true;
   JobReport report = ReportOf(scene);
+  report.images[1].reason = "too few points";
+  report.each_model[1].gnss.reason = "no positions";
+  report.paths = {{.images = {5, 0, 2, 4}},
+                  {.drive = 1, .images = {6, 7}},
+                  {.model = 1, .drive = 1, .images = {8, 9, 10}}};
   const auto json = nlohmann::json::parse(TrajectoryGeoJson(report).value());
   EXPECT_EQ(json["type"], "FeatureCollection");
-  // Images 0 to 7 but 1, of two drives.
-  ASSERT_EQ(json["features"].size(), 2 + 7U);
+  ASSERT_EQ(json["features"].size(), 2 + 12U);
   EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
-  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"].size(), 4U) << "of 0 to 5 not 1 and 3";
+  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"].size(), 4U);
+  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"][1],
+            json["features"][2]["geometry"]["coordinates"]);
   EXPECT_EQ(json["features"][1]["properties"]["drive"], 1);
   const auto& point = json["features"][2];
   EXPECT_EQ(point["properties"]["name"], "street/img0.jpg");
@@ -146,15 +152,30 @@ TEST(TrajectoryGeoJson, HasALinePerModelAndDriveAndAPointPerImageOnEarth) {
   EXPECT_EQ(point["properties"]["observations"], 100);
   EXPECT_EQ(point["properties"]["residual_px"], 0.5);
   EXPECT_EQ(point["properties"]["state"], "registered");
-  EXPECT_FALSE(json["features"][3]["properties"].contains("sigma_north_m"));
-  EXPECT_EQ(json["features"][4]["properties"]["state"], "loose");
+  EXPECT_FALSE(point["properties"].contains("reason"));
+  const auto& missing = json["features"][3];
+  EXPECT_TRUE(missing["geometry"].is_null());
+  EXPECT_EQ(missing["properties"]["name"], "street/img1.jpg");
+  EXPECT_EQ(missing["properties"]["state"], "not_registered");
+  EXPECT_EQ(missing["properties"]["reason"], "too few points");
+  EXPECT_FALSE(missing["properties"].contains("model"));
+  EXPECT_FALSE(json["features"][4]["properties"].contains("sigma_north_m"));
+  EXPECT_EQ(json["features"][5]["properties"]["state"], "loose");
+  EXPECT_EQ(json["features"][5]["geometry"]["type"], "Point");
+  const auto& elsewhere = json["features"][2 + 8];
+  EXPECT_TRUE(elsewhere["geometry"].is_null()) << "its model is not on earth";
+  EXPECT_EQ(elsewhere["properties"]["state"], "registered");
+  EXPECT_EQ(elsewhere["properties"]["model"], 1);
+  EXPECT_EQ(elsewhere["properties"]["reason"], "its model is not georeferenced: no positions");
   const auto& position = point["geometry"]["coordinates"];
   const Eigen::Vector3d enu =
       EnuFromGeodetic({position[1], position[0], position[2]}, *scene.manifest.origin);
   EXPECT_LT((enu - scene.reconstruction.images.at(ImageId(0)).cam_from_world.Centre()).norm(),
             1e-3);
   report.each_model[1].gnss.used = true;
-  EXPECT_EQ(nlohmann::json::parse(TrajectoryGeoJson(report).value())["features"].size(), 3 + 10U);
+  const auto both = nlohmann::json::parse(TrajectoryGeoJson(report).value());
+  EXPECT_EQ(both["features"].size(), 3 + 12U);
+  EXPECT_EQ(both["features"][3 + 8]["geometry"]["type"], "Point");
   EXPECT_EQ(TrajectoryGeoJson({}).status().code(), absl::StatusCode::kFailedPrecondition);
 }
 

@@ -33,8 +33,15 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                         .step_median = 5.2,
                         .path_length = 5.2 * num_images}};
   report.checks = {
-      {"images_registered", 1.0, 0.95, "share", CheckLevel::kGood, "all are registered"},
-      {"gnss_clock", 0.83, 0.2, "s", CheckLevel::kDoubtful, "the GNSS clock is <late> by 0.8 s"}};
+      {"images_registered",
+       1.0,
+       0.95,
+       "share",
+       CheckLevel::kGood,
+       "all are registered",
+       CheckBound::kAtLeast},
+      {"gnss_clock", 0.83, 0.2, "s", CheckLevel::kDoubtful, "the GNSS clock is <late> by 0.8 s"},
+      {"look_alikes", 5.0, 0.0, "count", CheckLevel::kGood, "5 pairs look alike"}};
   report.verdict = {CheckLevel::kDoubtful, {"the GNSS clock is <late> by 0.8 s"}};
   report.points = 38412;
   report.observations = 182734;
@@ -134,6 +141,11 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
     if (i == 5) image.uncertainty.reset();
     report.images.push_back(image);
   }
+  ReportPath path;
+  for (uint32_t i = 0; i < num_images; ++i) {
+    if (!report.images[i].loose) path.images.push_back(i);
+  }
+  if (path.images.size() > 1) report.paths = {path};
   report.uncertainty = {.known = num_images > 3,
                         .reason = num_images > 3 ? "" : "too few <images>",
                         .position_median = 0.037,
@@ -141,6 +153,7 @@ inline JobReport MadeUpReport(uint32_t num_images, uint32_t num_clusters) {
                         .rotation_median_deg = 0.0057,
                         .rotation_p95_deg = 0.006};
   if (num_images > 3) report.uncertainty.worst = {3, 0};
+  report.each_model.front().uncertainty = report.uncertainty;
   return report;
 }
 

@@ -5,9 +5,11 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/io/cluster_colors.h"
 #include "core/io/html_text.h"
+#include "core/io/map_symbols.h"
 #include "core/io/report_html.h"
 #include "core/io/report_json.h"
 #include "core/io/report_map.h"
@@ -226,6 +228,22 @@ TEST(TrajectoryMap, PutsGeoreferencedModelsIntoOneFrameAndOthersIntoTheirOwn) {
   EXPECT_THAT(ReportHtml(report), HasSubstr("38 of 40 agree in model 0"));
 }
 
+TEST(ReportHtml, TellsTheUncertaintyOfEveryModelAndWhoseTheSummaryIs) {
+  JobReport report = MadeUpReport(60, 3);
+  EXPECT_THAT(ReportHtml(report), Not(HasSubstr("of model 0")));
+  report.models = 2;
+  report.each_model.push_back({.uncertainty = {.known = true, .position_median = 0.0042}});
+  const std::string html = ReportHtml(report);
+  EXPECT_THAT(html, HasSubstr("One standard deviation of poses of model 0, absolute"));
+  EXPECT_THAT(html, HasSubstr("<td>0.037 m</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>0.0042 units</td>"));
+  const auto json = nlohmann::json::parse(ReportJson(report));
+  EXPECT_EQ(json["uncertainty"]["model"], 0);
+  EXPECT_EQ(json["each_model"][0]["uncertainty"]["position_sigma_median"], 0.037);
+  EXPECT_EQ(json["each_model"][1]["uncertainty"]["position_sigma_median"], 0.0042);
+  EXPECT_EQ(json["each_model"][1]["uncertainty"]["unit"], "free");
+}
+
 TEST(MapKey, ListsWhatIsShownAndNothingElse) {
   JobReport report = MadeUpReport(96, 5);
   const auto key = [&] {
@@ -249,6 +267,56 @@ TEST(MapKey, ListsWhatIsShownAndNothingElse) {
     image.uncertainty.reset();
   }
   EXPECT_EQ(key(), "");
+}
+
+TEST(MapKey, TellsTenModelsApartAndSaysWhereLooksRepeat) {
+  JobReport report = MadeUpReport(48, 3);
+  const ReportModel model = report.each_model.front();
+  report.models = 12;
+  report.each_model.assign(12, model);
+  for (size_t i = 0; i < 48; ++i) report.images[i].model = static_cast<uint32_t>(i / 4);
+  const MapFrame frame = MapFrames(report).front();
+  const std::string map = TrajectoryMapSvg(report, frame);
+  const std::string key = MapKeyHtml(report, frame, map);
+  EXPECT_THAT(key, HasSubstr("<i class=\"k1\"></i>model 1 "));
+  EXPECT_THAT(key, HasSubstr("<i class=\"k1 hollow\"></i>model 6 "));
+  EXPECT_THAT(key, Not(HasSubstr("model 10 ")));
+  EXPECT_THAT(key, HasSubstr("and 2 smaller models, in the same colours again"));
+  EXPECT_THAT(map, HasSubstr("k1 hollow"));
+}
+
+TEST(MapKey, SaysHowManyMarksAreNotDrawn) {
+  const auto key = [](const JobReport& report) {
+    const MapFrame frame = MapFrames(report).front();
+    return MapKeyHtml(report, frame, TrajectoryMapSvg(report, frame));
+  };
+  EXPECT_THAT(key(MadeUpReport(96, 5)), Not(HasSubstr("not drawn")));
+  JobReport report = MadeUpReport(6001, 20);
+  EXPECT_THAT(key(report), HasSubstr("4,000 of 6,001 panoramas with a pose are not drawn"));
+  for (size_t i = 0; i < 800; ++i) report.images[i].gnss_outlier = true;
+  ReportImage missing;
+  missing.gnss_in_world = Eigen::Vector3d::Zero();
+  report.images.insert(report.images.end(), 700, missing);
+  EXPECT_THAT(key(report), HasSubstr("200 of 700 panoramas without a pose are not drawn"));
+  EXPECT_THAT(key(report), HasSubstr("of 80"));
+  EXPECT_THAT(key(report), HasSubstr("contradicted GNSS positions are not drawn"));
+}
+
+TEST(MapSymbols, HaveShapesOfTheirOwn) {
+  const auto drawn = [](MapSymbol symbol) {
+    const std::string svg = DrawnSymbol(symbol, {0, 0}, 5.0, "", "");
+    return svg.substr(svg.find(" d="));
+  };
+  std::set<std::string> shapes;
+  for (const MapSymbol symbol : {MapSymbol::kLoose,
+                                 MapSymbol::kMissing,
+                                 MapSymbol::kContradicted,
+                                 MapSymbol::kSeamGood,
+                                 MapSymbol::kSeamUnknown,
+                                 MapSymbol::kSeamDoubtful,
+                                 MapSymbol::kSeamBad,
+                                 MapSymbol::kSeamUnused})
+    EXPECT_TRUE(shapes.insert(drawn(symbol)).second) << SymbolClass(symbol);
 }
 
 TEST(ColorsOfClusters, DifferAcrossEverySeam) {
@@ -331,6 +399,12 @@ TEST(ReportHtml, SaysTheVerdictFirstThenWarningsThenFigures) {
   EXPECT_LT(html.find("gnss_<wbr/>clock"), html.find("images_<wbr/>registered"));
   EXPECT_THAT(html, HasSubstr("<td>0.83 s</td><td>≤ 0.2 s</td>"));
   EXPECT_THAT(html, HasSubstr("<td>100 %</td><td>≥ 95 %</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>5</td><td></td>")) << "no limit is known";
+  const auto checks = nlohmann::json::parse(ReportJson(report))["checks"];
+  EXPECT_EQ(checks[0]["limit_is"], "at_least");
+  EXPECT_EQ(checks[1]["limit_is"], "at_most");
+  EXPECT_TRUE(checks[2]["limit"].is_null());
+  EXPECT_TRUE(checks[2]["limit_is"].is_null());
   report.verdict = {};
   EXPECT_THAT(ReportHtml(report), HasSubstr("nothing that speaks against the model"));
 }
@@ -356,12 +430,31 @@ TEST(ReportHtml, MakesOneLineOfWarningsAndReasonsOfAKind) {
   EXPECT_THAT(html, HasSubstr("row 0 of gnss.csv has no image (and 29 more of this kind)"));
   EXPECT_EQ(CountOf(html, "no pair could start"), 1U);
   EXPECT_THAT(html, HasSubstr("<td>30</td><td class=\"text\">no pair could start"));
-  EXPECT_EQ(nlohmann::json::parse(ReportJson(report))["warnings"].size(), 30U);
+  const auto json = nlohmann::json::parse(ReportJson(report));
+  ASSERT_EQ(json["warnings"].size(), 1U);
+  EXPECT_EQ(json["warnings"][0], "row 0 of gnss.csv has no image (and 29 more of this kind)");
+  EXPECT_EQ(json["warnings_in_full"].size(), 30U);
 }
 
 TEST(ReportHtml, GivesPrecisionAsShareOfPathAndStepToo) {
   EXPECT_THAT(ReportHtml(MadeUpReport(40, 3)),
               HasSubstr("178 ppm of a path of 208 m, 0.71 % of a step of 5.2 m"));
+}
+
+TEST(ReportHtml, DrawsNoLineAndNamesNoPathWhereNothingTellsTheOrder) {
+  JobReport report = MadeUpReport(40, 3);
+  EXPECT_EQ(CountOf(ReportHtml(report), "<polyline class=\"path\""), 1U);
+  report.paths.clear();
+  report.each_model[0].is_in_order = false;
+  report.each_model[0].path_length = 0.0;
+  const std::string html = ReportHtml(report);
+  EXPECT_THAT(html, Not(HasSubstr("<polyline class=\"path\"")));
+  EXPECT_THAT(html, HasSubstr(": 0.71 % of the distance to the nearest panorama, 5.2 m"));
+  EXPECT_THAT(html, Not(HasSubstr("of a step")));
+  const auto json = nlohmann::json::parse(ReportJson(report));
+  EXPECT_EQ(json["uncertainty"]["relative"]["in_order"], false);
+  EXPECT_TRUE(json["uncertainty"]["relative"]["path_length"].is_null());
+  EXPECT_TRUE(json["uncertainty"]["relative"]["position_sigma_median_share_of_path"].is_null());
 }
 
 TEST(EscapeHtml, KeepsTextAndDefusesTheRest) {

@@ -47,10 +47,12 @@ TEST(FindDriveErrors, FindsAShiftAlongTheWay) {
   Shift(-8.0, 0.0, street);
   const FoundDriveErrors found = Find(street);
   ASSERT_EQ(found.drives.size(), 1U);
+  for (const CrossCheck& check : found.checks) EXPECT_TRUE(check.IsWithinLimit()) << check.name;
   EXPECT_NEAR(found.drives[0].ahead, -8.0, 1.5);
   EXPECT_GT(found.drives[0].ahead_sigma, 0.0);
   EXPECT_EQ(found.checks.at(0).name, "gnss_clock");
   EXPECT_EQ(found.checks.at(0).level, CheckLevel::kGood);
+  EXPECT_TRUE(found.checks.at(0).IsWithinLimit()) << found.checks.at(0).limit;
 }
 
 TEST(FindDriveErrors, MeasuresAShiftInSecondsWhereTimesAreKnown) {
@@ -184,6 +186,7 @@ TEST(FindDriveErrors, MovesTheOddDriveToTheDatumOfTheOthers) {
     ASSERT_FALSE(georeference.checks.empty());
     EXPECT_EQ(georeference.checks.back().name, "gnss_datum");
     EXPECT_EQ(georeference.checks.back().level, CheckLevel::kGood);
+    EXPECT_TRUE(georeference.checks.back().IsWithinLimit());
   }
 }
 
@@ -194,6 +197,7 @@ TEST(FindDriveErrors, CannotTellWhichOfTwoDatumsIsRight) {
   ASSERT_TRUE(georeference.enu_from_world.has_value());
   EXPECT_LT(std::abs(georeference.enu_from_world->translation.z()), 1.0);  // the first one's
   EXPECT_EQ(georeference.checks.back().level, CheckLevel::kDoubtful);
+  EXPECT_FALSE(georeference.checks.back().IsWithinLimit());
 }
 
 // Leaning over would bring two drives side by side to heights that are far apart.

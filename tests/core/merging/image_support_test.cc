@@ -99,6 +99,24 @@ TEST(JudgeSupport, TakesOutAnImageThatEightObservationsInOneCornerPlaceElsewhere
   }
 }
 
+TEST(JudgeSupport, WhatItTakesOutSaysNothingOfGnss) {
+  Corridor corridor = Street();
+  for (ImageRecord& image : corridor.manifest.images) {
+    image.prior.position_in_enu = corridor.cams_from_world[image.id.value].Centre();
+    image.prior.horizontal_sigma_m = image.prior.vertical_sigma_m = 0.5;
+  }
+  Reconstruction model = TrueModel(corridor);
+  int left = 8;
+  Keep(model, [&](const Observation&) { return left-- > 0; });
+  *corridor.manifest.images[kImage.value].prior.position_in_enu += Eigen::Vector3d(40.0, 25.0, 0.0);
+  const GloballyAdjusted adjusted = Adjust(model, corridor);
+  ASSERT_EQ(adjusted.report.weak_images.size(), 1U);
+  EXPECT_TRUE(adjusted.report.gnss.used) << adjusted.report.gnss.reason;
+  EXPECT_THAT(adjusted.report.gnss.outliers, IsEmpty());
+  EXPECT_EQ(adjusted.report.gnss.num_priors, 19U);
+  EXPECT_EQ(adjusted.report.gnss.num_inliers, 19U);
+}
+
 TEST(JudgeSupport, TakesOutWhatOneBusAndAFewStrayMatchesPlace) {
   const Corridor corridor = Street(600);
   Reconstruction model = TrueModel(corridor);

@@ -57,6 +57,21 @@ const CrossCheck* Find(const std::vector<CrossCheck>& checks, const std::string&
   return found == checks.end() ? nullptr : &*found;
 }
 
+/// What page and report say of limits agrees with what is said of the checks.
+void ExpectLevelsToFitLimits(const JobReport& report) {
+  for (const CrossCheck& check : report.checks) {
+    if (check.limit == 0.0) continue;
+    EXPECT_EQ(check.IsWithinLimit(), check.level == CheckLevel::kGood)
+        << check.name << " " << check.value << " " << check.limit << ": " << check.sentence;
+  }
+}
+
+JobReport Reported(const JobResults& results) {
+  JobReport report = BuildJobReport(results);
+  ExpectLevelsToFitLimits(report);
+  return report;
+}
+
 CheckLevel LevelOf(const JobReport& report, const std::string& name) {
   const CrossCheck* check = Find(report.checks, name);
   EXPECT_NE(check, nullptr) << name;
@@ -65,7 +80,7 @@ CheckLevel LevelOf(const JobReport& report, const std::string& name) {
 
 TEST(JudgeModel, ARightStreetIsGoodAndGivesNoReasons) {
   for (const bool on_earth : {false, true}) {
-    const JobReport report = BuildJobReport(Street(36, {{0, 36}}, on_earth));
+    const JobReport report = Reported(Street(36, {{0, 36}}, on_earth));
     EXPECT_EQ(report.verdict.level, CheckLevel::kGood);
     EXPECT_THAT(report.verdict.reasons, IsEmpty());
     for (const CrossCheck& check : report.checks) {
@@ -78,21 +93,28 @@ TEST(JudgeModel, ARightStreetIsGoodAndGivesNoReasons) {
 TEST(JudgeModel, ImagesLeftOutMakeItDoubtfulThenBad) {
   CheckLevel last = CheckLevel::kGood;
   for (uint32_t registered = 36; registered > 1; --registered) {
-    const Verdict verdict = BuildJobReport(Street(36, {{0, registered}})).verdict;
+    const Verdict verdict = Reported(Street(36, {{0, registered}})).verdict;
     EXPECT_GE(verdict.level, last) << "more lost is no better: " << registered;
     EXPECT_EQ(verdict.reasons.empty(), verdict.level == CheckLevel::kGood);
     last = verdict.level;
   }
-  EXPECT_EQ(BuildJobReport(Street(36, {{0, 35}})).verdict.level, CheckLevel::kGood)
+  EXPECT_EQ(Reported(Street(36, {{0, 35}})).verdict.level, CheckLevel::kGood)
       << "one image is no sign of more";
-  const Verdict doubtful = BuildJobReport(Street(36, {{0, 31}})).verdict;
+  const Verdict doubtful = Reported(Street(36, {{0, 31}})).verdict;
   EXPECT_EQ(doubtful.level, CheckLevel::kDoubtful);
   EXPECT_THAT(doubtful.reasons.front(), HasSubstr("31 of 36 panoramas are registered"));
-  EXPECT_EQ(BuildJobReport(Street(36, {{0, 17}})).verdict.level, CheckLevel::kBad);
+  EXPECT_EQ(Reported(Street(36, {{0, 17}})).verdict.level, CheckLevel::kBad);
+}
+
+TEST(JudgeModel, OneImageLeftOutOfAFewIsWithinTheLimit) {
+  const JobReport report = Reported(Street(9, {{0, 8}}));
+  EXPECT_EQ(LevelOf(report, "images_registered"), CheckLevel::kGood);
+  EXPECT_EQ(Find(report.checks, "images_registered")->limit, 8.0 / 9.0);
+  EXPECT_EQ(LevelOf(Reported(Street(9, {{0, 7}})), "images_registered"), CheckLevel::kDoubtful);
 }
 
 TEST(JudgeModel, NoModelIsBad) {
-  const Verdict verdict = BuildJobReport(Street(12, {})).verdict;
+  const Verdict verdict = Reported(Street(12, {})).verdict;
   EXPECT_EQ(verdict.level, CheckLevel::kBad);
   ASSERT_EQ(verdict.reasons.size(), 1U);
   EXPECT_THAT(verdict.reasons.front(), HasSubstr("no panorama"));
@@ -102,39 +124,39 @@ TEST(JudgeModel, NoModelIsBad) {
 TEST(JudgeModel, SaysWhatNothingCouldCheck) {
   JobResults free = Street(36, {{0, 36}});
   EXPECT_THAT(
-      BuildJobReport(free).verdict.unchecked,
+      Reported(free).verdict.unchecked,
       ElementsAre(
           "the lengths of the steps along the street, but by rays that several pairs share: no "
           "GNSS tells them"));
   JobResults on_earth = Street(36, {{0, 36}}, true);
-  EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked,
+  EXPECT_THAT(Reported(on_earth).verdict.unchecked,
               ElementsAre(HasSubstr("whether a vehicle can have made the steps: they have no")));
   for (ImageRecord& image : on_earth.manifest.images) image.capture_time_s = 2.0 * image.id.value;
-  EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked, IsEmpty());
+  EXPECT_THAT(Reported(on_earth).verdict.unchecked, IsEmpty());
   on_earth.manifest.images[7].capture_time_s.reset();
-  EXPECT_THAT(BuildJobReport(on_earth).verdict.unchecked,
+  EXPECT_THAT(Reported(on_earth).verdict.unchecked,
               ElementsAre(HasSubstr("of 1 of 36 registered panoramas: they have no")));
   JobResults both = Street(36, {{0, 30}, {30, 36}}, true);
   both.models[1].report.gnss.used = false;
-  EXPECT_THAT(BuildJobReport(both).verdict.unchecked.front(),
+  EXPECT_THAT(Reported(both).verdict.unchecked.front(),
               HasSubstr("of 6 of 36 registered panoramas along the street"));
-  EXPECT_THAT(BuildJobReport(Street(36, {})).verdict.unchecked, IsEmpty());
+  EXPECT_THAT(Reported(Street(36, {})).verdict.unchecked, IsEmpty());
 }
 
 TEST(JudgeModel, ASideModelOfAFreeStreetIsDoubtfulAndManyAreBad) {
-  const JobReport two = BuildJobReport(Street(40, {{0, 30}, {30, 40}}));
+  const JobReport two = Reported(Street(40, {{0, 30}, {30, 40}}));
   EXPECT_EQ(two.verdict.level, CheckLevel::kDoubtful);
   EXPECT_EQ(LevelOf(two, "images_in_one_frame"), CheckLevel::kDoubtful);
   EXPECT_EQ(LevelOf(two, "connected_in_one_model"), CheckLevel::kDoubtful);
   EXPECT_EQ(LevelOf(two, "images_registered"), CheckLevel::kGood);
-  const JobReport many = BuildJobReport(Street(40, {{0, 14}, {14, 27}, {27, 40}}));
+  const JobReport many = Reported(Street(40, {{0, 14}, {14, 27}, {27, 40}}));
   EXPECT_EQ(many.verdict.level, CheckLevel::kBad);
   EXPECT_THAT(many.verdict.reasons.front(), HasSubstr("14 of 40 registered panoramas lie in one"));
 }
 
 TEST(JudgeModel, ModelsThatGnssPutsIntoOneFrameAreOneMapButAPartThatFellApartIsTold) {
   JobResults results = Street(40, {{0, 20}, {20, 40}}, true);
-  const JobReport apart = BuildJobReport(results);
+  const JobReport apart = Reported(results);
   EXPECT_EQ(LevelOf(apart, "images_in_one_frame"), CheckLevel::kGood);
   EXPECT_THAT(Find(apart.checks, "images_in_one_frame")->sentence,
               HasSubstr("2 models joined by GNSS alone"));
@@ -142,20 +164,20 @@ TEST(JudgeModel, ModelsThatGnssPutsIntoOneFrameAreOneMapButAPartThatFellApartIsT
   // Two streets that no pair joins are two models by right.
   std::erase_if(results.view_graph.edges,
                 [](const ImagePair& pair) { return pair.b == ImageId(20); });
-  EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
+  EXPECT_EQ(Reported(results).verdict.level, CheckLevel::kGood);
 }
 
 TEST(JudgeModel, GnssThatMostlyDisagreesIsDoubted) {
   JobResults results = Street(40, {{0, 40}}, true);
   GnssReport& gnss = results.models.front().report.gnss;
   gnss = {.used = true, .num_priors = 40, .num_inliers = 30};
-  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  EXPECT_EQ(LevelOf(Reported(results), "gnss_used"), CheckLevel::kGood);
   gnss.num_inliers = 26;
-  JobReport report = BuildJobReport(results);
+  JobReport report = Reported(results);
   EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
   EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("or the model is where"));
   gnss.num_inliers = 15;
-  report = BuildJobReport(results);
+  report = Reported(results);
   EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
   EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("follows the fewer"));
 }
@@ -168,9 +190,9 @@ TEST(JudgeModel, GnssThatAgreesAtTenTimesItsSigmaIsDoubted) {
   }
   GnssReport& gnss = results.models.front().report.gnss;
   gnss = {.used = true, .num_priors = 40, .num_inliers = 40, .residual_median_m = 5.0};
-  EXPECT_EQ(LevelOf(BuildJobReport(results), "gnss_used"), CheckLevel::kGood);
+  EXPECT_EQ(LevelOf(Reported(results), "gnss_used"), CheckLevel::kGood);
   gnss.residual_median_m = 20.0;
-  const JobReport report = BuildJobReport(results);
+  const JobReport report = Reported(results);
   EXPECT_EQ(LevelOf(report, "gnss_used"), CheckLevel::kDoubtful);
   EXPECT_THAT(Find(report.checks, "gnss_used")->sentence, HasSubstr("20.0 m from it"));
 }
@@ -179,16 +201,16 @@ TEST(JudgeModel, GnssThatIsGivenAndNotUsedIsDoubtedUnlessItCouldNotTell) {
   JobResults results = Street(40, {{0, 40}}, true);
   GnssReport& gnss = results.models.front().report.gnss;
   gnss = {.used = false, .reason = "GNSS scatters by 65 m"};
-  JobReport report = BuildJobReport(results);
+  JobReport report = Reported(results);
   EXPECT_EQ(report.verdict.level, CheckLevel::kDoubtful);
   EXPECT_THAT(report.verdict.reasons.front(), HasSubstr("40 GNSS positions are not used"));
   EXPECT_THAT(report.verdict.reasons.front(), HasSubstr("either they are wrong or the model is"));
   // Positions that differ by less than their noise say nothing of a model.
   for (ImageRecord& image : results.manifest.images) image.prior.horizontal_sigma_m = 50.0;
-  EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
+  EXPECT_EQ(Reported(results).verdict.level, CheckLevel::kGood);
   for (ImageRecord& image : results.manifest.images) image.prior.horizontal_sigma_m = 2.0;
   gnss.reason = "switched off";
-  report = BuildJobReport(results);
+  report = Reported(results);
   EXPECT_EQ(report.verdict.level, CheckLevel::kGood);
   EXPECT_EQ(Find(report.checks, "gnss_used"), nullptr);
 }
@@ -198,25 +220,25 @@ TEST(JudgeModel, AnAdjustmentThatStoppedEarlyIsDoubtedByWhatItsLastStepMoved) {
   GlobalAdjustReport& model = results.models.front().report;
   model.adjustments.back().converged = false;
   model.accepted_costs = {{5000.0, 4000.0, 4000.0 - 0.5 * 20 * 9.0}};  // three sigmas each
-  const JobReport report = BuildJobReport(results);
+  const JobReport report = Reported(results);
   EXPECT_EQ(report.verdict.level, CheckLevel::kDoubtful);
   EXPECT_NEAR(Find(report.checks, "adjustment_converged")->value, 3.0, 1e-9);
   model.accepted_costs = {{5000.0, 4000.0, 3999.9}};
-  EXPECT_EQ(BuildJobReport(results).verdict.level, CheckLevel::kGood);
+  EXPECT_EQ(Reported(results).verdict.level, CheckLevel::kGood);
 }
 
 TEST(JudgeModel, UnknownUncertaintyIsDoubted) {
   JobResults results = Street(20, {{0, 20}});
   for (auto& [id, image] : results.models.front().images) image.uncertainty.reset();
   results.models.front().report.uncertainty = {.reason = "not positive definite"};
-  const Verdict verdict = BuildJobReport(results).verdict;
+  const Verdict verdict = Reported(results).verdict;
   EXPECT_EQ(verdict.level, CheckLevel::kDoubtful);
   EXPECT_THAT(verdict.reasons.front(), HasSubstr("not positive definite"));
 }
 
 /// Four clusters in a row with certificates of these ratios of jump and noise; 0: none.
 JobReport WithSeams(const std::vector<double>& ratios) {
-  JobReport report = BuildJobReport(Street(40, {{0, 40}}));
+  JobReport report = Reported(Street(40, {{0, 40}}));
   for (uint32_t i = 0; i < ratios.size(); ++i) {
     report.seams.push_back({.cluster_a = i, .cluster_b = i + 1});
     if (ratios[i] > 0.0)
@@ -259,7 +281,7 @@ TEST(JudgeModel, ASeamThatLoopsContradictIsDoubted) {
 TEST(CheckJob, DoubtsASmallerModelThatItsPositionsPutWhereMostOfThemAreNot) {
   JobResults results = Street(60, {{0, 40}, {40, 60}}, true);
   const auto doubts = [&results] {
-    const JobReport report = BuildJobReport(results);
+    const JobReport report = Reported(results);
     return std::ranges::count_if(report.checks, [](const CrossCheck& check) {
       return check.name == "gnss_used" && check.level == CheckLevel::kDoubtful;
     });
@@ -267,7 +289,7 @@ TEST(CheckJob, DoubtsASmallerModelThatItsPositionsPutWhereMostOfThemAreNot) {
   EXPECT_EQ(doubts(), 0);
   results.models[1].report.gnss.num_inliers = 13;
   EXPECT_EQ(doubts(), 1);
-  EXPECT_THAT(Find(BuildJobReport(results).checks, "gnss_used")->sentence, HasSubstr("40 of 40"));
+  EXPECT_THAT(Find(Reported(results).checks, "gnss_used")->sentence, HasSubstr("40 of 40"));
 }
 
 JobResults TwoParts(uint32_t first) {
@@ -284,7 +306,7 @@ JobResults TwoParts(uint32_t first) {
 }
 
 TEST(JudgeModel, TakesTheWorstCheckOfAnyModelAndGivesReasonsWorstFirst) {
-  const Verdict verdict = BuildJobReport(TwoParts(40)).verdict;
+  const Verdict verdict = Reported(TwoParts(40)).verdict;
   EXPECT_EQ(verdict.level, CheckLevel::kBad);
   ASSERT_EQ(verdict.reasons.size(), 2U);
   EXPECT_EQ(verdict.reasons[0], "model 1: the clock is 2 s late");
@@ -292,7 +314,7 @@ TEST(JudgeModel, TakesTheWorstCheckOfAnyModelAndGivesReasonsWorstFirst) {
 }
 
 TEST(JudgeModel, AModelOfAHandfulOfImagesMakesAJobDoubtfulAtMost) {
-  const Verdict verdict = BuildJobReport(TwoParts(58)).verdict;
+  const Verdict verdict = Reported(TwoParts(58)).verdict;
   EXPECT_EQ(verdict.level, CheckLevel::kDoubtful);
   EXPECT_THAT(verdict.reasons[1], HasSubstr("the clock"));
 }
@@ -303,7 +325,7 @@ TEST(JudgeModel, SaysWhyMostImagesAreLeftOut) {
   results.view_graph.partition.clusters = {{}};
   for (uint32_t i = 0; i < 30; ++i)
     results.clusters[0].not_registered.push_back({ImageId(i), "the camera never moved"});
-  const Verdict verdict = BuildJobReport(results).verdict;
+  const Verdict verdict = Reported(results).verdict;
   EXPECT_EQ(verdict.level, CheckLevel::kBad);
   EXPECT_THAT(verdict.reasons[0], HasSubstr("30 images: the camera never moved, first pano_0.jpg"));
 }
@@ -346,11 +368,12 @@ TEST(BuildJobReport, HasARowForEveryModelAndPlacesMissingImagesByGnss) {
   JobResults results = Street(40, {{0, 20}, {25, 40}}, true);
   results.manifest.origin = GeodeticPosition{47.0, 8.0, 400.0};
   results.models[1].images[ImageId(30)].loose = true;
-  const JobReport report = BuildJobReport(results);
+  const JobReport report = Reported(results);
   ASSERT_EQ(report.each_model.size(), 2U);
   EXPECT_EQ(report.each_model[0].images, 20U);
   EXPECT_EQ(report.each_model[1].images, 14U);
   EXPECT_EQ(report.each_model[1].loose, 1U);
+  EXPECT_TRUE(report.each_model[1].uncertainty.known);
   EXPECT_DOUBLE_EQ(report.each_model[0].step_median, 3.0);
   EXPECT_DOUBLE_EQ(report.each_model[0].path_length, 57.0);
   EXPECT_TRUE(report.origin.has_value());

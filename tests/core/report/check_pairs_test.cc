@@ -84,13 +84,19 @@ TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {
   }
   EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
   results.models[0].report.gnss.used = false;
-  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
+  const CrossCheck check = CheckPairs(results);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_EQ(check.value, 5.0) << "in a row, not the share that is explained";
+  EXPECT_EQ(check.unit, "count");
+  EXPECT_FALSE(check.IsWithinLimit());
 }
 
 TEST(CheckPairs, ATornStreetIsBad) {
   JobResults results = Drive();
+  EXPECT_TRUE(CheckPairs(results).IsWithinLimit());
   Contradict(40, 41, results);
   EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
+  EXPECT_FALSE(CheckPairs(results).IsWithinLimit());
   Contradict(40, 42, results);
   Contradict(70, 71, results);
   const CrossCheck check = CheckPairs(results);

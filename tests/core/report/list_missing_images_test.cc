@@ -42,10 +42,25 @@ TEST(BuildJobReport, NamesLooseImagesWithTheirReasonsAndDoesNotCountThem) {
               ElementsAre(HasSubstr("3.jpg: it has no observations of its own left; it is placed"),
                           HasSubstr("4.jpg: too few points; it is placed loosely"),
                           HasSubstr("5.jpg: no verified matches")));
-  EXPECT_THAT(report.warnings,
-              ElementsAre(HasSubstr("cluster 0: 1 images have no observations"),
-                          HasSubstr("cluster 1: 2 images have no observations")));
-  EXPECT_THAT(report.warnings[1], HasSubstr("first 4.jpg: too few points"));
+  EXPECT_EQ(report.images[4].reason, "too few points");
+  EXPECT_EQ(report.images[0].reason, "");
+}
+
+TEST(BuildJobReport, WarnsOnceOfAllLooseImagesWithTheReasonOfMost) {
+  JobResults results = SixImages();
+  EXPECT_THAT(
+      BuildJobReport(results).warnings,
+      ElementsAre("3 images are placed loosely, not registered; for example 3.jpg: it has no "
+                  "observations of its own left"));
+  results.clusters = {{.cluster = 0, .not_registered = {{ImageId(3), "it has 102 observations"}}},
+                      {.cluster = 1,
+                       .not_registered = {{ImageId(4), "too few points"},
+                                          {ImageId(5), "it has 315 observations"}}}};
+  results.models[0].report.unobserved_images.clear();
+  EXPECT_THAT(
+      BuildJobReport(results).warnings,
+      ElementsAre("3 images are placed loosely, not registered; for example 2 images, such as "
+                  "3.jpg: it has 102 observations"));
 }
 
 TEST(BuildJobReport, AnImageThatAModelObservesIsNotLooseInAnother) {
