@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/status.h"
 #include "core/merging/assess_world.h"
 #include "core/merging/check_attitudes.h"
 #include "core/merging/check_drive_motion.h"
@@ -89,49 +90,70 @@ SeamCertifier CertifierOf(const AdjustedWorld& adjusted, const std::vector<Seam>
 }
 
 using Supports = std::map<ImageId, std::vector<PatchSupport>>;
+using SupportsOfSubproblems = std::vector<std::vector<PatchSupport>>;
 
-Supports SupportsOf(const std::vector<SubproblemInspection>& inspections) {
+Supports SumOf(const SupportsOfSubproblems& of_subproblems) {
   Supports supports;
-  for (const SubproblemInspection& inspection : inspections)
-    AddSupport(inspection.supports, supports);
+  for (const std::vector<PatchSupport>& own : of_subproblems) AddSupport(own, supports);
   return supports;
 }
 
-/// Takes out what its own observations do not place, and widens the sigmas of images whose
-/// observations know less than their number.
-void JudgeSupports(const Supports& supports,
-                   const ImageManifest& manifest,
-                   Reconstruction& poses,
-                   GlobalAdjustReport& report) {
-  for (auto image = poses.images.begin(); image != poses.images.end();) {
-    const auto& [id, registered] = *image;
+/// Of images that are neither loose nor `weak` already.
+std::map<ImageId, SupportVerdict> JudgeSupports(const Supports& supports,
+                                                const Reconstruction& poses,
+                                                const std::set<ImageId>& weak) {
+  std::map<ImageId, SupportVerdict> verdicts;
+  for (const auto& [id, image] : poses.images) {
+    if (image.loose || weak.contains(id)) continue;
     const auto support = supports.find(id);
-    if (registered.loose || support == supports.end()) {
-      ++image;
-      continue;
-    }
-    const SupportVerdict verdict = JudgeSupport(support->second);
-    if (verdict.is_weak) {
+    verdicts[id] =
+        JudgeSupport(support == supports.end() ? std::vector<PatchSupport>() : support->second);
+  }
+  return verdicts;
+}
+
+/// Takes out what its own observations do not place, until those of all that are left do, and
+/// widens the sigmas of images whose observations know less than their number.
+absl::Status TakeOutWeak(const AdjustedWorld& adjusted,
+                         SupportsOfSubproblems supports,
+                         const ImageManifest& manifest,
+                         Reconstruction& poses,
+                         GlobalAdjustReport& report) {
+  std::set<ImageId> weak;
+  std::map<ImageId, SupportVerdict> verdicts;
+  for (size_t known = 0;; known = weak.size()) {
+    verdicts = JudgeSupports(SumOf(supports), poses, weak);
+    for (const auto& [id, verdict] : verdicts) {
+      if (!verdict.is_weak) continue;
+      weak.insert(id);
       report.weak_images.push_back({manifest.At(id).name, verdict.reason});
-      image = poses.images.erase(image);
-      continue;
     }
-    if (std::optional<PoseUncertainty>& uncertainty = image->second.uncertainty) {
+    if (weak.size() == known) break;
+    for (size_t place = 0; place < supports.size(); ++place) {
+      const bool is_touched = std::ranges::any_of(
+          supports[place], [&](const PatchSupport& patch) { return weak.contains(patch.image); });
+      if (!is_touched) continue;
+      ORBWEAVE_ASSIGN_OR_RETURN(supports[place], adjusted.support_without(place, weak));
+    }
+  }
+  for (const ImageId id : weak) poses.images.erase(id);
+  for (const auto& [id, verdict] : verdicts) {
+    if (std::optional<PoseUncertainty>& uncertainty = poses.images.at(id).uncertainty) {
       const double factor = std::max(verdict.coherence, 1.0);
       uncertainty->position_covariance *= factor;
       uncertainty->rotation_sigma_rad *= std::sqrt(factor);
     }
-    ++image;
   }
+  return absl::OkStatus();
 }
 
 }  // namespace
 
-FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
-                                  const std::vector<Seam>& seams,
-                                  const Georeference& georeference,
-                                  const ImageManifest& manifest,
-                                  const GlobalAdjustOptions& options) {
+absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
+                                                  const std::vector<Seam>& seams,
+                                                  const Georeference& georeference,
+                                                  const ImageManifest& manifest,
+                                                  const GlobalAdjustOptions& options) {
   FinalisedWorld world{.report = std::move(adjusted.report)};
   const std::vector<SubproblemSummary>& summaries = adjusted.summaries;
   Reconstruction poses = PosesOf(summaries);
@@ -141,10 +163,12 @@ FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
   const std::vector<Eigen::Vector3d> biases_m =
       BiasesOf(summaries, problem.bundle.bias_sigma_m.size());
   const SeamCertifier certifier = CertifierOf(adjusted, seams);
-  const Supports supports = SupportsOf(adjusted.inspections);
+  SupportsOfSubproblems supports;
   std::vector<Eigen::Vector3d> points_about;
-  for (const SubproblemInspection& inspection : adjusted.inspections)
+  for (const SubproblemInspection& inspection : adjusted.inspections) {
+    supports.push_back(inspection.supports);
     std::ranges::copy(inspection.points_about, std::back_inserter(points_about));
+  }
   AssessedWorld assessed =
       AssessWorld(std::move(adjusted.inspections), problem, biases_m, manifest);
   for (const auto& [id, uncertainty] : assessed.uncertainties)
@@ -154,7 +178,8 @@ FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
   std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
                     std::back_inserter(world.report.checks));
   LoosenUnobserved(summaries, manifest, poses, world.report);
-  JudgeSupports(supports, manifest, poses, world.report);
+  ORBWEAVE_RETURN_IF_ERROR(
+      TakeOutWeak(adjusted, std::move(supports), manifest, poses, world.report));
   if (georeference.enu_from_world) {
     world.report.gnss = JudgeGnss(problem, biases_m, manifest, poses.images);
     world.report.gnss.deformation_m = georeference.deformation_m;

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "core/geometry/sim3.h"
 #include "core/merging/certify_seams.h"
 #include "core/merging/georeference.h"
@@ -30,18 +31,23 @@ struct AdjustedWorld {
   std::vector<SubproblemSummary> summaries{};
   std::vector<SubproblemInspection> inspections{};
   GlobalAdjustReport report{};  ///< without what FinaliseAdjustment finds
+  /// SupportOf the subproblem at a place, as if some images had seen nothing.
+  std::function<absl::StatusOr<std::vector<PatchSupport>>(size_t place,
+                                                          const std::set<ImageId>& without)>
+      support_without{};
 };
 
 /// What only the whole world tells: which images nobody observes any more (they become loose),
 /// which ones their own observations do not place (JudgeSupport; they are no more in the world, for
-/// AttachLooseImages to put where GNSS says), how GNSS fits
-/// the others (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the partition) fit,
-/// cross checks, and the frame of the model.
-[[nodiscard]] FinalisedWorld FinaliseAdjustment(AdjustedWorld adjusted,
-                                                const std::vector<Seam>& seams,
-                                                const Georeference& georeference,
-                                                const ImageManifest& manifest,
-                                                const GlobalAdjustOptions& options);
+/// AttachLooseImages to put where GNSS says), nor once those that do not are left out, as what two
+/// see alone is no support where one of them goes, how GNSS fits the others (JudgeGnss), residuals,
+/// the uncertainty of poses, how `seams` (of the partition) fit, cross checks, and the frame of the
+/// model. Errors are those of `support_without`.
+[[nodiscard]] absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
+                                                                const std::vector<Seam>& seams,
+                                                                const Georeference& georeference,
+                                                                const ImageManifest& manifest,
+                                                                const GlobalAdjustOptions& options);
 
 /// The images of the model, in its frame.
 [[nodiscard]] std::map<ImageId, RegisteredImage> ModelImages(const FinalisedWorld& world);

@@ -129,17 +129,25 @@ double CoherenceOf(std::span<const PatchSupport> patches, const Block6& whole, d
   return squares / (scatter * freedoms);
 }
 
+Track LeftOf(Track track, const std::set<ImageId>& without) {
+  std::erase_if(track.observations,
+                [&](const Observation& seen) { return without.contains(seen.ref.image); });
+  return track;
+}
+
 std::string Number(double value) { return std::to_string(std::lround(value)); }
 
 }  // namespace
 
-std::vector<PatchSupport> SupportOf(const Subproblem& subproblem) {
+std::vector<PatchSupport> SupportOf(const Subproblem& subproblem,
+                                    const std::set<ImageId>& without) {
   Patches patches;
-  for (const Track& track : subproblem.scene.tracks)
-    TrackTerms(track, subproblem.scene).AddTo(patches);
-  for (const SplitTrack& track : subproblem.split) {
-    if (track.part.observations.size() > 1) TrackTerms(track.part, subproblem.scene).AddTo(patches);
-  }
+  const auto add = [&](const Track& track) {
+    const Track left = LeftOf(track, without);
+    if (left.observations.size() > 1) TrackTerms(left, subproblem.scene).AddTo(patches);
+  };
+  for (const Track& track : subproblem.scene.tracks) add(track);
+  for (const SplitTrack& track : subproblem.split) add(track.part);
   std::vector<PatchSupport> sorted;
   for (auto& [key, support] : patches) sorted.push_back(support);
   return sorted;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,8 +35,9 @@ struct PatchSupport {
 };
 
 /// Sorted by image and patch. Of a track that is split over subproblems the part that is here
-/// counts.
-[[nodiscard]] std::vector<PatchSupport> SupportOf(const Subproblem& subproblem);
+/// counts. `without`: as if these images had seen nothing.
+[[nodiscard]] std::vector<PatchSupport> SupportOf(const Subproblem& subproblem,
+                                                  const std::set<ImageId>& without = {});
 
 /// Adds what several subproblems know of the same patches; sums in the order given.
 void AddSupport(std::span<const PatchSupport> patches,

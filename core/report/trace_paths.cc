@@ -109,7 +109,7 @@ std::set<uint32_t> DrivesWithoutOrder(const ImageManifest& manifest, const std::
   for (const Leg& leg : legs) AskForOrder(leg, votes[leg.drive]);
   std::set<uint32_t> drives;
   for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    if (!HaveTimes(manifest, sequence) && 2 * votes[drive].against > votes[drive].asked)
+    if (TimedAmong(manifest, sequence).empty() && 2 * votes[drive].against > votes[drive].asked)
       drives.insert(drive);
   }
   return drives;

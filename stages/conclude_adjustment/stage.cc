@@ -3,7 +3,9 @@
 #include "stages/conclude_adjustment/stage.h"
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "core/artifacts/check_adjustment.h"
 #include "core/artifacts/check_bounds.h"
@@ -39,11 +41,21 @@ absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& ta
                                 task.Fetch<SubproblemInspection>(place.inspection));
     }
     ORBWEAVE_RETURN_IF_ERROR(CheckAdjustedWorld(adjusted, worlds[world].georeference, manifest));
-    model.worlds.push_back(FinaliseAdjustment(std::move(adjusted),
-                                              divided.partition.seams,
-                                              worlds[world].georeference,
-                                              manifest,
-                                              options));
+    adjusted.support_without =
+        [&](size_t place,
+            const std::set<ImageId>& without) -> absl::StatusOr<std::vector<PatchSupport>> {
+      ORBWEAVE_RETURN_IF_ERROR(task.context().CheckStop());
+      ORBWEAVE_ASSIGN_OR_RETURN(const Subproblem subproblem,
+                                task.Fetch<Subproblem>(subproblems[place]));
+      return SupportOf(subproblem, without);
+    };
+    ORBWEAVE_ASSIGN_OR_RETURN(FinalisedWorld finalised,
+                              FinaliseAdjustment(std::move(adjusted),
+                                                 divided.partition.seams,
+                                                 worlds[world].georeference,
+                                                 manifest,
+                                                 options));
+    model.worlds.push_back(std::move(finalised));
     if (model.worlds.back().images.empty()) {  // nothing in it is placed by its own observations
       model.worlds.pop_back();
       model.subproblems.pop_back();

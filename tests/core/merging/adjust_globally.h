@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "core/bundle/bundle_options.h"
 #include "core/merging/divide_world.h"
@@ -32,12 +35,16 @@ struct GloballyAdjusted {
   GlobalAdjustReport report{};
 };
 
+/// What inspections say of images, to be made worse than it is.
+using SpoilSupports = std::function<void(std::vector<PatchSupport>& supports)>;
+
 // All that the stages do to a world after the merge, for one that is a single subproblem.
 inline absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruction,
                                                        const ImageManifest& manifest,
                                                        const GlobalAdjustOptions& options,
                                                        const BundleOptions& bundle,
-                                                       const StageContext& context) {
+                                                       const StageContext& context,
+                                                       const SpoilSupports& spoil = {}) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const Georeference georeference,
       GeoreferenceReconstruction(reconstruction, manifest, options.gnss, context));
@@ -59,8 +66,15 @@ inline absl::StatusOr<GloballyAdjusted> AdjustGlobally(Reconstruction reconstruc
                      .report = std::move(adjusted.report)};
   for (const Subproblem& subproblem : adjusted.subproblems)
     left.inspections.push_back(InspectSubproblem(subproblem, context.num_threads));
-  const FinalisedWorld world =
-      FinaliseAdjustment(std::move(left), {}, georeference, manifest, options);
+  for (SubproblemInspection& inspection : left.inspections) {
+    if (spoil) spoil(inspection.supports);
+  }
+  left.support_without = [&](size_t place, const std::set<ImageId>& without) {
+    return SupportOf(adjusted.subproblems[place], without);
+  };
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const FinalisedWorld world,
+      FinaliseAdjustment(std::move(left), {}, georeference, manifest, options));
   return GloballyAdjusted{GatherWorld(world, std::move(adjusted.subproblems)), world.report};
 }
 

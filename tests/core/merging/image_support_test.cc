@@ -21,6 +21,7 @@ using testing::AdjustGlobally;
 using testing::GloballyAdjusted;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using testing::TrueModel;
 
 constexpr ImageId kImage{9};
@@ -164,6 +165,41 @@ TEST(JudgeSupport, NeedsMoreThanTheEpipolarPlanesOfOneOtherImage) {
   const SupportVerdict verdict = JudgeSupport(of_image.at(ImageId(1)));
   EXPECT_TRUE(verdict.is_weak);
   EXPECT_THAT(verdict.reason, HasSubstr("do not fix its pose"));
+}
+
+TEST(SupportOf, WithoutAnImageIsAsIfItHadSeenNothing) {
+  const Corridor corridor = Street();
+  const ImageId gone(kImage.value + 1);
+  Subproblem subproblem{.scene = TrueModel(corridor)};
+  const std::vector<PatchSupport> without = SupportOf(subproblem, {gone});
+  for (Track& track : subproblem.scene.tracks)
+    std::erase_if(track.observations, [&](const Observation& s) { return s.ref.image == gone; });
+  const std::vector<PatchSupport> expected = SupportOf(subproblem);
+  ASSERT_EQ(without.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(without[i].image, expected[i].image);
+    EXPECT_EQ(without[i].observations, expected[i].observations);
+    EXPECT_EQ(without[i].hessian, expected[i].hessian);
+  }
+}
+
+TEST(AdjustGlobally, WhatTwoSeeAloneIsNoSupportOnceTheThirdGoes) {
+  const Corridor corridor = Street();
+  Reconstruction three = TrueModel(corridor);
+  std::erase_if(three.images, [](const auto& image) { return image.first.value > 2; });
+  for (Track& track : three.tracks)
+    std::erase_if(track.observations, [](const Observation& s) { return s.ref.image.value > 2; });
+  std::erase_if(three.tracks, [](const Track& track) { return track.observations.size() < 2; });
+  const auto whole = AdjustGlobally(three, corridor.manifest, {}, {}, {});
+  ASSERT_TRUE(whole.ok()) << whole.status();
+  EXPECT_THAT(whole->report.weak_images, IsEmpty());
+  const auto none =
+      AdjustGlobally(three, corridor.manifest, {}, {}, {}, [](std::vector<PatchSupport>& supports) {
+        std::erase_if(supports, [](const PatchSupport& s) { return s.image == ImageId(2); });
+      });
+  ASSERT_TRUE(none.ok()) << none.status();
+  EXPECT_THAT(none->report.weak_images, SizeIs(3));
+  EXPECT_TRUE(none->reconstruction.images.empty());
 }
 
 TEST(SupportOf, DoesNotChangeWhenThePanoramaTurns) {
