@@ -35,7 +35,6 @@ std::optional<LengthFault> TearAt(const GapLength& gap) {
     return LengthFault{gap.between.a, gap.between.b, agreement, kind};
   };
   if (IsAskew(gap.matches)) return tear(gap.matches, LengthFaultKind::kHinge);
-  if (gap.is_borne_out) return std::nullopt;
   if (Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross))
     return tear(gap.agreement, LengthFaultKind::kWay);
   if (!IsToldElsewhere(gap.here, gap.elsewhere)) return std::nullopt;
@@ -73,16 +72,6 @@ std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
   for (const ImageId start : starts) worst.push_back(LeastFrom(start, tears));
   while (!tears.empty()) worst.push_back(LeastFrom(tears.begin()->first, tears));
   return worst;
-}
-
-/// Images all of whose ways GNSS bears out.
-std::set<ImageId> BorneOut(std::span<const GapLength> gaps) {
-  std::set<ImageId> borne_out;
-  std::set<ImageId> others;
-  for (const GapLength& gap : gaps)
-    (gap.is_borne_out ? borne_out : others).insert({gap.between.a, gap.between.b});
-  for (const ImageId image : others) borne_out.erase(image);
-  return borne_out;
 }
 
 }  // namespace
@@ -125,10 +114,9 @@ std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,
     images[pair.pair.a].Add(pair.agreement);
     images[pair.pair.b].Add(pair.agreement);
   }
-  const std::set<ImageId> borne_out = BorneOut(gaps);
   std::vector<LengthFault> faults;
   for (const auto& [image, sum] : images) {
-    if (sum.IsFault(kMinAgreeingLengths) && !borne_out.contains(image))
+    if (sum.IsFault(kMinAgreeingLengths))
       faults.push_back({.image = image, .agreement = sum.agreement});
   }
   std::ranges::copy(FindTears(gaps), std::back_inserter(faults));

@@ -73,11 +73,6 @@ struct LengthFault {
 /// the corner of such a street 62 of 582 matches agreed with the model, which had 11 points in
 /// common across it and was 8 degrees off; of right neighbours 48 % and more.
 ///
-/// Where houses repeat, rays that take one for the next may be more than those that are right. GNSS
-/// knows better where it has a way as it is and refutes what else rays say
-/// (GapLength::is_borne_out): no fault are such a way, unless it is a hinge, and an image both of
-/// whose ways are such.
-///
 /// Ways on either side of a tear look torn as well, as what lies on one side of them leads across
 /// it: of ways at fault that follow each other the one that agrees least is returned.
 ///

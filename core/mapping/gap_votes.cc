@@ -81,6 +81,7 @@ class Collector {
 
   /// What the pairs on this side of the gap say of one that leads across it.
   void Ask(size_t here, const Sight& across, size_t gap, std::span<const Sight> sights) {
+    ++votes_[gap].asked;
     std::vector<double> reaches;
     for (const Sight& sight : sights) {
       if ((sight.other <= gap) == (here <= gap))

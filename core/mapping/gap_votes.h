@@ -23,6 +23,7 @@ struct GapVotes {
   std::vector<uint32_t> pairs{};     ///< of the graph's: those that lead across
   std::vector<LengthVote> before{};  ///< of rays of images before it
   std::vector<LengthVote> behind{};
+  uint32_t asked = 0;  ///< rays of all pairs across, whether others tell how long these are or not
 };
 
 /// Votes across each way from a registered image of a line (FindStreetLines) to the next. Where a

@@ -70,6 +70,11 @@ double FactorOf(const MappingState& state, std::span<const GnssWay> ways, bool w
   return are_few ? std::max(measured, kFactorOfFew) : measured;
 }
 
+double SquareOf(const GnssWay& way, const MappingState& state) {
+  const double misfit = way.Misfit(state);
+  return std::min(misfit * misfit, kMaxSquare);
+}
+
 }  // namespace
 
 double GnssWay::Misfit(const MappingState& state) const {
@@ -98,9 +103,14 @@ GnssWays::GnssWays(const MappingState& state, double tolerance_px) {
 
 double GnssWays::Misfit(const MappingState& state) const {
   double sum = 0.0;
+  for (const GnssWay& way : ways_) sum += SquareOf(way, state);
+  return sum;
+}
+
+double GnssWays::MisfitAtEdges(const MappingState& state, const CandidateMove& images) const {
+  double sum = 0.0;
   for (const GnssWay& way : ways_) {
-    const double misfit = way.Misfit(state);
-    sum += std::min(misfit * misfit, kMaxSquare);
+    if (images.contains(way.image) != images.contains(way.next)) sum += SquareOf(way, state);
   }
   return sum;
 }

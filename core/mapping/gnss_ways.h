@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mapping/mapping_state.h"
+#include "core/mapping/move_images.h"
 
 namespace orbweave {
 
@@ -37,6 +38,8 @@ class GnssWays {
   /// Sum of all squared misfits, 25 of each at most: a position that is off by tens of metres
   /// speaks no louder.
   [[nodiscard]] double Misfit(const MappingState& state) const;
+  /// The same of the ways of which one end is among `images` and the other is not.
+  [[nodiscard]] double MisfitAtEdges(const MappingState& state, const CandidateMove& images) const;
 
  private:
   std::vector<GnssWay> ways_{};

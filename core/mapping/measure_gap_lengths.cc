@@ -3,6 +3,7 @@
 
 #include "core/mapping/measure_gap_lengths.h"
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <utility>
@@ -78,6 +79,8 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
     gap.here = wants_another.length.here;
     gap.elsewhere = wants_another.length.elsewhere;
     gap.matches = MatchesAcross(asked, votes);
+    gap.rays = votes.asked;
+    gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     gap.is_borne_out = gnss.BearsOut(votes, wants_another.shift);
   }
   return gaps;

@@ -37,6 +37,10 @@ struct GapLength {
   /// Matches of the pairs that lead across, and those that agree with how the model has its two
   /// sides stand and turn to each other (AgreementOfMatches).
   LengthAgreement matches{};
+  /// Rays of all pairs that lead across, and those of the side that tells more that say how long
+  /// these are, because pairs that stay on their side share them.
+  uint32_t rays = 0;
+  uint32_t telling_rays = 0;
   bool is_borne_out = false;  ///< by GNSS, which refutes what else rays say (WayWitness)
 };
 

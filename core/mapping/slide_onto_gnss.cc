@@ -50,13 +50,24 @@ std::vector<Prospect> ListProspects(MappingState& state,
   return prospects;
 }
 
-/// Whether rays contradict it in fewer places than before, or as many places hold.
-bool HoldsAsMuch(const MappingState& moved,
-                 const MappingState& before,
-                 const MappingOptions& options) {
+/// Whether GNSS likes a model clearly better with the slide made, and what points hold speaks not
+/// against it: rays contradict it in fewer places, or as many places hold as before; where rays
+/// contradict it in more, only if most of what GNSS minds at its edges is gone.
+bool IsBetter(const MappingState& moved,
+              const MappingState& before,
+              const CandidateMove& slide,
+              const GnssWays& gnss,
+              const MappingOptions& options) {
+  if (moved.Registered().size() < before.Registered().size() ||
+      gnss.Misfit(moved) > gnss.Misfit(before) - kClearlyLess)
+    return false;
   const size_t faults = FindLengthFaults(moved, options).size();
   const size_t faults_before = FindLengthFaults(before, options).size();
-  return faults < faults_before || CountHeldPlaces(moved) >= CountHeldPlaces(before);
+  if (faults < faults_before) return true;
+  const bool is_settled =
+      2.0 * gnss.MisfitAtEdges(moved, slide) <= gnss.MisfitAtEdges(before, slide);
+  return CountHeldPlaces(moved) >= CountHeldPlaces(before) &&
+         (faults == faults_before || is_settled);
 }
 
 /// The model with a slide made and everything adjusted, if that is better.
@@ -69,9 +80,7 @@ absl::StatusOr<bool> TrySlide(const CandidateMove& slide,
   PutAt(moved, slide);
   RemakePoints(moved, state, options);
   ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(moved, options, context));
-  const bool is_better = moved.Registered().size() >= state.Registered().size() &&
-                         gnss.Misfit(moved) <= gnss.Misfit(state) - kClearlyLess &&
-                         HoldsAsMuch(moved, state, options);
+  const bool is_better = IsBetter(moved, state, slide, gnss, options);
   if (is_better) state = std::move(moved);
   return is_better;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWithinSigmas = 2.0;
 constexpr double kOffBySigmas = 3.0;
-constexpr double kShareOfWay = 0.5;
+constexpr double kKnownShare = 0.2;
 constexpr auto kFewestRays = static_cast<double>(kFewestRaysOfPair);
 
 }  // namespace
@@ -47,8 +47,9 @@ bool WayWitness::BearsOut(const GapVotes& gap, double elsewhere) const {
   if (found == ways_.end()) return false;
   const GnssWay& way = found->second;
   const double misfit = way.Misfit(asked_.state);
-  const double shift = elsewhere != 0.0 ? elsewhere : kShareOfWay * way.length;
-  return std::abs(misfit) <= kWithinSigmas && std::abs(misfit + shift / way.sigma) > kOffBySigmas;
+  const bool is_refuted = std::abs(misfit + elsewhere / way.sigma) > kOffBySigmas;
+  return way.sigma <= kKnownShare * way.length && std::abs(misfit) <= kWithinSigmas &&
+         (elsewhere == 0.0 || is_refuted);
 }
 
 }  // namespace orbweave

@@ -25,9 +25,9 @@ class WayWitness {
  public:
   explicit WayWitness(const AskedRays& asked);
 
-  /// Whether GNSS has the way as it is up to two sigmas, and would have it off by more than three
-  /// if it were longer by `elsewhere`, the shift that most rays want; by half of its length where
-  /// that is 0.
+  /// Whether GNSS knows the way to a fifth of its length, has it as it is up to two sigmas, and
+  /// would have it off by more than three if it were longer by `elsewhere`, the shift that most
+  /// rays want, where that is not 0.
   [[nodiscard]] bool BearsOut(const GapVotes& gap, double elsewhere) const;
 
  private:

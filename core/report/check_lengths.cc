@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,30 @@ std::vector<Length> LeastAgreeing(const JobResults& results,
   std::vector<Length> sorted;
   for (const auto& [where, length] : least) sorted.push_back(length);
   return sorted;
+}
+
+/// Images all of whose ways GNSS bears out.
+std::set<ImageId> BorneOutImages(const std::vector<GapLength>& gaps) {
+  std::set<ImageId> borne_out;
+  std::set<ImageId> others;
+  for (const GapLength& gap : gaps)
+    (gap.is_borne_out ? borne_out : others).insert({gap.between.a, gap.between.b});
+  for (const ImageId image : others) borne_out.erase(image);
+  return borne_out;
+}
+
+/// FindLengthFaults of what GNSS does not bear out.
+std::vector<LengthFault> FaultsThatStand(const std::vector<PairLength>& lengths,
+                                         std::vector<GapLength> gaps) {
+  const std::set<ImageId> borne_out = BorneOutImages(gaps);
+  for (GapLength& gap : gaps) {
+    if (gap.is_borne_out) gap = {.between = gap.between, .matches = gap.matches};
+  }
+  std::vector<LengthFault> faults = FindLengthFaults(lengths, gaps);
+  std::erase_if(faults, [&](const LengthFault& fault) {
+    return fault.kind == LengthFaultKind::kImage && borne_out.contains(fault.image);
+  });
+  return faults;
 }
 
 std::string PlaceOf(const LengthFault& fault, const ImageManifest& manifest) {
@@ -97,7 +122,7 @@ CrossCheck CheckLengths(const JobResults& results) {
   LengthAgreement all;
   for (const PairLength& length : lengths) all.Add(length.agreement);
   check.value = all.Share();
-  const std::vector<LengthFault> faults = FindLengthFaults(lengths, gaps);
+  const std::vector<LengthFault> faults = FaultsThatStand(lengths, gaps);
   char text[512];
   if (faults.empty()) {
     std::snprintf(text,

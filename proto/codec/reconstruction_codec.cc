@@ -86,6 +86,8 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_elsewhere(length.elsewhere);
     out->set_matches(length.matches.told);
     out->set_agreeing_matches(length.matches.agreeing);
+    out->set_rays(length.rays);
+    out->set_telling_rays(length.telling_rays);
     out->set_is_borne_out(length.is_borne_out);
   }
   proto.set_num_global_adjustments(result.reconstruction.num_global_adjustments);
@@ -134,6 +136,8 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
          .here = length.here(),
          .elsewhere = length.elsewhere(),
          .matches = {.told = length.matches(), .agreeing = length.agreeing_matches()},
+         .rays = length.rays(),
+         .telling_rays = length.telling_rays(),
          .is_borne_out = length.is_borne_out()});
     ORBWEAVE_RETURN_IF_ERROR(CheckLength(result.reconstruction.gap_lengths.back()));
   }

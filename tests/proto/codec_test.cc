@@ -567,6 +567,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                                           .here = 43.5,
                                           .elsewhere = 90.0,
                                           .matches = {.told = 582.0, .agreeing = 62.5},
+                                          .rays = 369,
+                                          .telling_rays = 13,
                                           .is_borne_out = true}},
                          .residual_rms_px = 0.5,
                          .started_globally = true,
@@ -591,6 +593,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].elsewhere, 90.0);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].matches.told, 582.0);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].matches.agreeing, 62.5);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].rays, 369U);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].telling_rays, 13U);
   EXPECT_TRUE(cluster_out->reconstruction.gap_lengths[0].is_borne_out);
   EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));

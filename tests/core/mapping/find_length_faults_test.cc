@@ -139,20 +139,5 @@ TEST(FindLengthFaults, FewRaysAndFewPairsAreNotAsked) {
   EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
 }
 
-TEST(FindLengthFaults, WhatGnssBearsOutIsNone) {
-  std::vector<GapLength> gaps = RightGaps();
-  gaps[8].agreement.agreeing = 30.0;
-  gaps[9].here = 60.0;
-  gaps[9].elsewhere = 132.0;
-  const auto pairs = WrongWhere([](uint32_t a, uint32_t b) { return a == 9 || b == 9; });
-  EXPECT_FALSE(FindLengthFaults(pairs, gaps).empty());
-  gaps[8].is_borne_out = true;
-  EXPECT_EQ(FindLengthFaults(pairs, gaps).size(), 2U) << "the image and the way behind it";
-  gaps[9].is_borne_out = true;
-  EXPECT_TRUE(FindLengthFaults(pairs, gaps).empty());
-  gaps[9].matches = {.told = 582.0, .agreeing = 62.0};
-  EXPECT_EQ(FindLengthFaults(pairs, gaps).size(), 1U) << "sides that stand askew";
-}
-
 }  // namespace
 }  // namespace orbweave

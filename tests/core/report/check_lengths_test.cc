@@ -96,6 +96,22 @@ void ExpectDoubtWhicheverClusterSaysSo(JobResults results, const std::string& se
   }
 }
 
+TEST(CheckLengths, WhatGnssBearsOutIsNoFault) {
+  JobResults results = Drive();
+  std::vector<GapLength>& gaps = results.clusters[0].gap_lengths;
+  ContradictPairsOf(42, results);
+  gaps[41].agreement.agreeing = 30.0;
+  gaps[42].here = 60.0;
+  gaps[42].elsewhere = 132.0;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kDoubtful);
+  gaps[41].is_borne_out = true;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kDoubtful) << "the image, the way behind it";
+  gaps[42].is_borne_out = true;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood);
+  gaps[42].matches = {.told = 582.0, .agreeing = 62.0};
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kDoubtful) << "sides that stand askew";
+}
+
 TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
   JobResults results = Drive();
   results.clusters[0].gap_lengths[20].here = 60.0;
