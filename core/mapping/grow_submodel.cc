@@ -126,6 +126,7 @@ class Growth {
     RegistrationRecord& record = log_[image];
     record.num_attempts += attempt.waits ? 0 : 1;
     record.contradicted = attempt.waits && !attempt.registered;
+    record.obstacle = attempt.registered ? RegistrationObstacle::kNone : attempt.obstacle;
     record.visible_at_failure = attempt.registered ? 0 : attempt.num_visible;
     record.best_visible = std::max(record.best_visible, attempt.num_visible);
     if (attempt.num_inliers < record.best_inliers) return;

@@ -13,7 +13,6 @@
 #include "core/mapping/gap_votes.h"
 #include "core/mapping/log_length_of_pair.h"
 #include "core/mapping/matches_in_planes.h"
-#include "core/mapping/way_witness.h"
 
 namespace orbweave {
 namespace {
@@ -21,7 +20,7 @@ namespace {
 /// What one side of a gap says of it.
 struct Side {
   GapLength length{};
-  double shift = 0.0;  ///< that most of its rays want
+  double shift = 0.0;  ///< that clearly more of its rays want than what the model has
 };
 
 Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedRays& asked) {
@@ -38,7 +37,8 @@ Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedR
   const GapShift shift = FindGapShift(asked, gap, votes);
   side.here = shift.here;
   side.elsewhere = shift.elsewhere;
-  return {side, shift.shift};
+  const bool is_clear = IsToldElsewhere(shift.here, shift.elsewhere);
+  return {side, is_clear ? shift.shift : 0.0};
 }
 
 /// Whether one side is to be believed less: it tells too little, or agrees more.
@@ -67,8 +67,7 @@ LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
   return matches;
 }
 
-std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
-  const WayWitness gnss(asked);
+std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const WayWitness* gnss) {
   std::vector<GapLength> gaps;
   for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
@@ -81,7 +80,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked) {
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
-    gap.is_borne_out = gnss.BearsOut(votes, wants_another.shift);
+    gap.is_borne_out = gnss != nullptr && gnss->BearsOut(votes, wants_another.shift);
   }
   return gaps;
 }

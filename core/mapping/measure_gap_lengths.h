@@ -7,6 +7,7 @@
 #include "core/mapping/asked_rays.h"
 #include "core/mapping/gap_votes.h"
 #include "core/mapping/pair_length.h"
+#include "core/mapping/way_witness.h"
 
 namespace orbweave {
 
@@ -18,7 +19,9 @@ namespace orbweave {
 /// not. Another length is that of the side which more clearly wants one (FindGapShift).
 ///
 /// Of lines in order, of images along them (RegisteredSequence).
-[[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked);
+/// `gnss`: tells which are borne out; none is without.
+[[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked,
+                                                       const WayWitness* gnss = nullptr);
 
 /// Matches of the pairs that lead across, and those that agree (GapLength::matches).
 [[nodiscard]] LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap);

@@ -20,6 +20,7 @@
 #include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/split_by_gnss.h"
+#include "core/mapping/way_witness.h"
 #include "core/mapping/weigh_pixels_alike.h"
 
 namespace orbweave {
@@ -137,7 +138,8 @@ void TakeSubmodel(const MappingState& state,
       result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
   const AskedRays asked(state, options);
   std::ranges::copy(MeasurePairLengths(asked), std::back_inserter(result.pair_lengths));
-  std::ranges::copy(MeasureGapLengths(asked), std::back_inserter(result.gap_lengths));
+  const WayWitness gnss(asked);
+  std::ranges::copy(MeasureGapLengths(asked, &gnss), std::back_inserter(result.gap_lengths));
 }
 
 }  // namespace

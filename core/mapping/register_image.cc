@@ -86,6 +86,7 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     if (support.count < fewest) return false;
     if (limits.propose_from_pairs &&
         !IsLengthTold(cam_from_world, correspondences, views, max_error_rad)) {
+      attempt.obstacle = RegistrationObstacle::kLength;
       return false;  // so few points may all be far
     }
     return place(cam_from_world);
@@ -138,6 +139,10 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
       is_doubtful && proposed &&
       agreeing(proposed->cam_from_world) > agreeing(pose->cam_from_world);
   if (pose && !pairs_know_better) attempt.registered = accept(pose->cam_from_world, needed);
+  if (pairs_know_better) {
+    attempt.obstacle = RegistrationObstacle::kPairs;
+    attempt.num_inliers = SupportOf(pose->cam_from_world, correspondences, max_error_rad).count;
+  }
   if (!attempt.registered && proposed) {
     const bool is_held = IsHeldByPairs(*proposed, static_cast<uint32_t>(limits.min_inliers));
     // What contradicts the points must itself know how long the step is: far points never do.

@@ -19,11 +19,19 @@ struct RegistrationLimits {
 /// How many points must agree with the pose of an image that sees `num_visible` of them.
 [[nodiscard]] uint32_t NeededInliers(const RegistrationLimits& limits, uint32_t num_visible);
 
+/// What stood against an image that enough points might have placed.
+enum class RegistrationObstacle {
+  kNone,
+  kPairs,   ///< strong pairs contradict where points put it, and do not hold it by themselves
+  kLength,  ///< its points do not tell how far it is from the others (IsLengthTold)
+};
+
 struct RegistrationAttempt {
   bool registered = false;
   bool waits = false;  ///< GNSS contradicts what was found: to be tried once more is known
   uint32_t num_visible = 0;
   uint32_t num_inliers = 0;
+  RegistrationObstacle obstacle = RegistrationObstacle::kNone;
 };
 
 /// Absolute orientation of an unregistered image (paper 3.4): P3P with RANSAC over its scene

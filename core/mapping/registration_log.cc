@@ -10,6 +10,7 @@ void ResetAttempts(RegistrationLog& log) {
     record.num_attempts = 0;
     record.visible_at_failure = 0;
     record.contradicted = false;
+    record.obstacle = RegistrationObstacle::kNone;
   }
 }
 
@@ -19,6 +20,14 @@ std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) 
     return std::to_string(record.best_inliers) +
            " points put it where its GNSS position and those around it say that it is not: a "
            "place that looks alike, or wrong positions";
+  }
+  if (record.obstacle == RegistrationObstacle::kPairs) {
+    return "strong pairs contradict where " + std::to_string(record.best_inliers) +
+           " points put it, and do not hold it by themselves: a place that looks alike";
+  }
+  if (record.obstacle == RegistrationObstacle::kLength) {
+    return std::to_string(record.best_inliers) +
+           " points agree, but do not tell how far it is from the others";
   }
   if (record.best_inliers < record.needed_inliers) {
     return std::to_string(record.best_inliers) + " of " + std::to_string(record.needed_inliers) +

@@ -19,6 +19,7 @@ struct RegistrationRecord {
   int num_reconsidered = 0;         ///< times that it was registered anew (ReconsiderImages)
   bool dropped = false;             ///< was registered, then lost its points
   bool contradicted = false;        ///< GNSS had the last word (RegistrationAttempt::waits)
+  RegistrationObstacle obstacle = RegistrationObstacle::kNone;  ///< of the last attempt
 };
 
 /// One record per image of the cluster.

@@ -26,8 +26,8 @@ class WayWitness {
   explicit WayWitness(const AskedRays& asked);
 
   /// Whether GNSS knows the way to a fifth of its length, has it as it is up to two sigmas, and
-  /// would have it off by more than three if it were longer by `elsewhere`, the shift that most
-  /// rays want, where that is not 0.
+  /// would have it off by more than three if it were longer by `elsewhere`, the shift that clearly
+  /// more rays want, where that is not 0.
   [[nodiscard]] bool BearsOut(const GapVotes& gap, double elsewhere) const;
 
  private:

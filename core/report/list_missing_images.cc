@@ -12,10 +12,29 @@
 namespace orbweave {
 namespace {
 
-/// Why each image that no model observes is missing, by what is known latest in the line.
-std::vector<std::string> ReasonsOfImages(const JobResults& results) {
+/// Of images without an edge in the view graph: matched with none, or only with places that look
+/// alike.
+std::vector<std::string> ReasonsOfLoners(const JobResults& results) {
   std::vector<std::string> reasons(results.manifest.images.size(),
                                    "no verified matches with any other image");
+  std::map<ImageId, uint32_t> dropped;
+  for (const DroppedEdge& edge : results.view_graph.dropped) {
+    if (edge.cause == DropCause::kGeometry) continue;
+    ++dropped[edge.pair.a];
+    ++dropped[edge.pair.b];
+  }
+  for (const auto& [image, count] : dropped) {
+    reasons[image.value] =
+        absl::StrCat(count,
+                     count == 1 ? " verified pair" : " verified pairs",
+                     " with others, and all told apart from them as places that look alike");
+  }
+  return reasons;
+}
+
+/// Why each image that no model observes is missing, by what is known latest in the line.
+std::vector<std::string> ReasonsOfImages(const JobResults& results) {
+  std::vector<std::string> reasons = ReasonsOfLoners(results);
   for (const ClusterSummary& cluster : results.clusters) {
     for (const NotRegistered& image : cluster.not_registered) {
       reasons[image.image.value] = image.reason;

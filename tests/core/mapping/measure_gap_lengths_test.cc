@@ -215,5 +215,51 @@ TEST(GapLengths, ThereAreNoneOfNoModel) {
   EXPECT_TRUE(MeasureGapLengths({street.Fixture().StateWith({}), {}}).empty());
 }
 
+/// With positions as they are, stated to so many metres.
+std::vector<GapLength> GapsWithGnss(double sigma_m, double torn_by_m) {
+  TornStreet street;
+  for (uint32_t i = 0; i < kImages; ++i) {
+    PosePrior& prior = street.Fixture().world.problem.images[i].prior;
+    prior.position_in_enu = TornStreet::Centre(i);
+    prior.horizontal_sigma_m = prior.vertical_sigma_m = sigma_m;
+  }
+  const MappingState state = Torn(street, torn_by_m);
+  const AskedRays asked(state, {});
+  const WayWitness gnss(asked);
+  return MeasureGapLengths(asked, &gnss);
+}
+
+TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
+  for (const GapLength& gap : GapsWithGnss(0.5, 0.0)) EXPECT_TRUE(gap.is_borne_out);
+  const std::vector<GapLength> torn = GapsWithGnss(0.5, 4.0);
+  for (size_t i = 0; i < torn.size(); ++i) EXPECT_EQ(torn[i].is_borne_out, i != 6) << i;
+  const TornStreet without;
+  for (const GapLength& gap : MeasureGapLengths({without.Right(), {}}))
+    EXPECT_FALSE(gap.is_borne_out);
+}
+
+TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
+  TornStreet street;
+  Random random(3);
+  for (uint32_t i = 0; i < kImages; ++i) {
+    PosePrior& prior = street.Fixture().world.problem.images[i].prior;
+    prior.position_in_enu =
+        TornStreet::Centre(i) + 3.0 * Eigen::Vector3d(random.Normal(), random.Normal(), 0.0);
+    prior.horizontal_sigma_m = prior.vertical_sigma_m = 3.0;
+  }
+  const MappingState state = street.Right();
+  const AskedRays asked(state, {});
+  const WayWitness gnss(asked);
+  for (const GapLength& gap : MeasureGapLengths(asked, &gnss)) EXPECT_FALSE(gap.is_borne_out);
+}
+
+TEST(GapLengths, CountTheRaysThatTell) {
+  const TornStreet street;
+  for (const GapLength& gap : MeasureGapLengths({street.Right(), {}})) {
+    EXPECT_GT(gap.telling_rays, 100U);
+    EXPECT_GT(gap.rays, gap.telling_rays);
+  }
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -32,6 +32,21 @@ TEST(ReasonOf, SaysThatPositionsSpokeAgainstIt) {
   EXPECT_FALSE(log[0].contradicted) << "it is to be tried anew";
 }
 
+TEST(ReasonOf, SaysThatPairsSpokeAgainstIt) {
+  const std::string reason =
+      ReasonOf({.best_inliers = 40, .obstacle = RegistrationObstacle::kPairs}, 20);
+  EXPECT_NE(reason.find("strong pairs contradict where 40 points put it"), std::string::npos);
+}
+
+TEST(ReasonOf, SaysThatPointsDidNotTellHowFarItIs) {
+  const std::string reason =
+      ReasonOf({.best_inliers = 15, .obstacle = RegistrationObstacle::kLength}, 20);
+  EXPECT_NE(reason.find("15 points agree, but do not tell how far"), std::string::npos);
+  RegistrationLog log = {{.obstacle = RegistrationObstacle::kLength}};
+  ResetAttempts(log);
+  EXPECT_EQ(log[0].obstacle, RegistrationObstacle::kNone) << "it is to be tried anew";
+}
+
 TEST(ReasonOf, SaysThatNothingStarted) {
   EXPECT_EQ(ReasonOf({}, 20), "no pair of its images could start a reconstruction");
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <utility>
 
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
@@ -193,10 +194,14 @@ TEST(AdjustGlobally, WhatTwoSeeAloneIsNoSupportOnceTheThirdGoes) {
   const auto whole = AdjustGlobally(three, corridor.manifest, {}, {}, {});
   ASSERT_TRUE(whole.ok()) << whole.status();
   EXPECT_THAT(whole->report.weak_images, IsEmpty());
+  const auto keep_one_patch_of_the_third = [](std::vector<PatchSupport>& supports) {
+    bool is_first = true;
+    std::erase_if(supports, [&](const PatchSupport& patch) {
+      return patch.image == ImageId(2) && !std::exchange(is_first, false);
+    });
+  };
   const auto none =
-      AdjustGlobally(three, corridor.manifest, {}, {}, {}, [](std::vector<PatchSupport>& supports) {
-        std::erase_if(supports, [](const PatchSupport& s) { return s.image == ImageId(2); });
-      });
+      AdjustGlobally(three, corridor.manifest, {}, {}, {}, keep_one_patch_of_the_third);
   ASSERT_TRUE(none.ok()) << none.status();
   EXPECT_THAT(none->report.weak_images, SizeIs(3));
   EXPECT_TRUE(none->reconstruction.images.empty());

@@ -46,6 +46,15 @@ TEST(BuildJobReport, NamesLooseImagesWithTheirReasonsAndDoesNotCountThem) {
   EXPECT_EQ(report.images[0].reason, "");
 }
 
+TEST(BuildJobReport, SaysThatAnImageHadOnlyPairsThatLookAlike) {
+  JobResults results = SixImages();
+  results.view_graph.dropped = {{.pair = {ImageId(0), ImageId(5)}, .cause = DropCause::kGnss},
+                                {.pair = {ImageId(2), ImageId(5)}, .cause = DropCause::kGnss}};
+  const JobReport report = BuildJobReport(results);
+  EXPECT_THAT(report.images[5].reason, HasSubstr("2 verified pairs with others, and all told"));
+  EXPECT_EQ(report.images[4].reason, "too few points");
+}
+
 TEST(BuildJobReport, WarnsOnceOfAllLooseImagesWithTheReasonOfMost) {
   JobResults results = SixImages();
   EXPECT_THAT(
