@@ -4,6 +4,7 @@
 #include "core/report/check_told_steps.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,9 +35,7 @@ std::vector<GapLength> AskedSteps(const JobResults& results) {
   return asked;
 }
 
-bool IsUntold(const GapLength& gap) {
-  return gap.telling_rays < kFewestTelling && !gap.is_borne_out;
-}
+bool IsUntold(const GapLength& gap) { return gap.telling_rays < kFewestTelling; }
 
 }  // namespace
 
@@ -46,23 +45,24 @@ CrossCheck CheckToldSteps(const JobResults& results) {
                    .unit = "count",
                    .bound = CheckBound::kAtLeast};
   const std::vector<GapLength> steps = AskedSteps(results);
-  const auto untold = std::ranges::count_if(steps, IsUntold);
+  std::vector<GapLength> left_to_rays;
+  std::ranges::copy_if(steps, std::back_inserter(left_to_rays), [](const GapLength& gap) {
+    return !gap.is_borne_out;
+  });
+  const auto worst = std::ranges::min_element(left_to_rays, {}, &GapLength::telling_rays);
+  check.value = worst == left_to_rays.end() ? kFewestTelling : worst->telling_rays;
+  const auto untold = std::ranges::count_if(left_to_rays, IsUntold);
   if (untold == 0) {
-    check.value = kFewestTelling;
     check.sentence = "rays that other pairs share tell how long " + std::to_string(steps.size()) +
                      " steps are, or GNSS does";
     return check;
   }
-  std::vector<GapLength> few;
-  std::ranges::copy_if(steps, std::back_inserter(few), IsUntold);
-  const GapLength& worst = *std::ranges::min_element(few, {}, &GapLength::telling_rays);
-  check.value = worst.telling_rays;
   check.level = CheckLevel::kDoubtful;
   check.sentence = "hardly anything tells how long " + std::to_string(untold) + " of " +
                    std::to_string(steps.size()) + " steps are, first the one between " +
-                   results.manifest.At(worst.between.a).name + " and " +
-                   results.manifest.At(worst.between.b).name + ": " +
-                   std::to_string(worst.telling_rays) + " of its " + std::to_string(worst.rays) +
+                   results.manifest.At(worst->between.a).name + " and " +
+                   results.manifest.At(worst->between.b).name + ": " +
+                   std::to_string(worst->telling_rays) + " of its " + std::to_string(worst->rays) +
                    " rays; take panoramas closer together, or give exact GNSS positions";
   return check;
 }

@@ -17,7 +17,8 @@ namespace orbweave {
 /// that came out right to centimetres 76 told at least; 12 m apart, of steps that were wrong by
 /// metres, 10 to 25 in many.
 ///
-/// Within models; a step of two clusters by the one that tells more. Value: the fewest.
+/// Within models; a step of two clusters by the one that tells more. Value: the fewest, of steps
+/// that GNSS does not bear out; the limit where there are none.
 [[nodiscard]] CrossCheck CheckToldSteps(const JobResults& results);
 
 }  // namespace orbweave

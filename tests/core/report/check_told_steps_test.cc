@@ -35,6 +35,7 @@ JobResults Drive() {
 TEST(CheckToldSteps, IsGoodWhereRaysTell) {
   EXPECT_EQ(CheckToldSteps(Drive()).level, CheckLevel::kGood);
   EXPECT_THAT(CheckToldSteps(Drive()).sentence, HasSubstr("19 steps"));
+  EXPECT_EQ(CheckToldSteps(Drive()).value, 150.0);
   EXPECT_EQ(CheckToldSteps({}).level, CheckLevel::kGood);
 }
 
