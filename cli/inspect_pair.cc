@@ -109,17 +109,15 @@ absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId 
 
 std::string MatchesText(const PairInspection& inspection) {
   const size_t inliers = inspection.geometry.inliers.size();
+  const size_t more = inspection.num_guided + inspection.num_on_facades;
   std::string text = absl::StrFormat("%u inliers", inliers);
-  if (inspection.num_guided > 0) {
-    absl::StrAppendFormat(
-        &text,
-        ", %u of %u matches by descriptors and %u more found along epipolar planes",
-        inliers - inspection.num_guided,
-        inspection.putative.size(),
-        inspection.num_guided);
-  } else {
-    absl::StrAppendFormat(&text, " of %u matches", inspection.putative.size());
-  }
+  if (more == 0) return text + absl::StrFormat(" of %u matches", inspection.putative.size());
+  absl::StrAppendFormat(
+      &text, ", %u of %u matches by descriptors", inliers - more, inspection.putative.size());
+  if (inspection.num_on_facades > 0)
+    absl::StrAppendFormat(&text, ", %u of walls in their true shape", inspection.num_on_facades);
+  if (inspection.num_guided > 0)
+    absl::StrAppendFormat(&text, ", %u more found along epipolar planes", inspection.num_guided);
   return text;
 }
 

@@ -57,8 +57,8 @@ void MeasureInliers(const PairSide& a, const PairSide& b, PairInspection& inspec
     residuals_px.push_back(
         a.features.camera.PixelsFromAngle(InlierResidual_rad(geometry, ray_a, ray_b)));
     in_b.push_back(ray_b);
-    inspection.num_guided +=
-        std::binary_search(inspection.putative.begin(), inspection.putative.end(), match) ? 0 : 1;
+    if (std::ranges::binary_search(inspection.putative, match)) continue;
+    ++(match.a >= a.num_plain ? inspection.num_on_facades : inspection.num_guided);
   }
   inspection.residual_px_median = UpperMedian(std::move(residuals_px));
   inspection.spread_in_b = SphereSpread(in_b);

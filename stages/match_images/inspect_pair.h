@@ -26,8 +26,10 @@ struct PairInspection {
   PairVerdict verdict = PairVerdict::kNothing;
   std::vector<FeatureMatch> putative{};  ///< by descriptors, or given; sorted
   TwoViewGeometry geometry{};
-  /// Inliers that are not among the putative matches: won by matching again under the geometry.
-  uint32_t num_guided = 0;
+  /// Inliers that are not among the putative matches: matches of walls in their true shape
+  /// (MatchFacades) ...
+  uint32_t num_on_facades = 0;
+  uint32_t num_guided = 0;          ///< ... and those won by matching again under the geometry
   double residual_px_median = 0.0;  ///< SymmetricEpipolarAngle of the inliers, at a's equator
   double spread_in_b = 0.0;         ///< as geometry.spread, in b
 

@@ -80,6 +80,24 @@ TEST(InspectPair, WhatTheJobVerifiedIsNotEstimatedAgain) {
   EXPECT_EQ(inspection.Outliers().size(), 98U);
 }
 
+TEST(InspectPair, MatchesOfWallsInTheirTrueShapeAreCountedForThemselves) {
+  const testing::TwoViewWorld world = testing::MakeTwoViewWorld(4, 100, 0.0, kSigmaRad);
+  Features a = FeaturesOf(world.bearings_a);
+  Features b = FeaturesOf(world.bearings_b);
+  a.view.assign(a.size(), 0);
+  b.view.assign(b.size(), 0);
+  for (size_t i = 80; i < a.size(); ++i) a.view[i] = b.view[i] = 1;
+  const TwoViewGeometry verified{.pair = kPair,
+                                 .kind = TwoViewKind::kGeneral,
+                                 .b_from_a = world.b_from_a,
+                                 .inliers = {{5, 5}, {7, 8}, {85, 85}, {90, 90}}};
+  const auto inspection =
+      InspectPair(kPair, PairSide(a), PairSide(b), {{5, 5}, {6, 6}}, verified, {}, {}, {});
+  ASSERT_TRUE(inspection.ok()) << inspection.status();
+  EXPECT_EQ(inspection->num_guided, 1U);
+  EXPECT_EQ(inspection->num_on_facades, 2U);
+}
+
 ImageManifest TwoImages() {
   ImageManifest manifest;
   for (uint32_t i = 0; i < 50; ++i) manifest.images.push_back({.id = ImageId{i}});
