@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/quantile.h"
 #include "core/scene/usual_step.h"
@@ -47,6 +48,16 @@ double FactorOfSteps(std::span<const GnssStep> steps, std::span<const SeenRatio>
   }
   if (errors.size() < kFewestRatios) return 1.0;
   return std::max(kSmallestFactor, UpperMedian(errors) / kMedianOfNormal);
+}
+
+double FactorOfErrors(std::vector<double> errors) {
+  constexpr size_t kFew = 8;
+  constexpr double kFactorOfFew = 2.0;
+  constexpr double kShare = 0.25;
+  constexpr double kQuantileOfNormal = 0.3186;
+  const bool are_few = errors.size() < kFew;
+  const double measured = Quantile(std::move(errors), kShare) / kQuantileOfNormal;
+  return are_few ? std::max(measured, kFactorOfFew) : measured;
 }
 
 }  // namespace orbweave

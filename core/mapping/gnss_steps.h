@@ -41,4 +41,9 @@ struct SeenRatio {
 [[nodiscard]] double FactorOfSteps(std::span<const GnssStep> steps,
                                    std::span<const SeenRatio> ratios);
 
+/// How many times their stated sigma errors are off, by the best quarter of them: `errors` in
+/// sigmas, of which 0.3186 is the quarter of a normal one's. At least two where they are fewer than
+/// eight, which do not tell what steps are worth.
+[[nodiscard]] double FactorOfErrors(std::vector<double> errors);
+
 }  // namespace orbweave

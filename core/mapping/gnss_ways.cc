@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "core/base/quantile.h"
 #include "core/base/shortest_half.h"
 #include "core/mapping/gnss_steps.h"
 #include "core/mapping/registered_sequence.h"
@@ -21,11 +20,6 @@ constexpr size_t kLongestWay = 2;
 constexpr size_t kWaysAbout = kLongestWay * 15;
 constexpr double kUnitShare = 0.05;
 constexpr double kMaxSquare = 25.0;
-/// Fewer ways do not tell what steps are worth.
-constexpr size_t kFewWays = 8;
-constexpr double kFactorOfFew = 2.0;
-constexpr double kShare = 0.25;
-constexpr double kQuantileOfNormal = 0.3186;  // a quarter of normal errors are smaller
 
 /// Lengths in metres at first.
 std::vector<GnssWay> WaysInMetres(const MappingState& state, const RegisteredSequence& places) {
@@ -65,9 +59,7 @@ double FactorOf(const MappingState& state, std::span<const GnssWay> ways, bool w
   for (const GnssWay& way : ways) {
     if (IsWithinDrive(state, way) == within_drives) errors.push_back(std::abs(way.Misfit(state)));
   }
-  const bool are_few = errors.size() < kFewWays;
-  const double measured = Quantile(std::move(errors), kShare) / kQuantileOfNormal;
-  return are_few ? std::max(measured, kFactorOfFew) : measured;
+  return FactorOfErrors(std::move(errors));
 }
 
 double SquareOf(const GnssWay& way, const MappingState& state) {

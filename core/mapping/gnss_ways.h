@@ -25,9 +25,9 @@ struct GnssWay {
 /// What GNSS says of the ways along the lines of a model (FindStreetLines), and how far it is to be
 /// believed. Metres of a unit of the model: of the ways about, fifteen places on either side, where
 /// half of them agree best on |G_b - G_a| / |C_b - C_a|, with positions G and centres C. Stated
-/// sigmas of steps are multiplied with what those errors say of which a quarter of a normal one's
-/// are smaller (as StepWitness), within drives and between them each for themselves; and no way is
-/// known better than to a twentieth. All as the model was when this was made.
+/// sigmas of steps are multiplied with what their errors say (FactorOfErrors), within drives and
+/// between them each for themselves; and no way is known better than to a twentieth. All as the
+/// model was when this was made.
 class GnssWays {
  public:
   /// `tolerance_px`: of lines (FindStreetLines).

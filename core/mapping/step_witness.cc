@@ -17,9 +17,6 @@ namespace {
 constexpr size_t kMaxImages = 30;
 constexpr size_t kMaxSteps = 5;
 constexpr size_t kFewestSteps = 2;
-/// Fewer pairs do not tell what steps are worth.
-constexpr size_t kFewPairs = 8;
-constexpr double kFactorOfFew = 2.0;
 /// The unit of the model is known to a twentieth at best, from so few steps.
 constexpr double kUnitShare = 0.05;
 
@@ -88,16 +85,12 @@ double MetresPerUnit(const std::vector<StepSample>& samples) {
 double FactorOf(const std::vector<StepSample>& samples,
                 bool is_within_drive,
                 double metres_per_unit) {
-  constexpr double kShare = 0.25;
-  constexpr double kQuantileOfNormal = 0.3186;  // a quarter of normal errors are smaller
   std::vector<double> errors;
   for (const StepSample& sample : samples) {
     if (sample.is_within_drive != is_within_drive) continue;
     errors.push_back(std::abs(metres_per_unit * sample.length - sample.length_m) / sample.sigma_m);
   }
-  const bool are_few = errors.size() < kFewPairs;
-  const double measured = Quantile(std::move(errors), kShare) / kQuantileOfNormal;
-  return are_few ? std::max(measured, kFactorOfFew) : measured;
+  return FactorOfErrors(std::move(errors));
 }
 
 }  // namespace

@@ -60,5 +60,20 @@ TEST(FactorOfSteps, BelievesWhatIsStatedWhereLittleIsSeen) {
   EXPECT_EQ(FactorWith(5.0, 0.5, 15), 1.0);
 }
 
+TEST(FactorOfErrors, IsThatOfTheBestQuarter) {
+  Random random(7);
+  std::vector<double> errors;
+  for (int i = 0; i < 4000; ++i) errors.push_back(std::abs(3.0 * random.Normal()));
+  EXPECT_NEAR(FactorOfErrors(errors), 3.0, 0.2);
+  for (size_t i = 0; i < errors.size() / 10; ++i) errors[i] += 100.0;
+  EXPECT_NEAR(FactorOfErrors(errors), 3.0, 0.5) << "a tenth is wrong";
+}
+
+TEST(FactorOfErrors, OfFewIsNoReasonToTrustThem) {
+  EXPECT_EQ(FactorOfErrors({0.1, 0.1, 0.1}), 2.0);
+  EXPECT_EQ(FactorOfErrors({}), 2.0);
+  EXPECT_GT(FactorOfErrors({9.0, 9.0, 9.0}), 20.0);
+}
+
 }  // namespace
 }  // namespace orbweave
