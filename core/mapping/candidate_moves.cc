@@ -33,8 +33,6 @@ struct ToldGap {
   GapShift behind{};
 };
 
-bool IsClear(const GapShift& shift) { return IsToldElsewhere(shift.here, shift.elsewhere); }
-
 std::vector<ToldGap> FindToldGaps(const AskedRays& asked) {
   std::vector<ToldGap> told;
   for (const GapVotes& votes : CollectGapVotes(asked)) {
@@ -42,7 +40,7 @@ std::vector<ToldGap> FindToldGaps(const AskedRays& asked) {
                       votes.next,
                       FindGapShift(asked, votes, votes.before),
                       FindGapShift(asked, votes, votes.behind)};
-    if (IsClear(gap.before) || IsClear(gap.behind)) told.push_back(gap);
+    if (gap.before.IsClear() || gap.behind.IsClear()) told.push_back(gap);
   }
   return told;
 }
@@ -57,7 +55,7 @@ class ShiftLister {
     for (size_t i = 0; i < gaps.size(); ++i) {
       const ToldGap* const following = i + 1 < gaps.size() ? &gaps[i + 1] : nullptr;
       for (const GapShift* shift : {&gaps[i].before, &gaps[i].behind}) {
-        if (IsClear(*shift)) AddShifts(gaps[i], shift->shift, following);
+        if (shift->IsClear()) AddShifts(gaps[i], shift->shift, following);
       }
       AddScale(gaps[i]);
     }
@@ -81,9 +79,7 @@ class ShiftLister {
   }
 
   void Add(const std::vector<ImageSlot>& images, const Vector3d& by) {
-    CandidateMove move;
-    for (const ImageSlot image : images) move[image] = At(image, state_.Centre(image) + by);
-    moves_.push_back(std::move(move));
+    moves_.push_back(Shifted(state_, images, by));
   }
 
   [[nodiscard]] Rigid3 At(ImageSlot image, const Vector3d& centre) const {

@@ -122,6 +122,8 @@ class Crossings {
 
 }  // namespace
 
+bool GapShift::IsClear() const { return IsToldElsewhere(here, elsewhere); }
+
 GapShift FindGapShift(const AskedRays& asked,
                       const GapVotes& gap,
                       std::span<const LengthVote> votes) {

@@ -14,6 +14,9 @@ struct GapShift {
   double shift = 0.0;      ///< along the way, in the model's unit; 0: nowhere else
   double here = 0.0;       ///< votes with the model as it is, 50 of each pair at most
   double elsewhere = 0.0;  ///< votes with the shift, as many as here where there is none
+
+  /// Whether clearly more votes want it (IsToldElsewhere).
+  [[nodiscard]] bool IsClear() const;
 };
 
 /// The shift with which most votes agree closely (ToldLengths::CountAgreeing), of those that pairs

@@ -91,6 +91,14 @@ GnssWays::GnssWays(const MappingState& state, double tolerance_px) {
     const double factor = IsWithinDrive(state, way) ? within : between;
     way.sigma = std::hypot(factor * way.sigma, kUnitShare * way.length);
   }
+  for (size_t i = 0; i < ways_.size(); ++i) {
+    if (ways_[i].leads_to_next) place_of_way_[{ways_[i].image, ways_[i].next}] = i;
+  }
+}
+
+const GnssWay* GnssWays::WayToNext(ImageSlot image, ImageSlot next) const {
+  const auto place = place_of_way_.find({image, next});
+  return place == place_of_way_.end() ? nullptr : &ways_[place->second];
 }
 
 double GnssWays::Misfit(const MappingState& state) const {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/mapping/mapping_state.h"
@@ -35,6 +37,8 @@ class GnssWays {
 
   /// Along the lines.
   [[nodiscard]] const std::vector<GnssWay>& Ways() const { return ways_; }
+  /// The way from an image to the next; null where GNSS says nothing of it.
+  [[nodiscard]] const GnssWay* WayToNext(ImageSlot image, ImageSlot next) const;
   /// Sum of all squared misfits, 25 of each at most: a position that is off by tens of metres
   /// speaks no louder.
   [[nodiscard]] double Misfit(const MappingState& state) const;
@@ -43,6 +47,7 @@ class GnssWays {
 
  private:
   std::vector<GnssWay> ways_{};
+  std::map<std::pair<ImageSlot, ImageSlot>, size_t> place_of_way_{};  ///< of those to the next
 };
 
 }  // namespace orbweave

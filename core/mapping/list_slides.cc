@@ -4,14 +4,13 @@
 #include "core/mapping/list_slides.h"
 
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 
+#include "core/mapping/ask_gnss_of_ways.h"
 #include "core/mapping/asked_rays.h"
 #include "core/mapping/gap_votes.h"
 #include "core/mapping/line_pieces.h"
-#include "core/mapping/way_witness.h"
 
 namespace orbweave {
 namespace {
@@ -29,15 +28,11 @@ struct OffWay {
 };
 
 std::vector<OffWay> FindOffWays(const AskedRays& asked, const GnssWays& gnss) {
-  std::map<std::pair<ImageSlot, ImageSlot>, const GnssWay*> ways;
-  for (const GnssWay& way : gnss.Ways()) {
-    if (way.leads_to_next) ways[{way.image, way.next}] = &way;
-  }
   std::vector<OffWay> off;
   for (const GapVotes& gap : CollectGapVotes(asked)) {
-    const auto way = ways.find({gap.image, gap.next});
-    if (way == ways.end() || std::abs(way->second->Misfit(asked.state)) < kListedBySigmas) continue;
-    off.push_back({gap.image, gap.next, ShiftsByGnss(asked, gap, *way->second)});
+    const GnssWay* const way = gnss.WayToNext(gap.image, gap.next);
+    if (way == nullptr || std::abs(way->Misfit(asked.state)) < kListedBySigmas) continue;
+    off.push_back({gap.image, gap.next, ShiftsByGnss(asked, gap, *way)});
   }
   return off;
 }
@@ -69,12 +64,7 @@ class SlideLister {
   }
 
   void Add(const std::vector<ImageSlot>& images, const Vector3d& by) {
-    CandidateMove move;
-    for (const ImageSlot image : images) {
-      move[image] =
-          Rigid3::FromCentre(state_.CamFromWorld(image).rotation, state_.Centre(image) + by);
-    }
-    moves_.push_back(std::move(move));
+    moves_.push_back(Shifted(state_, images, by));
   }
 
   const MappingState& state_;

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/mapping/ask_gnss_of_ways.h"
 #include "core/mapping/find_gap_shift.h"
 #include "core/mapping/find_length_faults.h"
 #include "core/mapping/gap_votes.h"
@@ -37,8 +38,7 @@ Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedR
   const GapShift shift = FindGapShift(asked, gap, votes);
   side.here = shift.here;
   side.elsewhere = shift.elsewhere;
-  const bool is_clear = IsToldElsewhere(shift.here, shift.elsewhere);
-  return {side, is_clear ? shift.shift : 0.0};
+  return {side, shift.IsClear() ? shift.shift : 0.0};
 }
 
 /// Whether one side is to be believed less: it tells too little, or agrees more.
@@ -67,7 +67,7 @@ LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
   return matches;
 }
 
-std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const WayWitness* gnss) {
+std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
   std::vector<GapLength> gaps;
   for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
@@ -80,7 +80,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const WayWitnes
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
-    gap.is_borne_out = gnss != nullptr && gnss->BearsOut(votes, wants_another.shift);
+    gap.is_borne_out = gnss != nullptr && IsBorneOut(asked, votes, *gnss, wants_another.shift);
   }
   return gaps;
 }

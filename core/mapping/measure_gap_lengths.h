@@ -6,8 +6,8 @@
 
 #include "core/mapping/asked_rays.h"
 #include "core/mapping/gap_votes.h"
+#include "core/mapping/gnss_ways.h"
 #include "core/mapping/pair_length.h"
-#include "core/mapping/way_witness.h"
 
 namespace orbweave {
 
@@ -21,7 +21,7 @@ namespace orbweave {
 /// Of lines in order, of images along them (RegisteredSequence).
 /// `gnss`: tells which are borne out; none is without.
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked,
-                                                       const WayWitness* gnss = nullptr);
+                                                       const GnssWays* gnss = nullptr);
 
 /// Matches of the pairs that lead across, and those that agree (GapLength::matches).
 [[nodiscard]] LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap);

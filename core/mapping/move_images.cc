@@ -49,6 +49,16 @@ CandidateMove PosesNow(const MappingState& state, const CandidateMove& of) {
   return poses;
 }
 
+CandidateMove Shifted(const MappingState& state,
+                      const std::vector<ImageSlot>& images,
+                      const Eigen::Vector3d& by) {
+  CandidateMove move;
+  for (const ImageSlot image : images) {
+    move[image] = Rigid3::FromCentre(state.CamFromWorld(image).rotation, state.Centre(image) + by);
+  }
+  return move;
+}
+
 void RemakePoints(MappingState& moved, const MappingState& before, const MappingOptions& options) {
   Displacements displacements;
   for (const ImageSlot image : before.Registered())

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
+#include <vector>
 
 #include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
@@ -16,6 +18,11 @@ using CandidateMove = std::map<ImageSlot, Rigid3>;  ///< cam_from_world
 void PutAt(MappingState& state, const CandidateMove& move);
 /// Where the images of a move stand, to put them back.
 [[nodiscard]] CandidateMove PosesNow(const MappingState& state, const CandidateMove& of);
+
+/// These images shifted alike, turned as they are.
+[[nodiscard]] CandidateMove Shifted(const MappingState& state,
+                                    const std::vector<ImageSlot>& images,
+                                    const Eigen::Vector3d& by);
 
 /// After images of `moved` were put elsewhere than they stand in `before`, which has the same ones:
 /// points go along with the images that see them, and those seen by images that were moved

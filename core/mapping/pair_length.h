@@ -41,7 +41,7 @@ struct GapLength {
   /// these are, because pairs that stay on their side share them.
   uint32_t rays = 0;
   uint32_t telling_rays = 0;
-  bool is_borne_out = false;  ///< by GNSS, which refutes what else rays say (WayWitness)
+  bool is_borne_out = false;  ///< by GNSS, which refutes what else rays say (IsBorneOut)
 };
 
 }  // namespace orbweave

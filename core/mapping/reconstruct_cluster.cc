@@ -14,13 +14,14 @@
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/find_small_motions.h"
+#include "core/mapping/gnss_ways.h"
 #include "core/mapping/join_by_bridges.h"
 #include "core/mapping/mapping_schedule.h"
+#include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_gap_lengths.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/split_by_gnss.h"
-#include "core/mapping/way_witness.h"
 #include "core/mapping/weigh_pixels_alike.h"
 
 namespace orbweave {
@@ -138,7 +139,7 @@ void TakeSubmodel(const MappingState& state,
       result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
   const AskedRays asked(state, options);
   std::ranges::copy(MeasurePairLengths(asked), std::back_inserter(result.pair_lengths));
-  const WayWitness gnss(asked);
+  const GnssWays gnss(state, kMatchTolerance * options.max_error_px);
   std::ranges::copy(MeasureGapLengths(asked, &gnss), std::back_inserter(result.gap_lengths));
 }
 

@@ -50,28 +50,35 @@ std::vector<Prospect> ListProspects(MappingState& state,
   return prospects;
 }
 
+/// What speaks for and against the model before a slide.
+struct Standing {
+  double misfit = 0.0;
+  size_t faults = 0;
+  size_t places = 0;
+};
+
 /// Whether GNSS likes a model clearly better with the slide made, and what points hold speaks not
 /// against it: rays contradict it in fewer places, or as many places hold as before; where rays
 /// contradict it in more, only if most of what GNSS minds at its edges is gone.
 bool IsBetter(const MappingState& moved,
               const MappingState& before,
+              const Standing& standing,
               const CandidateMove& slide,
               const GnssWays& gnss,
               const MappingOptions& options) {
   if (moved.Registered().size() < before.Registered().size() ||
-      gnss.Misfit(moved) > gnss.Misfit(before) - kClearlyLess)
+      gnss.Misfit(moved) > standing.misfit - kClearlyLess)
     return false;
   const size_t faults = FindLengthFaults(moved, options).size();
-  const size_t faults_before = FindLengthFaults(before, options).size();
-  if (faults < faults_before) return true;
+  if (faults < standing.faults) return true;
   const bool is_settled =
       2.0 * gnss.MisfitAtEdges(moved, slide) <= gnss.MisfitAtEdges(before, slide);
-  return CountHeldPlaces(moved) >= CountHeldPlaces(before) &&
-         (faults == faults_before || is_settled);
+  return CountHeldPlaces(moved) >= standing.places && (faults == standing.faults || is_settled);
 }
 
 /// The model with a slide made and everything adjusted, if that is better.
 absl::StatusOr<bool> TrySlide(const CandidateMove& slide,
+                              const Standing& standing,
                               const GnssWays& gnss,
                               const MappingOptions& options,
                               const StageContext& context,
@@ -80,7 +87,7 @@ absl::StatusOr<bool> TrySlide(const CandidateMove& slide,
   PutAt(moved, slide);
   RemakePoints(moved, state, options);
   ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(moved, options, context));
-  const bool is_better = IsBetter(moved, state, slide, gnss, options);
+  const bool is_better = IsBetter(moved, state, standing, slide, gnss, options);
   if (is_better) state = std::move(moved);
   return is_better;
 }
@@ -91,11 +98,16 @@ absl::StatusOr<bool> MakeOneSlide(const GnssWays& gnss,
                                   const StageContext& context,
                                   int& tries_left,
                                   MappingState& state) {
-  for (const Prospect& prospect : ListProspects(state, options, gnss)) {
+  const std::vector<Prospect> prospects = ListProspects(state, options, gnss);
+  if (prospects.empty()) return false;
+  const Standing standing{.misfit = gnss.Misfit(state),
+                          .faults = FindLengthFaults(state, options).size(),
+                          .places = CountHeldPlaces(state)};
+  for (const Prospect& prospect : prospects) {
     if (tries_left-- <= 0) break;
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     ORBWEAVE_ASSIGN_OR_RETURN(const bool is_better,
-                              TrySlide(prospect.move, gnss, options, context, state));
+                              TrySlide(prospect.move, standing, gnss, options, context, state));
     if (is_better) return true;
   }
   return false;

@@ -143,11 +143,17 @@ std::vector<PatchSupport> SupportOf(const Subproblem& subproblem,
                                     const std::set<ImageId>& without) {
   Patches patches;
   const auto add = [&](const Track& track) {
-    const Track left = LeftOf(track, without);
-    if (left.observations.size() > 1) TrackTerms(left, subproblem.scene).AddTo(patches);
+    if (track.observations.size() > 1) TrackTerms(track, subproblem.scene).AddTo(patches);
   };
-  for (const Track& track : subproblem.scene.tracks) add(track);
-  for (const SplitTrack& track : subproblem.split) add(track.part);
+  const auto add_left = [&](const Track& track) {
+    if (without.empty()) {
+      add(track);
+    } else {
+      add(LeftOf(track, without));
+    }
+  };
+  for (const Track& track : subproblem.scene.tracks) add_left(track);
+  for (const SplitTrack& track : subproblem.split) add_left(track.part);
   std::vector<PatchSupport> sorted;
   for (auto& [key, support] : patches) sorted.push_back(support);
   return sorted;

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/mapping/find_length_faults.h"
-#include "core/report/model_of_images.h"
+#include "core/report/lengths_within_models.h"
 
 namespace orbweave {
 namespace {
@@ -28,25 +27,6 @@ bool AgreesLess(const GapLength& one, const GapLength& other) {
   const auto faults = [](const GapLength& gap) { return FindLengthFaults({}, {&gap, 1}).size(); };
   if (faults(one) != faults(other)) return faults(one) > faults(other);
   return one.agreement.Share() < other.agreement.Share();
-}
-
-/// Of what lies within one model, each place once: as the cluster has it that it agrees with least.
-template <typename Length>
-std::vector<Length> LeastAgreeing(const JobResults& results,
-                                  std::vector<Length> ClusterSummary::*lengths,
-                                  ImagePair Length::*place) {
-  const std::vector<int> model_of_image = ModelOfImages(results);
-  std::map<ImagePair, Length> least;
-  for (const ClusterSummary& cluster : results.clusters) {
-    for (const Length& length : cluster.*lengths) {
-      if (!AreOfOneModel(model_of_image, length.*place)) continue;
-      const auto [known, is_new] = least.try_emplace(length.*place, length);
-      if (!is_new && AgreesLess(length, known->second)) known->second = length;
-    }
-  }
-  std::vector<Length> sorted;
-  for (const auto& [where, length] : least) sorted.push_back(length);
-  return sorted;
 }
 
 /// Images all of whose ways GNSS bears out.
@@ -115,10 +95,13 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
 CrossCheck CheckLengths(const JobResults& results) {
   CrossCheck check{
       .name = "step_lengths", .value = 1.0, .unit = "share", .bound = CheckBound::kAtLeast};
+  const auto agrees_less = [](const auto& one, const auto& other) {
+    return AgreesLess(one, other);
+  };
   const std::vector<PairLength> lengths =
-      LeastAgreeing(results, &ClusterSummary::pair_lengths, &PairLength::pair);
+      LengthsWithinModels(results, &ClusterSummary::pair_lengths, &PairLength::pair, agrees_less);
   const std::vector<GapLength> gaps =
-      LeastAgreeing(results, &ClusterSummary::gap_lengths, &GapLength::between);
+      LengthsWithinModels(results, &ClusterSummary::gap_lengths, &GapLength::between, agrees_less);
   LengthAgreement all;
   for (const PairLength& length : lengths) all.Add(length.agreement);
   check.value = all.Share();

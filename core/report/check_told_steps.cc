@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "core/report/model_of_images.h"
+#include "core/report/lengths_within_models.h"
 
 namespace orbweave {
 namespace {
@@ -19,19 +18,14 @@ constexpr uint32_t kFewestTelling = 25;
 
 /// Steps within models that are asked, each once.
 std::vector<GapLength> AskedSteps(const JobResults& results) {
-  const std::vector<int> model_of_image = ModelOfImages(results);
-  std::map<ImagePair, GapLength> steps;
-  for (const ClusterSummary& cluster : results.clusters) {
-    for (const GapLength& gap : cluster.gap_lengths) {
-      if (!AreOfOneModel(model_of_image, gap.between)) continue;
-      const auto [known, is_new] = steps.try_emplace(gap.between, gap);
-      if (!is_new && gap.telling_rays > known->second.telling_rays) known->second = gap;
-    }
-  }
-  std::vector<GapLength> asked;
-  for (const auto& [between, gap] : steps) {
-    if (gap.rays >= kFewestAsked) asked.push_back(gap);
-  }
+  std::vector<GapLength> asked =
+      LengthsWithinModels(results,
+                          &ClusterSummary::gap_lengths,
+                          &GapLength::between,
+                          [](const GapLength& one, const GapLength& other) {
+                            return one.telling_rays > other.telling_rays;
+                          });
+  std::erase_if(asked, [](const GapLength& gap) { return gap.rays < kFewestAsked; });
   return asked;
 }
 

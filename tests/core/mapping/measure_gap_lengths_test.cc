@@ -11,6 +11,7 @@
 
 #include "core/geometry/sim3.h"
 #include "core/mapping/find_gap_shift.h"
+#include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_pair_lengths.h"
 #include "tests/core/mapping/torn_street.h"
 
@@ -225,7 +226,7 @@ std::vector<GapLength> GapsWithGnss(double sigma_m, double torn_by_m) {
   }
   const MappingState state = Torn(street, torn_by_m);
   const AskedRays asked(state, {});
-  const WayWitness gnss(asked);
+  const GnssWays gnss(state, 4.0 * kMatchTolerance);
   return MeasureGapLengths(asked, &gnss);
 }
 
@@ -249,7 +250,7 @@ TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
   }
   const MappingState state = street.Right();
   const AskedRays asked(state, {});
-  const WayWitness gnss(asked);
+  const GnssWays gnss(state, 4.0 * kMatchTolerance);
   for (const GapLength& gap : MeasureGapLengths(asked, &gnss)) EXPECT_FALSE(gap.is_borne_out);
 }
 

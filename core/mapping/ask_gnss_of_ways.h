@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "core/mapping/asked_rays.h"
@@ -20,19 +18,12 @@ namespace orbweave {
                                                const GapVotes& gap,
                                                const GnssWay& way);
 
-/// Which ways of a model that rays are asked about have the length that GNSS says.
-class WayWitness {
- public:
-  explicit WayWitness(const AskedRays& asked);
-
-  /// Whether GNSS knows the way to a fifth of its length, has it as it is up to two sigmas, and
-  /// would have it off by more than three if it were longer by `elsewhere`, the shift that clearly
-  /// more rays want, where that is not 0.
-  [[nodiscard]] bool BearsOut(const GapVotes& gap, double elsewhere) const;
-
- private:
-  const AskedRays& asked_;
-  std::map<std::pair<ImageSlot, ImageSlot>, GnssWay> ways_{};
-};
+/// Whether GNSS knows a way to a fifth of its length, has it as it is up to two sigmas, and would
+/// have it off by more than three if it were longer by `elsewhere`, the shift that clearly more
+/// rays want, where that is not 0.
+[[nodiscard]] bool IsBorneOut(const AskedRays& asked,
+                              const GapVotes& gap,
+                              const GnssWays& gnss,
+                              double elsewhere);
 
 }  // namespace orbweave

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/mapping/way_witness.h"
+#include "core/mapping/ask_gnss_of_ways.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/mapping/find_gap_shift.h"
 #include "core/mapping/log_length_of_pair.h"
-#include "core/mapping/matches_in_planes.h"
 
 namespace orbweave {
 namespace {
@@ -35,20 +34,15 @@ std::vector<double> ShiftsByGnss(const AskedRays& asked, const GapVotes& gap, co
   return shifts;
 }
 
-WayWitness::WayWitness(const AskedRays& asked) : asked_(asked) {
-  const GnssWays gnss(asked.state, kMatchTolerance * asked.max_error_px);
-  for (const GnssWay& way : gnss.Ways()) {
-    if (way.leads_to_next) ways_.emplace(std::pair(way.image, way.next), way);
-  }
-}
-
-bool WayWitness::BearsOut(const GapVotes& gap, double elsewhere) const {
-  const auto found = ways_.find({gap.image, gap.next});
-  if (found == ways_.end()) return false;
-  const GnssWay& way = found->second;
-  const double misfit = way.Misfit(asked_.state);
-  const bool is_refuted = std::abs(misfit + elsewhere / way.sigma) > kOffBySigmas;
-  return way.sigma <= kKnownShare * way.length && std::abs(misfit) <= kWithinSigmas &&
+bool IsBorneOut(const AskedRays& asked,
+                const GapVotes& gap,
+                const GnssWays& gnss,
+                double elsewhere) {
+  const GnssWay* const way = gnss.WayToNext(gap.image, gap.next);
+  if (way == nullptr) return false;
+  const double misfit = way->Misfit(asked.state);
+  const bool is_refuted = std::abs(misfit + elsewhere / way->sigma) > kOffBySigmas;
+  return way->sigma <= kKnownShare * way->length && std::abs(misfit) <= kWithinSigmas &&
          (elsewhere == 0.0 || is_refuted);
 }
 
