@@ -35,6 +35,29 @@ WorldTotals TotalsOf(const std::vector<SubproblemInspection>& subproblems) {
   return totals;
 }
 
+/// By what the bearings of images say less of their poses than their number and scatter claim
+/// (SupportVerdict::coherence), of those where they do; and the mean of all.
+struct Coherence {
+  std::map<ImageId, double> of_image{};
+  double mean = 1.0;
+};
+
+Coherence CoherenceOf(const std::vector<SubproblemInspection>& subproblems) {
+  std::map<ImageId, std::vector<PatchSupport>> supports;
+  for (const SubproblemInspection& subproblem : subproblems)
+    AddSupport(subproblem.supports, supports);
+  Coherence coherence;
+  if (supports.empty()) return coherence;
+  double sum = 0.0;
+  for (const auto& [id, patches] : supports) {
+    const double factor = std::max(JudgeSupport(patches).coherence, 1.0);
+    coherence.of_image[id] = factor;
+    sum += factor;
+  }
+  coherence.mean = sum / static_cast<double>(supports.size());
+  return coherence;
+}
+
 SeparatorSystem SumOfBearings(std::vector<SubproblemInspection> subproblems) {
   std::vector<SeparatorSystem> systems;
   for (SubproblemInspection& subproblem : subproblems)
@@ -49,6 +72,26 @@ SeparatorSystem WithoutPoints(SeparatorSystem sum) {
   }
   if (poses.size() == sum.variables.size()) return sum;
   return EliminateSeparators(sum, poses, kUnheldPointDamping);
+}
+
+/// By how much more than those of an average image the errors of an image's own bearings move it,
+/// all other poses as they are: variance S_ii^-1 times the difference of factors. Of images where
+/// that is more.
+std::map<ImageId, Block6> CovariancesBeyondMean(const SeparatorSystem& bearings,
+                                                const Coherence& coherence,
+                                                double bearing_factor) {
+  std::map<ImageId, Block6> beyond;
+  const SymmetricBlockMatrix& S = bearings.normal.S;
+  for (uint32_t j = 0; j < S.num_blocks; ++j) {
+    const auto found = coherence.of_image.find(ImageId(bearings.variables[j].index));
+    if (found == coherence.of_image.end() || found->second <= coherence.mean) continue;
+    const Eigen::LDLT<Block6> block(S.values[S.Find({j, j})].selfadjointView<Eigen::Upper>());
+    if (block.info() != Eigen::Success || !block.isPositive()) continue;
+    const Block6 inverse = block.solve(Block6::Identity());
+    if (inverse.allFinite())
+      beyond[found->first] = bearing_factor * (found->second - coherence.mean) * inverse;
+  }
+  return beyond;
 }
 
 /// A world's poses as variables of one problem.
@@ -146,6 +189,7 @@ AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
                           const ImageManifest& manifest) {
   AssessedWorld assessed;
   const WorldTotals totals = TotalsOf(subproblems);
+  const Coherence coherence = CoherenceOf(subproblems);
   SeparatorSystem sum = SumOfBearings(std::move(subproblems));
   const auto num_split = static_cast<double>(
       std::ranges::count(sum.variables, SeparatorId::Kind::kPoint, &SeparatorId::kind));
@@ -159,11 +203,14 @@ AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
   const double redundancy = totals.redundancy +
                             GaugeFreedoms(problem, totals.farthest.has_value()) - 3.0 * num_split -
                             6.0 * static_cast<double>(bearings.variables.size());
-  const PoseCovariances covariances = poses.Covariances(
-      std::move(bearings),
-      {.bearings = totals.correlation.Inflation() *
-                   BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy),
-       .positions = EstimateGnssVariance(problem, biases_m, manifest).factors});
+  const double bearing_factor = totals.correlation.Inflation() *
+                                BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy);
+  const std::map<ImageId, Block6> beyond_mean =
+      CovariancesBeyondMean(bearings, coherence, bearing_factor);
+  const PoseCovariances covariances =
+      poses.Covariances(std::move(bearings),
+                        {.bearings = coherence.mean * bearing_factor,
+                         .positions = EstimateGnssVariance(problem, biases_m, manifest).factors});
   UncertaintyReport& report = assessed.report;
   report.reason = covariances.reason;
   report.known = covariances.reason.empty();
@@ -175,8 +222,11 @@ AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
   for (size_t pose = 0; pose < problem.image_of_pose.size(); ++pose) {
     const ImageId id = problem.image_of_pose[pose];
     const bool is_known = poses.IsVariable(pose) || id == totals.held;
-    if (is_known && covariances.poses[pose])
-      assessed.uncertainties[id] = FromCovariance(*covariances.poses[pose]);
+    if (!is_known || !covariances.poses[pose]) continue;
+    Block6 covariance = *covariances.poses[pose];
+    if (const auto more = beyond_mean.find(id); more != beyond_mean.end())
+      covariance += more->second;
+    assessed.uncertainties[id] = FromCovariance(covariance);
   }
   return assessed;
 }

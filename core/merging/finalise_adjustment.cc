@@ -112,8 +112,7 @@ std::map<ImageId, SupportVerdict> JudgeSupports(const Supports& supports,
   return verdicts;
 }
 
-/// Takes out what its own observations do not place, until those of all that are left do, and
-/// widens the sigmas of images whose observations know less than their number.
+/// Takes out what its own observations do not place, until those of all that are left do.
 absl::Status TakeOutWeak(const AdjustedWorld& adjusted,
                          SupportsOfSubproblems supports,
                          const ImageManifest& manifest,
@@ -137,13 +136,6 @@ absl::Status TakeOutWeak(const AdjustedWorld& adjusted,
     }
   }
   for (const ImageId id : weak) poses.images.erase(id);
-  for (const auto& [id, verdict] : verdicts) {
-    if (std::optional<PoseUncertainty>& uncertainty = poses.images.at(id).uncertainty) {
-      const double factor = std::max(verdict.coherence, 1.0);
-      uncertainty->position_covariance *= factor;
-      uncertainty->rotation_sigma_rad *= std::sqrt(factor);
-    }
-  }
   return absl::OkStatus();
 }
 

@@ -23,6 +23,7 @@ using ::testing::ElementsAre;
 using testing::GloballyAdjusted;
 using ::testing::HasSubstr;
 using testing::RandomDirection;
+using testing::SpoilSupports;
 using testing::TrueModel;
 
 constexpr double kDegPerRad = 57.29577951308232;
@@ -270,6 +271,30 @@ TEST(AdjustGlobally, GivesUncertaintyInTheFrameOfTheModel) {
                 other.rotation_sigma_rad,
                 1e-3 * other.rotation_sigma_rad);
   }
+}
+
+// What whole patches of panorama 7 say of its pose is five times what their scatter lets expect.
+void SpoilPanorama7(std::vector<PatchSupport>& supports) {
+  for (PatchSupport& patch : supports) {
+    if (patch.image == ImageId(7)) patch.gradient *= 5.0;
+  }
+}
+
+TEST(AdjustGlobally, KnowsTheFrameNoWorseForOneDisturbedPanorama) {
+  Random random(21);
+  const Corridor corridor =
+      CorridorWithGnss({.panoramas = 20, .features_per_panorama = 150}, {0, 0, 0}, 1.0, random);
+  const Reconstruction start = DisturbedModel(TrueModel(corridor), 0.0, SomeFrame(random), random);
+  const auto sigma_of_panorama_7 = [&](GnssUse gnss, const SpoilSupports& spoil) {
+    const auto adjusted = AdjustGlobally(start, corridor.manifest, {.gnss = gnss}, {}, {}, spoil);
+    EXPECT_TRUE(adjusted.ok()) << adjusted.status();
+    return adjusted->reconstruction.images.at(ImageId(7)).uncertainty->PositionSigma();
+  };
+  const double in_model = sigma_of_panorama_7(GnssUse::kOff, {});
+  EXPECT_GT(sigma_of_panorama_7(GnssUse::kOff, SpoilPanorama7), 1.5 * in_model);
+  const double on_earth = sigma_of_panorama_7(GnssUse::kAuto, {});
+  EXPECT_GT(on_earth, 20.0 * in_model);
+  EXPECT_NEAR(sigma_of_panorama_7(GnssUse::kAuto, SpoilPanorama7), on_earth, 0.02 * on_earth);
 }
 
 TEST(AdjustGlobally, AcceptsAnEmptyModel) {
