@@ -20,7 +20,6 @@
 #include "core/estimators/split_by_height.h"
 #include "core/estimators/split_by_motion.h"
 #include "core/estimators/two_view_inliers.h"
-#include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
 
@@ -94,6 +93,7 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
                                              std::span<const Vector3d> bearings_a,
                                              std::span<const Vector3d> bearings_b,
                                              std::span<const FeatureMatch> matches,
+                                             MatchOrder order,
                                              double max_error_rad,
                                              const TwoViewOptions& options,
                                              const StageContext& context) {
@@ -101,7 +101,7 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
   if (matches.size() < static_cast<size_t>(options.min_inliers)) return geometry;
   const BearingPairs pairs = ArrangePairs(bearings_a, bearings_b, matches, context.seed);
   ORBWEAVE_ASSIGN_OR_RETURN(const auto best,
-                            FindRelativePose(pairs, max_error_rad, options, context));
+                            FindRelativePose(pairs, order, max_error_rad, options, context));
   if (!best) return geometry;
   const ResolvedPose candidate =
       RefineToConvergence(pairs, ResolveCheirality(pairs, *best, max_error_rad), max_error_rad);
@@ -148,9 +148,11 @@ struct PairView {
   double max_error_rad = 0.0;
   const TwoViewOptions& options;
   const StageContext& context;
+  MatchOrder order = MatchOrder::kUnknown;  ///< of all matches that are passed
 
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> From(std::span<const FeatureMatch> matches) const {
-    return EstimateFrom(pair, bearings_a, bearings_b, matches, max_error_rad, options, context);
+    return EstimateFrom(
+        pair, bearings_a, bearings_b, matches, order, max_error_rad, options, context);
   }
 
   /// Whether what has moved is the scene, and what has not the carrier: it covers more of the
@@ -318,8 +320,9 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
                                                 std::span<const FeatureMatch> matches,
                                                 double max_error_rad,
                                                 const TwoViewOptions& options,
-                                                const StageContext& context) {
-  const PairView view{pair, bearings_a, bearings_b, max_error_rad, options, context};
+                                                const StageContext& context,
+                                                MatchOrder order) {
+  const PairView view{pair, bearings_a, bearings_b, max_error_rad, options, context, order};
   const auto num_putative = static_cast<uint32_t>(matches.size());
   const MatchesByMotion split = SplitByMotion(bearings_a, bearings_b, matches, max_error_rad);
   if (static_cast<double>(split.fixed.size()) >= kNotedShare * static_cast<double>(num_putative)) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/estimators/match_evidence.h"
 #include "core/estimators/refine_two_view.h"
@@ -57,10 +58,16 @@ class TwoViewEstimator {
   static constexpr size_t kSampleSize = Solver::kSampleSize;
   using Model = Rigid3;
 
-  TwoViewEstimator(const BearingPairs& pairs, double max_error_rad)
-      : pairs_(pairs), max_error_rad_(max_error_rad) {}
+  TwoViewEstimator(const BearingPairs& pairs, MatchOrder order, double max_error_rad)
+      : pairs_(pairs), max_error_rad_(max_error_rad) {
+    if (order == MatchOrder::kUnknown) return;
+    best_first_.resize(pairs.Size());
+    for (uint32_t i = 0; i < pairs.Size(); ++i) best_first_[pairs.order[i]] = i;
+  }
 
   [[nodiscard]] size_t Size() const { return pairs_.Size(); }
+
+  [[nodiscard]] std::span<const uint32_t> BestFirst() const { return best_first_; }
 
   void Generate(std::span<const uint32_t> sample, std::vector<Rigid3>& models) const {
     std::array<Vector3d, kSampleSize> a;
@@ -94,15 +101,17 @@ class TwoViewEstimator {
 
  private:
   const BearingPairs& pairs_;
+  std::vector<uint32_t> best_first_{};
   double max_error_rad_;
 };
 
 template <typename Solver>
 absl::StatusOr<std::optional<Rigid3>> Find(const BearingPairs& pairs,
+                                           MatchOrder order,
                                            double max_error_rad,
                                            const TwoViewOptions& options,
                                            const StageContext& context) {
-  const TwoViewEstimator<Solver> estimator(pairs, max_error_rad);
+  const TwoViewEstimator<Solver> estimator(pairs, order, max_error_rad);
   const double telling_share =
       std::max(options.min_inlier_share,
                SmallestTellingShare(pairs.Size(), max_error_rad, options.max_log10_false_alarms));
@@ -121,18 +130,19 @@ absl::StatusOr<std::optional<Rigid3>> Find(const BearingPairs& pairs,
 }  // namespace
 
 absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
+                                                       MatchOrder order,
                                                        double max_error_rad,
                                                        const TwoViewOptions& options,
                                                        const StageContext& context) {
   switch (options.solver) {
     case TwoViewSolver::kEightPoint:
-      return Find<EightPointSolver>(pairs, max_error_rad, options, context);
+      return Find<EightPointSolver>(pairs, order, max_error_rad, options, context);
     case TwoViewSolver::kUprightThreePoint:
-      return Find<UprightThreePointSolver>(pairs, max_error_rad, options, context);
+      return Find<UprightThreePointSolver>(pairs, order, max_error_rad, options, context);
     case TwoViewSolver::kFivePoint:
       break;
   }
-  return Find<FivePointSolver>(pairs, max_error_rad, options, context);
+  return Find<FivePointSolver>(pairs, order, max_error_rad, options, context);
 }
 
 }  // namespace orbweave

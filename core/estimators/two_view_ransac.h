@@ -11,11 +11,14 @@
 
 namespace orbweave {
 
+enum class MatchOrder { kUnknown, kBestFirst };
+
 /// RANSAC with local optimisation over the minimal solver of `options`: a pose, |T| = 1, of the
 /// essential matrix with the least truncated cost, any of its four (see ResolveCheirality). nullopt
 /// when there are fewer pairs than a sample or no sample has a solution. Cancelled when asked to
-/// stop.
+/// stop. `order`: whether matches that come first are likelier to be right (SampleSource).
 [[nodiscard]] absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
+                                                                     MatchOrder order,
                                                                      double max_error_rad,
                                                                      const TwoViewOptions& options,
                                                                      const StageContext& context);

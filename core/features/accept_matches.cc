@@ -3,6 +3,9 @@
 
 #include "core/features/accept_matches.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace orbweave {
 namespace {
 
@@ -17,6 +20,11 @@ bool IsGood(const NearestTwo& nearest, const AcceptanceLimits& limits) {
           best < limits.max_ratio * limits.max_ratio * nearest.second);
 }
 
+double SquaredRatio(const NearestTwo& nearest) {
+  if (nearest.second == kNoDistance || nearest.second == 0) return 0.0;
+  return static_cast<double>(nearest.best) / nearest.second;
+}
+
 }  // namespace
 
 std::vector<FeatureMatch> AcceptMatches(const NearestTwoBothWays& nearest,
@@ -29,6 +37,28 @@ std::vector<FeatureMatch> AcceptMatches(const NearestTwoBothWays& nearest,
     if (limits.cross_check && (of_b.index != a || !IsGood(of_b, limits))) continue;
     matches.push_back({a, of_a.index});
   }
+  return matches;
+}
+
+std::vector<RatedMatch> RateMatches(std::span<const FeatureMatch> matches,
+                                    const NearestTwoBothWays& nearest) {
+  std::vector<RatedMatch> rated;
+  rated.reserve(matches.size());
+  for (const FeatureMatch& match : matches) {
+    rated.push_back(
+        {match,
+         std::max(SquaredRatio(nearest.of_a[match.a]), SquaredRatio(nearest.of_b[match.b]))});
+  }
+  return rated;
+}
+
+std::vector<FeatureMatch> BestFirst(std::vector<RatedMatch> rated) {
+  std::ranges::sort(rated, [](const RatedMatch& x, const RatedMatch& y) {
+    return std::tie(x.squared_ratio, x.match) < std::tie(y.squared_ratio, y.match);
+  });
+  std::vector<FeatureMatch> matches;
+  matches.reserve(rated.size());
+  for (const RatedMatch& one : rated) matches.push_back(one.match);
   return matches;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/features/nearest_two.h"
@@ -20,5 +21,20 @@ struct AcceptanceLimits {
 /// A neighbour without a second best passes the ratio test.
 [[nodiscard]] std::vector<FeatureMatch> AcceptMatches(const NearestTwoBothWays& nearest,
                                                       const AcceptanceLimits& limits);
+
+/// A match and how far its best descriptor is from being taken for the second best: the larger of
+/// the ratios of both sides, 0 where there is no second. Right matches have smaller ones (Lowe,
+/// IJCV 2004, figure 11).
+struct RatedMatch {
+  FeatureMatch match{};
+  double squared_ratio = 0.0;
+};
+
+/// The same matches with their ratios.
+[[nodiscard]] std::vector<RatedMatch> RateMatches(std::span<const FeatureMatch> matches,
+                                                  const NearestTwoBothWays& nearest);
+
+/// Smallest ratios first, by (a, b) where they are equal.
+[[nodiscard]] std::vector<FeatureMatch> BestFirst(std::vector<RatedMatch> rated);
 
 }  // namespace orbweave

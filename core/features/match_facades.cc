@@ -41,16 +41,18 @@ class TurnedViews {
   }
 
   /// Of the `count` largest features of each view; view after view.
-  [[nodiscard]] std::vector<FeatureMatch> Match(size_t turn, size_t count) const {
-    std::vector<FeatureMatch> matches;
+  [[nodiscard]] std::vector<RatedMatch> Match(size_t turn, size_t count) const {
+    std::vector<RatedMatch> matches;
     for (size_t view = 0; view < kNumFacadeViews; ++view) {
       const size_t other = (view + turn) % kNumFacadeViews;
       const std::span<const uint8_t> of_a = DescriptorsOf(a_, view, count);
       const std::span<const uint8_t> of_b = DescriptorsOf(b_, other, count);
       if (of_a.empty() || of_b.empty()) continue;
-      for (const FeatureMatch& match : AcceptNearest(FindNearestTwo(of_a, of_b), options_)) {
-        matches.push_back({match.a + static_cast<FeatureIndex>(a_.first_of_view[view]),
-                           match.b + static_cast<FeatureIndex>(b_.first_of_view[other])});
+      const NearestTwoBothWays nearest = FindNearestTwo(of_a, of_b);
+      for (RatedMatch rated : RateMatches(AcceptNearest(nearest, options_), nearest)) {
+        rated.match.a += static_cast<FeatureIndex>(a_.first_of_view[view]);
+        rated.match.b += static_cast<FeatureIndex>(b_.first_of_view[other]);
+        matches.push_back(rated);
       }
     }
     return matches;
@@ -86,19 +88,19 @@ class TakenPlaces {
 
 }  // namespace
 
-std::vector<FeatureMatch> MatchFacades(const PairSide& a,
-                                       const PairSide& b,
-                                       double same_rad,
-                                       const MatchOptions& options) {
+std::vector<RatedMatch> MatchFacades(const PairSide& a,
+                                     const PairSide& b,
+                                     double same_rad,
+                                     const MatchOptions& options) {
   if (!a.HasFacades() || !b.HasFacades()) return {};
   const TurnedViews views(a, b, options);
   TakenPlaces taken(same_rad);
-  std::vector<FeatureMatch> matches =
+  std::vector<RatedMatch> matches =
       views.Match(views.BestTurn(), std::numeric_limits<size_t>::max());
-  std::erase_if(matches, [&](const FeatureMatch& match) {
-    return !taken.Take(a.bearings[match.a], b.bearings[match.b]);
+  std::erase_if(matches, [&](const RatedMatch& rated) {
+    return !taken.Take(a.bearings[rated.match.a], b.bearings[rated.match.b]);
   });
-  std::ranges::sort(matches);
+  std::ranges::sort(matches, {}, &RatedMatch::match);
   return matches;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/graph/drop_edges_against_compass.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,8 +24,12 @@ constexpr double kLeastLimit_deg = 20.0;
 constexpr double kMostLimit_deg = 90.0;
 constexpr size_t kFewestEdges = 10;
 constexpr double kMinAgreeing = 0.75;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+constexpr double kAlike_deg = 20.0;
+constexpr size_t kFewestOfImage = 3;
 
-/// By how much an edge turns otherwise than headings say, and how much is too much.
+/// By how much an edge turns otherwise than headings say: as if the heading of its image b were so
+/// much too large. And how much is too much.
 struct Error {
   double error_deg = 0.0;
   bool is_too_large = false;
@@ -39,9 +44,8 @@ std::optional<Error> ErrorOf(const ViewEdge& edge, const ImageManifest& manifest
       std::clamp(kMaxSigmas * std::hypot(a.heading_sigma_deg, b.heading_sigma_deg),
                  kLeastLimit_deg,
                  kMostLimit_deg);
-  const double error_deg =
-      AngleBetweenAzimuths(TurnOf(edge.b_from_a.rotation), stated_rad) / kDegree_rad;
-  return Error{error_deg, error_deg > limit_deg};
+  const double error_rad = std::remainder(TurnOf(edge.b_from_a.rotation) - stated_rad, kTurn_rad);
+  return Error{error_rad / kDegree_rad, std::abs(error_rad) > limit_deg * kDegree_rad};
 }
 
 using Drives = std::pair<uint32_t, uint32_t>;
@@ -60,6 +64,60 @@ struct Count {
   }
 };
 
+/// What the edges of an image with headings say of its own.
+struct HeadingErrors {
+  std::vector<double> too_large_deg{};  ///< of those that disagree, as if it were this image's
+  size_t agreeing = 0;
+  std::vector<ImageId> others{};
+};
+
+using ErrorsOfImages = std::map<ImageId, HeadingErrors>;
+
+ErrorsOfImages ErrorsByImage(const std::vector<ViewEdge>& edges,
+                             const std::vector<std::optional<Error>>& errors) {
+  ErrorsOfImages of_images;
+  for (size_t e = 0; e < edges.size(); ++e) {
+    if (!errors[e]) continue;
+    const auto [a, b] = std::pair(edges[e].pair.a, edges[e].pair.b);
+    of_images[a].others.push_back(b);
+    of_images[b].others.push_back(a);
+    if (errors[e]->is_too_large) {
+      of_images[a].too_large_deg.push_back(-errors[e]->error_deg);
+      of_images[b].too_large_deg.push_back(errors[e]->error_deg);
+    } else {
+      ++of_images[a].agreeing;
+      ++of_images[b].agreeing;
+    }
+  }
+  return of_images;
+}
+
+double AngleBetween_deg(double a_deg, double b_deg) {
+  return AngleBetweenAzimuths(a_deg * kDegree_rad, b_deg * kDegree_rad) / kDegree_rad;
+}
+
+/// Of azimuths that are about the same.
+double MeanAzimuth_deg(const std::vector<double>& azimuths_deg) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const double azimuth_deg : azimuths_deg)
+    sum += Eigen::Rotation2Dd(azimuth_deg * kDegree_rad) * Eigen::Vector2d::UnitX();
+  return std::atan2(sum.y(), sum.x()) / kDegree_rad;
+}
+
+/// Whether the heading of an image is wrong rather than all its edges.
+bool IsHeadingWrong(const HeadingErrors& image, const ErrorsOfImages& of_images) {
+  const std::vector<double>& errors = image.too_large_deg;
+  if (image.agreeing > 0 || errors.size() < kFewestOfImage) return false;
+  const double mean_deg = MeanAzimuth_deg(errors);
+  const double from_quarter_turn_deg = AngleBetween_deg(4.0 * mean_deg, 0.0) / 4.0;
+  const bool are_alike = std::ranges::all_of(errors, [&](double error_deg) {
+    return AngleBetween_deg(error_deg, mean_deg) <= kAlike_deg;
+  });
+  const bool lead_to_right_ones = std::ranges::all_of(
+      image.others, [&](ImageId other) { return of_images.at(other).agreeing > 0; });
+  return are_alike && lead_to_right_ones && from_quarter_turn_deg > kAlike_deg;
+}
+
 }  // namespace
 
 SiftedEdges DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
@@ -73,11 +131,14 @@ SiftedEdges DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
     ++count.edges;
     count.agreeing += errors.back()->is_too_large ? 0U : 1U;
   }
+  const ErrorsOfImages of_images = ErrorsByImage(edges, errors);
   return SiftEdges(edges, DropCause::kGnss, [&](uint32_t e) -> std::string {
     const std::optional<Error>& error = errors[e];
-    if (!error || !error->is_too_large || !counts[DrivesOf(edges[e], manifest)].IsBelieved())
+    if (!error || !error->is_too_large || !counts[DrivesOf(edges[e], manifest)].IsBelieved() ||
+        IsHeadingWrong(of_images.at(edges[e].pair.a), of_images) ||
+        IsHeadingWrong(of_images.at(edges[e].pair.b), of_images))
       return "";
-    return "it turns by " + std::to_string(std::lround(error->error_deg)) +
+    return "it turns by " + std::to_string(std::lround(std::abs(error->error_deg))) +
            " degrees otherwise than the headings of its images";
   });
 }

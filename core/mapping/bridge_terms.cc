@@ -134,7 +134,7 @@ BridgeTerms TermsOf(const MappingState& a,
                     const Vector3d& origin_in_b,
                     std::span<const ImageSlot> fixed,
                     const std::optional<Sim3>& enu_from_a,
-                    double max_error_px) {
+                    std::optional<double> max_error_px) {
   BridgeTerms terms{.b_is_one_camera = b.Registered().size() == 1};
   for (const BridgePair& bridge : pairs) {
     terms.turns.push_back({bridge.a_from_b, kTurnSigmaRad});
@@ -143,7 +143,7 @@ BridgeTerms TermsOf(const MappingState& a,
                             .point_in_other = b.Centre(bridge.in_b) - origin_in_b,
                             .bearing = bridge.direction_in_cam_a,
                             .sigma_rad = kDirectionSigmaRad});
-    AddSights(a, b, bridge, origin_in_b, max_error_px, terms);
+    if (max_error_px) AddSights(a, b, bridge, origin_in_b, *max_error_px, terms);
   }
   if (!enu_from_a) return terms;
   terms.enu_from_a = *enu_from_a;

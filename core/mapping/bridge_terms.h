@@ -38,14 +38,14 @@ struct BridgePair {
 
 /// What those pairs, the scene points that their matches show, and the GNSS positions of the images
 /// `fixed` of b say (BridgeTerms), with the origin of b moved to `origin_in_b`. `enu_from_a`
-/// nullopt: no GNSS.
+/// nullopt: no GNSS. `max_error_px` nullopt: without the points.
 [[nodiscard]] BridgeTerms TermsOf(const MappingState& a,
                                   const MappingState& b,
                                   const std::vector<BridgePair>& pairs,
                                   const Eigen::Vector3d& origin_in_b,
                                   std::span<const ImageSlot> fixed,
                                   const std::optional<Sim3>& enu_from_a,
-                                  double max_error_px);
+                                  std::optional<double> max_error_px);
 
 /// Lengths of a pair's baseline in the units of either submodel: the median over the points of
 /// that submodel which the other camera sees, each the length at which its ray comes nearest to

@@ -3,12 +3,15 @@
 
 #include "core/mapping/compare_models.h"
 
+#include <algorithm>
 #include <bitset>
 #include <vector>
 
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/borne_out_images.h"
 #include "core/mapping/check_against_pairs.h"
+#include "core/mapping/gnss_ways.h"
+#include "core/mapping/matches_in_planes.h"
 #include "core/mapping/measure_pair_lengths.h"
 
 namespace orbweave {
@@ -17,6 +20,10 @@ namespace {
 constexpr double kAtOne = 0.97;
 constexpr size_t kManyObservations = 4;
 constexpr double kClearly = 1.5;
+constexpr double kMoreBorneOut = 1.25;
+constexpr double kClearMisfit = 30.0;
+constexpr double kSameImages = 0.95;
+constexpr double kHardlyLess = 0.8;
 
 }  // namespace
 
@@ -55,6 +62,24 @@ bool SpeaksMoreFor(const MappingState& one,
   return EvidenceFor(one, options) > EvidenceFor(other, options);
 }
 
+bool IsLikedByGnss(const MappingState& one,
+                   const MappingState& other,
+                   const MappingOptions& options) {
+  const auto size = static_cast<double>(one.Registered().size());
+  const auto size_of_other = static_cast<double>(other.Registered().size());
+  if (std::min(size, size_of_other) < kSameImages * std::max(size, size_of_other)) return false;
+  const double worth = BorneOutImages(one);
+  const double worth_of_other = BorneOutImages(other);
+  if (worth > kMoreBorneOut * worth_of_other) return true;
+  if (kMoreBorneOut * worth < worth_of_other) return false;
+  const double tolerance_px = kMatchTolerance * options.max_error_px;
+  const GnssWays ways(one, tolerance_px);
+  const GnssWays ways_of_other(other, tolerance_px);
+  return ways.MisfitBeside(ways_of_other, one) + kClearMisfit <=
+             ways_of_other.MisfitBeside(ways, other) &&
+         EvidenceFor(one, options) >= kHardlyLess * EvidenceFor(other, options);
+}
+
 bool IsBetterModel(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
@@ -62,6 +87,8 @@ bool IsBetterModel(const MappingState& one,
   const double worth_of_other = BorneOutImages(other);
   if (worth > kClearly * worth_of_other) return true;
   if (kClearly * worth < worth_of_other) return false;
+  if (IsLikedByGnss(one, other, options)) return true;
+  if (IsLikedByGnss(other, one, options)) return false;
   return SpeaksMoreFor(one, other, options);
 }
 

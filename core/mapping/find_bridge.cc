@@ -25,6 +25,7 @@ constexpr double kMaxPlaceSigma = 0.5;  ///< share of the shortest baseline
 constexpr double kMinAgreeingSights = 0.5;
 constexpr double kMinAgreeingFixes = 0.7;
 constexpr double kMaxSigmas = 3.0;
+constexpr double kEndsShare = 0.5;
 constexpr size_t kPairsWithoutGnss = 3;
 constexpr size_t kImagesWithoutGnss = 2;
 
@@ -56,15 +57,12 @@ class Bridging {
   /// Whether GNSS places a near the pairs, and says of b where it is.
   [[nodiscard]] bool HasGnss() const { return !terms_.fixes.empty(); }
 
-  std::optional<Sim3> Find() {
+  [[nodiscard]] std::optional<Sim3> Find() const {
     if (!HasMatchesEnough()) return std::nullopt;
-    std::optional<FittedBridge> best;
-    for (const Sim3& start : Starts()) {
-      const FittedBridge fitted = FitBridge(terms_, start);
-      if (!best || fitted.cost < best->cost) best = fitted;
-    }
-    if (!best || !IsDetermined(*best) || !IsSupported(best->a_from_b)) return std::nullopt;
-    return best->a_from_b * Sim3{.translation = -origin_in_b_};
+    std::optional<Sim3> a_from_b = FindByPoints();
+    if (!a_from_b) a_from_b = FindByBothEnds();
+    if (!a_from_b) return std::nullopt;
+    return *a_from_b * Sim3{.translation = -origin_in_b_};
   }
 
  private:
@@ -81,6 +79,46 @@ class Bridging {
     return std::max(
         2 * static_cast<size_t>(options_.min_inliers),
         static_cast<size_t>(kMinAgreeingMatches * static_cast<double>(CountMatches(all_))));
+  }
+
+  /// The best fit of all starts, where it is determined and supported.
+  [[nodiscard]] std::optional<Sim3> FindByPoints() const {
+    std::optional<FittedBridge> best;
+    for (const Sim3& start : Starts()) {
+      const FittedBridge fitted = FitBridge(terms_, start);
+      if (!best || fitted.cost < best->cost) best = fitted;
+    }
+    if (!best || !IsDetermined(*best) || !IsSupported(best->a_from_b)) return std::nullopt;
+    return best->a_from_b;
+  }
+
+  /// As directions of the pairs and GNSS have it, whatever points say: of all starts the one from
+  /// which pairs with most matches come to agree.
+  [[nodiscard]] std::optional<Sim3> FindByBothEnds() const {
+    if (!HasGnss()) return std::nullopt;
+    const BridgeTerms terms =
+        TermsOf(a_, b_, pairs_, origin_in_b_, near_in_b_, enu_from_a_, std::nullopt);
+    std::optional<Sim3> found;
+    size_t most = NeededMatches() - 1;
+    for (const Sim3& start : Starts()) {
+      const FittedBridge fitted = FitBridge(terms, start);
+      const std::vector<BridgePair> agreeing = Agreeing(fitted.a_from_b);
+      const size_t matches = CountMatches(agreeing);
+      if (matches <= most || !IsDetermined(fitted) ||
+          !AreAtBothEnds(agreeing, fitted.a_from_b.scale) || !FixesAgree(fitted.a_from_b))
+        continue;
+      found = fitted.a_from_b;
+      most = matches;
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::vector<BridgePair> Agreeing(const Sim3& a_from_b) const {
+    std::vector<BridgePair> agreeing;
+    for (const BridgePair& pair : all_) {
+      if (Agrees(pair, a_from_b)) agreeing.push_back(pair);
+    }
+    return agreeing;
   }
 
   /// From where GNSS puts both, and from each pair's own lengths.
@@ -155,10 +193,7 @@ class Bridging {
   }
 
   [[nodiscard]] bool IsSupported(const Sim3& a_from_b) const {
-    std::vector<BridgePair> agreeing;
-    for (const BridgePair& pair : all_) {
-      if (Agrees(pair, a_from_b)) agreeing.push_back(pair);
-    }
+    const std::vector<BridgePair> agreeing = Agreeing(a_from_b);
     if (CountMatches(agreeing) < NeededMatches()) return false;
     if (!SightsAgree(a_from_b)) return false;
     if (!terms_.fixes.empty()) return FixesAgree(a_from_b);
@@ -170,6 +205,33 @@ class Bridging {
     }
     return agreeing.size() >= kPairsWithoutGnss && in_a.size() >= kImagesWithoutGnss &&
            in_b.size() >= kImagesWithoutGnss;
+  }
+
+  /// Whether two of the pairs have their images in b half of its length or more apart, and those in
+  /// a as far.
+  [[nodiscard]] bool AreAtBothEnds(const std::vector<BridgePair>& agreeing,
+                                   double a_from_b_scale) const {
+    const double apart_in_b = kEndsShare * LengthOfB();
+    const double apart_in_a = apart_in_b * a_from_b_scale;
+    for (const BridgePair& one : agreeing) {
+      for (const BridgePair& other : agreeing) {
+        if (one.direction_in_cam_a.isZero() || other.direction_in_cam_a.isZero()) continue;
+        const double in_b = (b_.Centre(one.in_b) - b_.Centre(other.in_b)).norm();
+        const double in_a = (a_.Centre(one.in_a) - a_.Centre(other.in_a)).norm();
+        if (in_b > 0.0 && in_b >= apart_in_b && in_a >= apart_in_a) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The largest distance between two images.
+  [[nodiscard]] double LengthOfB() const {
+    double longest = 0.0;
+    for (const ImageSlot one : b_.Registered()) {
+      for (const ImageSlot other : b_.Registered())
+        longest = std::max(longest, (b_.Centre(one) - b_.Centre(other)).norm());
+    }
+    return longest;
   }
 
   /// Of the points that the pairs say the other side sees.

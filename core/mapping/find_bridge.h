@@ -19,6 +19,11 @@ namespace orbweave {
 /// nullopt unless all of this holds:
 ///   - pairs with half of the matches agree in rotation and in direction, with 2 min_inliers
 ///     matches at least;
+///   - half of the points agree that those pairs say the other sees; or, whatever points say, two
+///     pairs hold b at both of its ends, where GNSS places a: a side of a block whose corners are
+///     seen from around them has hardly a point in common with either street, and where houses
+///     repeat most that it seems to have are wrong, but a house that looks like another does so at
+///     one end;
 ///   - the scale of b is known to a fifth (for one camera: its place to half of the shortest
 ///     baseline);
 ///   - near the pairs (ImagesNear) seven tenths of b's GNSS positions lie within three sigmas of

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/random.h"
 #include "core/base/stage_context.h"
 #include "core/robust/early_rejection.h"
 #include "core/robust/sampling.h"
@@ -44,7 +43,8 @@ struct RansacReport {
 ///   Generate(sample, models)  appends the models through a minimal sample of data indices
 ///   Score(model, gate)        its score, nullopt once `gate` has ruled it out
 ///   Refine(model)             a better model from the inliers of `model` (local optimisation)
-/// Data are in random order (see ShuffledOrder), so that `gate` sees a fair sample first.
+/// Data are in random order (see ShuffledOrder), so that `gate` sees a fair sample first. Where it
+/// is known which are likelier to be inliers, BestFirst() has their numbers in that order.
 template <typename E>
 concept RansacEstimator = requires(const E& estimator,
                                    const typename E::Model& model,
@@ -57,6 +57,15 @@ concept RansacEstimator = requires(const E& estimator,
   { estimator.Score(model, gate) } -> std::same_as<std::optional<RansacScore>>;
   { estimator.Refine(model) } -> std::same_as<typename E::Model>;
 };
+
+template <RansacEstimator E>
+[[nodiscard]] std::span<const uint32_t> BestFirstOf(const E& estimator) {
+  if constexpr (requires { estimator.BestFirst(); }) {
+    return estimator.BestFirst();
+  } else {
+    return {};
+  }
+}
 
 template <typename Model>
 struct RansacResult {
@@ -76,7 +85,7 @@ absl::StatusOr<RansacResult<typename E::Model>> Ransac(const E& estimator,
   RansacResult<typename E::Model> best;
   const size_t size = estimator.Size();
   if (size < E::kSampleSize) return best;
-  Random random(context.seed);
+  SampleSource samples(context.seed, static_cast<uint32_t>(size), BestFirstOf(estimator));
   EarlyRejection gate(size, options.min_inlier_share);
   std::array<uint32_t, E::kSampleSize> sample{};
   std::vector<typename E::Model> models;
@@ -92,7 +101,7 @@ absl::StatusOr<RansacResult<typename E::Model>> Ransac(const E& estimator,
   int trials = options.max_trials;
   for (; best.report.num_trials < trials; ++best.report.num_trials) {
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
-    DrawSample(random, static_cast<uint32_t>(size), sample);
+    samples.Draw(sample);
     models.clear();
     estimator.Generate(sample, models);
     bool improved = false;

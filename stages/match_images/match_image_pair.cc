@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/estimators/bearing_pairs.h"
 #include "core/estimators/estimate_two_view.h"
@@ -13,6 +15,7 @@
 #include "core/estimators/grow_two_view.h"
 #include "core/estimators/match_evidence.h"
 #include "core/estimators/two_view_inliers.h"
+#include "core/features/accept_matches.h"
 #include "core/features/growing_nearest.h"
 #include "core/features/match_against_decoys.h"
 #include "core/features/match_descriptors.h"
@@ -79,13 +82,20 @@ struct PairMatcher {
   const MatchOptions& match_options;
   const TwoViewOptions& two_view_options;
   const StageContext& context;
-  std::vector<FeatureMatch> of_facades{};  ///< beside those of the panoramas themselves
+  std::vector<RatedMatch> of_facades{};  ///< beside those of the panoramas themselves
 
   [[nodiscard]] double MaxError() const { return MaxErrorRad(a, b, two_view_options.max_error_px); }
 
-  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Verify(const std::vector<FeatureMatch>& matches,
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Verify(const std::vector<FeatureMatch>& best_first,
                                                        const TwoViewOptions& options) const {
-    return EstimateTwoView(pair, a.bearings, b.bearings, matches, MaxError(), options, context);
+    return EstimateTwoView(pair,
+                           a.bearings,
+                           b.bearings,
+                           best_first,
+                           MaxError(),
+                           options,
+                           context,
+                           MatchOrder::kBestFirst);
   }
 
   /// The geometry that the largest features show beyond doubt, by themselves or by what it predicts
@@ -100,7 +110,7 @@ struct PairMatcher {
     for (double count = match_options.largest_first;; count *= kGrowth) {
       nearest.GrowTo(static_cast<size_t>(count));
       if (nearest.HasAll()) return nothing;
-      const std::vector<FeatureMatch> matches = AcceptNearest(nearest.Nearest(), match_options);
+      const std::vector<FeatureMatch> matches = BestFirst(Rated(nearest.Nearest()));
       ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, Verify(matches, likely));
       geometry.rung = MatchRung::kLargest;
       // More may show what is off a plane, that the camera moved, or which direction is right.
@@ -148,10 +158,14 @@ struct PairMatcher {
                .log10_false_alarms <= kRival;
   }
 
+  [[nodiscard]] std::vector<RatedMatch> Rated(const NearestTwoBothWays& nearest) const {
+    return RateMatches(AcceptNearest(nearest, match_options), nearest);
+  }
+
   /// The geometry of the matches with the most evidence, however little, of those rungs that need
   /// be climbed.
-  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Climb(
-      const std::vector<FeatureMatch>& matches) const {
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> Climb(std::vector<RatedMatch> rated) const {
+    const std::vector<FeatureMatch> matches = BestFirst(std::move(rated));
     TwoViewOptions any = two_view_options;
     any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kWorthALook);
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry best, Verify(matches, any));
@@ -167,7 +181,7 @@ struct PairMatcher {
   }
 
   [[nodiscard]] std::vector<FeatureMatch> WithFacades(std::vector<FeatureMatch> matches) const {
-    matches.insert(matches.end(), of_facades.begin(), of_facades.end());
+    for (const RatedMatch& rated : of_facades) matches.push_back(rated.match);
     return matches;
   }
 
@@ -211,21 +225,24 @@ struct PairMatcher {
   /// the window itself tilted, so that look-alikes match better than what is right; facade views
   /// show all of them alike. So do houses of other streets that look the same: matches of the
   /// panoramas themselves have to bear the pose out.
-  [[nodiscard]] absl::StatusOr<TwoViewGeometry> ByFacades(const std::vector<FeatureMatch>& matches,
+  [[nodiscard]] absl::StatusOr<TwoViewGeometry> ByFacades(const std::vector<RatedMatch>& matches,
                                                           const NearestTwoBothWays& nearest) const {
     const TwoViewGeometry nothing{.pair = pair};
     PairMatcher matcher = *this;
     matcher.of_facades = MatchFacades(a, b, MaxError(), match_options);
     if (matcher.of_facades.empty()) return nothing;
-    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry,
-                              matcher.Climb(matcher.WithFacades(matches)));
+    std::vector<RatedMatch> all = matches;
+    std::ranges::copy(matcher.of_facades, std::back_inserter(all));
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, matcher.Climb(std::move(all)));
     if (geometry.kind == TwoViewKind::kNone || !IsBorneOut(geometry, matches)) return nothing;
     geometry.rung = MatchRung::kFacades;
     return matcher.Confirm(geometry, &nearest);
   }
 
   [[nodiscard]] bool IsBorneOut(const TwoViewGeometry& geometry,
-                                const std::vector<FeatureMatch>& matches) const {
+                                const std::vector<RatedMatch>& rated) const {
+    std::vector<FeatureMatch> matches;
+    for (const RatedMatch& one : rated) matches.push_back(one.match);
     return EvidenceOf(ArrangePairs(a.bearings, b.bearings, matches, context.seed),
                       geometry.b_from_a,
                       MaxError())
@@ -248,7 +265,10 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
                                                const TwoViewOptions& two_view_options,
                                                const StageContext& context) {
   const PairMatcher matcher{pair, a, b, match_options, two_view_options, context};
-  if (!given.empty()) return matcher.Verify(given, two_view_options);
+  if (!given.empty()) {
+    return EstimateTwoView(
+        pair, a.bearings, b.bearings, given, matcher.MaxError(), two_view_options, context);
+  }
   if (a.features.descriptors.empty() || b.features.descriptors.empty()) {
     return TwoViewGeometry{.pair = pair};
   }
@@ -260,7 +280,7 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
   }
   growing.GrowTo(std::max(a.num_plain, b.num_plain));
   const NearestTwoBothWays nearest = growing.Nearest();
-  const std::vector<FeatureMatch> matches = AcceptNearest(nearest, match_options);
+  const std::vector<RatedMatch> matches = matcher.Rated(nearest);
   if (have_facades) {
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.ByFacades(matches, nearest));
     if (geometry.kind != TwoViewKind::kNone) return geometry;

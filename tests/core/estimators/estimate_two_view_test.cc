@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 #include "core/estimators/two_view_options.h"
 #include "core/synthetic/make_street.h"
@@ -91,6 +93,50 @@ TEST(EstimateTwoView, IsExactOnCleanData) {
     EXPECT_LT(DirectionError(geometry, world), 1e-6) << seed;
     EXPECT_NEAR(geometry.b_from_a.translation.norm(), 1.0, 1e-12);
   }
+}
+
+/// Matches of a world in the order of a rating that right ones have smaller on average.
+std::vector<FeatureMatch> RatedMatches(const TwoViewWorld& world, double largest_of_right) {
+  Random random(5);
+  std::vector<std::pair<double, FeatureMatch>> rated;
+  for (uint32_t i = 0; i < world.bearings_a.size(); ++i) {
+    const double largest = i < world.num_outliers ? 1.0 : largest_of_right;
+    rated.push_back({random.Uniform(0.0, largest), {i, i}});
+  }
+  std::ranges::sort(rated);
+  std::vector<FeatureMatch> matches;
+  for (const auto& [rating, match] : rated) matches.push_back(match);
+  return matches;
+}
+
+/// In how many of eight worlds with so many wrong matches the pose is found.
+int CountFound(double outlier_share, double largest_of_right, MatchOrder order) {
+  int found = 0;
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const TwoViewWorld world = MakeTwoViewWorld(seed, 400, outlier_share, kSigmaRad);
+    const auto geometry = EstimateTwoView(kPair,
+                                          world.bearings_a,
+                                          world.bearings_b,
+                                          RatedMatches(world, largest_of_right),
+                                          kMaxErrorRad,
+                                          {},
+                                          {.seed = seed},
+                                          order);
+    EXPECT_TRUE(geometry.ok()) << geometry.status();
+    if (geometry->kind != TwoViewKind::kGeneral) continue;
+    EXPECT_LT(RotationError(geometry->b_from_a.rotation, world.b_from_a.rotation), 1e-2) << seed;
+    ++found;
+  }
+  return found;
+}
+
+TEST(EstimateTwoView, FindsFewRightMatchesAmongTheBest) {
+  EXPECT_LE(CountFound(0.9, 0.15, MatchOrder::kUnknown), 4);
+  EXPECT_EQ(CountFound(0.9, 0.15, MatchOrder::kBestFirst), 8);
+}
+
+TEST(EstimateTwoView, IsNotMisledByAnOrderThatIsWrong) {
+  EXPECT_EQ(CountFound(0.7, 3.0, MatchOrder::kBestFirst), 8);
 }
 
 struct Case {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/features/accept_matches.h"
+#include "core/features/find_nearest_two.h"
 
 namespace orbweave {
 namespace {
@@ -78,6 +80,28 @@ TEST(MatchDescriptors, IsSymmetricWithCrossCheck) {
   std::sort(ba.begin(), ba.end());
   EXPECT_GT(ab.size(), 5U);
   EXPECT_EQ(ab, ba);
+}
+
+TEST(RateMatches, PutsTheLeastAmbiguousFirst) {
+  // 0.2, 0.1 and 0.3 of the way to the second nearest, of either side.
+  const Features a = Described({Direction(0.3), Direction(0.9), Direction(1.35)});
+  const Features b = Described({Direction(0.42), Direction(0.96), Direction(1.365)});
+  const NearestTwoBothWays nearest = FindNearestTwo(a.descriptors, b.descriptors);
+  const std::vector<RatedMatch> rated = RateMatches(AcceptNearest(nearest, {}), nearest);
+  ASSERT_EQ(rated.size(), 3U);
+  EXPECT_EQ(BestFirst(rated), (std::vector<FeatureMatch>{{2, 2}, {1, 1}, {0, 0}}));
+  // Exchanging the panoramas exchanges the matches and leaves their order.
+  const NearestTwoBothWays turned{.of_a = nearest.of_b, .of_b = nearest.of_a};
+  const std::vector<RatedMatch> exchanged = RateMatches(AcceptNearest(turned, {}), turned);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(exchanged[i].squared_ratio, rated[i].squared_ratio);
+}
+
+TEST(RateMatches, KnowsNoAmbiguityWithoutASecond) {
+  const Features one = Described({Direction(0.3)});
+  const NearestTwoBothWays nearest = FindNearestTwo(one.descriptors, one.descriptors);
+  const std::vector<RatedMatch> rated = RateMatches(AcceptNearest(nearest, {}), nearest);
+  ASSERT_EQ(rated.size(), 1U);
+  EXPECT_EQ(rated.front().squared_ratio, 0.0);
 }
 
 TEST(MatchDescriptors, ReturnsNothingWithoutDescriptors) {

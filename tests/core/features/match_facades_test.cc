@@ -89,11 +89,21 @@ size_t CountRight(const std::vector<FeatureMatch>& matches, const PairSide& a, c
   }));
 }
 
+std::vector<FeatureMatch> FacadeMatches(const PairSide& a, const PairSide& b, double same_rad) {
+  std::vector<FeatureMatch> matches;
+  for (const RatedMatch& rated : MatchFacades(a, b, same_rad, {})) {
+    EXPECT_GE(rated.squared_ratio, 0.0);
+    EXPECT_LT(rated.squared_ratio, 1.0);
+    matches.push_back(rated.match);
+  }
+  return matches;
+}
+
 TEST(MatchFacades, FindsAWallAgainThatWasTiltedAway) {
   const Wall wall(1);
   const PairSide a(Extract(SeenFrom(wall, 0.0, 0), true));
   const PairSide b(Extract(SeenFrom(wall, 8.0, 0), true));
-  const std::vector<FeatureMatch> facades = MatchFacades(a, b, kSame_rad, {});
+  const std::vector<FeatureMatch> facades = FacadeMatches(a, b, kSame_rad);
   const PairSide plain_a(Extract(SeenFrom(wall, 0.0, 0), false));
   const PairSide plain_b(Extract(SeenFrom(wall, 8.0, 0), false));
   const auto plain = MatchDescriptors(plain_a.features, plain_b.features, {});
@@ -108,7 +118,7 @@ TEST(MatchFacades, FindsTheTurn) {
   for (const int eighths : {0, 3, 6}) {
     const int columns = eighths * kWidth / kNumFacadeViews;
     const PairSide b(Extract(Rolled(panorama, columns), true));
-    const std::vector<FeatureMatch> matches = MatchFacades(a, b, kSame_rad, {});
+    const std::vector<FeatureMatch> matches = FacadeMatches(a, b, kSame_rad);
     ASSERT_GT(matches.size(), 500U) << eighths;
     EXPECT_TRUE(std::ranges::is_sorted(matches));
     for (const FeatureMatch& match : matches) {

@@ -83,6 +83,38 @@ TEST(DropEdgesAgainstCompass, KeepsWhatJoinsDrivesWhoseCamerasAreMountedOtherwis
   EXPECT_TRUE(DroppedOf(drive.Edges(4, {}), drive.manifest).empty());
 }
 
+TEST(DropEdgesAgainstCompass, DoesNotBelieveACompassBesideIron) {
+  for (const double off_deg : {-130.0, -60.0, 45.0, 58.0, 140.0}) {
+    BendingDrive drive(kCount);
+    StateHeadings(drive, 6);
+    *drive.manifest.images[12].prior.heading_deg += off_deg;
+    EXPECT_TRUE(DroppedOf(drive.Edges(3, {}), drive.manifest).empty()) << off_deg;
+  }
+}
+
+TEST(DropEdgesAgainstCompass, BelievesItWhereEdgesDisagreeByAQuarterTurnOrEachOtherwise) {
+  BendingDrive drive(kCount);
+  StateHeadings(drive, 7);
+  std::set<ImagePair> of_image;
+  const std::vector<ViewEdge> edges = drive.Edges(3, {});
+  for (const ViewEdge& edge : edges) {
+    if (edge.pair.a == ImageId(12) || edge.pair.b == ImageId(12)) of_image.insert(edge.pair);
+  }
+  for (const double off_deg : {-90.0, 80.0, 180.0}) {
+    BendingDrive turned = drive;
+    *turned.manifest.images[12].prior.heading_deg += off_deg;
+    EXPECT_EQ(DroppedOf(edges, turned.manifest), of_image) << off_deg;
+  }
+  std::vector<ViewEdge> scattered = edges;
+  double by_rad = 1.0;
+  for (ViewEdge& edge : scattered) {
+    if (!of_image.contains(edge.pair)) continue;
+    edge.b_from_a.rotation = Eigen::AngleAxisd(by_rad, Vector3d::UnitY()) * edge.b_from_a.rotation;
+    by_rad += 0.7;
+  }
+  EXPECT_EQ(DroppedOf(scattered, drive.manifest), of_image);
+}
+
 TEST(DropEdgesAgainstCompass, NeedsHeadings) {
   const BendingDrive drive(kCount);
   std::vector<ViewEdge> edges = drive.Edges(3, {});

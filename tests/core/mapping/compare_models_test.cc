@@ -41,6 +41,37 @@ TEST(IsBetterModel, PrefersALargerOneOfWhichGnssBearsOutMuchMore) {
   EXPECT_FALSE(IsBetterModel(few, all, {}));
 }
 
+TEST(IsLikedByGnss, WhereTheOtherIsTorn) {
+  const GnssWalk walk;
+  const MappingState right = TornAt(walk, GnssWalk::kImages, 0.0);
+  const MappingState torn = TornAt(walk, 7, 9.0);
+  EXPECT_TRUE(IsLikedByGnss(right, torn, {}));
+  EXPECT_FALSE(IsLikedByGnss(torn, right, {}));
+  EXPECT_FALSE(IsLikedByGnss(right, right, {}));
+}
+
+TEST(IsLikedByGnss, NotForWrongPositions) {
+  GnssWalk walk;
+  for (const uint32_t image : {6U, 7U})
+    *walk.Prior(image).position_in_enu += Eigen::Vector3d(5.0, 0.0, 0.0);
+  const MappingState right = TornAt(walk, GnssWalk::kImages, 0.0);
+  MappingState fooled = right;
+  for (const uint32_t image : {6U, 7U}) fooled.SetPose(image, walk.Further(image, 5.0));
+  MappingState remade(walk.Fixture().world.problem, walk.Fixture().graph);
+  for (const ImageSlot image : fooled.Registered())
+    remade.Register(image, fooled.CamFromWorld(image));
+  for (const ImageSlot image : remade.Registered()) TriangulateImage(remade, image, TrackLimits{});
+  EXPECT_FALSE(IsLikedByGnss(remade, right, {}));
+  EXPECT_TRUE(IsBetterModel(right, remade, {}));
+}
+
+TEST(IsLikedByGnss, NotWithoutPositions) {
+  GnssWalk walk;
+  for (uint32_t image = 0; image < GnssWalk::kImages; ++image)
+    walk.Prior(image).position_in_enu.reset();
+  EXPECT_FALSE(IsLikedByGnss(TornAt(walk, GnssWalk::kImages, 0.0), TornAt(walk, 7, 5.0), {}));
+}
+
 TEST(CountHeldPlaces, CountsWhereFourSee) {
   const GnssWalk walk;
   EXPECT_GT(CountHeldPlaces(walk.StateWithout(GnssWalk::kImages)), 14U * 10U);

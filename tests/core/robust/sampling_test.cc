@@ -41,6 +41,69 @@ TEST(DrawSample, TakesEverythingWhenTheSampleIsTheWhole) {
   EXPECT_EQ(sample, (std::array<uint32_t, 4>{0, 1, 2, 3}));
 }
 
+std::vector<uint32_t> FromLast(uint32_t size) {
+  std::vector<uint32_t> best_first(size);
+  for (uint32_t i = 0; i < size; ++i) best_first[i] = size - 1 - i;
+  return best_first;
+}
+
+TEST(SampleSource, DrawsEveryOtherSampleFromTheBestFirst) {
+  constexpr uint32_t kSize = 1000;
+  const std::vector<uint32_t> best_first = FromLast(kSize);
+  SampleSource samples(1, kSize, best_first);
+  std::array<uint32_t, 5> sample{};
+  uint32_t worst = kSize;
+  std::array<double, 2> sums{};
+  for (uint32_t trial = 0; trial < 200; ++trial) {
+    samples.Draw(sample);
+    EXPECT_EQ(std::set<uint32_t>(sample.begin(), sample.end()).size(), 5U);
+    EXPECT_LT(*std::ranges::max_element(sample), kSize);
+    for (const uint32_t i : sample) sums[trial % 2] += i / (5.0 * 100.0);
+    if (trial % 2 == 1) continue;
+    // One more of the best takes part with every sample, so that each is tried.
+    worst = std::min(worst, *std::ranges::min_element(sample));
+    EXPECT_GE(worst, kSize - 5 - trial / 2) << trial;
+  }
+  EXPECT_GT(sums[0], 930.0);
+  EXPECT_NEAR(sums[1], 499.5, 52.0);  // four standard deviations
+}
+
+TEST(SampleSource, ComesToAllDataAtLast) {
+  const std::vector<uint32_t> best_first = FromLast(20);
+  SampleSource samples(2, 20, best_first);
+  std::array<uint32_t, 3> sample{};
+  std::array<int, 20> counts{};
+  for (int trial = 0; trial < 500000; ++trial) {
+    samples.Draw(sample);
+    if (trial < 400000) continue;
+    for (const uint32_t i : sample) ++counts[i];
+  }
+  for (const int count : counts) EXPECT_NEAR(count, 15000, 500);
+}
+
+TEST(SampleSource, DrawsAllAlikeWhereNoOrderIsKnown) {
+  SampleSource samples(3, 50, {});
+  Random random(3);
+  std::array<uint32_t, 5> sample{};
+  std::array<uint32_t, 5> drawn{};
+  for (int trial = 0; trial < 100; ++trial) {
+    samples.Draw(sample);
+    DrawSample(random, 50, drawn);
+    EXPECT_EQ(sample, drawn);
+  }
+}
+
+TEST(SampleSource, TakesEverythingWhenTheSampleIsTheWhole) {
+  const std::vector<uint32_t> best_first = FromLast(4);
+  SampleSource samples(4, 4, best_first);
+  std::array<uint32_t, 4> sample{};
+  for (int trial = 0; trial < 10; ++trial) {
+    samples.Draw(sample);
+    std::ranges::sort(sample);
+    EXPECT_EQ(sample, (std::array<uint32_t, 4>{0, 1, 2, 3}));
+  }
+}
+
 TEST(ShuffledOrder, IsAPermutationThatDependsOnTheSeedAlone) {
   std::vector<uint32_t> order = ShuffledOrder(100, 7);
   EXPECT_EQ(order, ShuffledOrder(100, 7));
