@@ -66,9 +66,9 @@ struct Count {
 
 /// What the edges of an image with headings say of its own.
 struct HeadingErrors {
-  std::vector<double> too_large_deg{};  ///< of those that disagree, as if it were this image's
+  std::vector<double> errors_deg{};  ///< of each, as if it were this image's
+  std::vector<ImageId> others{};     ///< to which each leads
   size_t agreeing = 0;
-  std::vector<ImageId> others{};
 };
 
 using ErrorsOfImages = std::map<ImageId, HeadingErrors>;
@@ -81,13 +81,11 @@ ErrorsOfImages ErrorsByImage(const std::vector<ViewEdge>& edges,
     const auto [a, b] = std::pair(edges[e].pair.a, edges[e].pair.b);
     of_images[a].others.push_back(b);
     of_images[b].others.push_back(a);
-    if (errors[e]->is_too_large) {
-      of_images[a].too_large_deg.push_back(-errors[e]->error_deg);
-      of_images[b].too_large_deg.push_back(errors[e]->error_deg);
-    } else {
-      ++of_images[a].agreeing;
-      ++of_images[b].agreeing;
-    }
+    of_images[a].errors_deg.push_back(-errors[e]->error_deg);
+    of_images[b].errors_deg.push_back(errors[e]->error_deg);
+    if (errors[e]->is_too_large) continue;
+    ++of_images[a].agreeing;
+    ++of_images[b].agreeing;
   }
   return of_images;
 }
@@ -106,8 +104,8 @@ double MeanAzimuth_deg(const std::vector<double>& azimuths_deg) {
 
 /// Whether the heading of an image is wrong rather than all its edges.
 bool IsHeadingWrong(const HeadingErrors& image, const ErrorsOfImages& of_images) {
-  const std::vector<double>& errors = image.too_large_deg;
-  if (image.agreeing > 0 || errors.size() < kFewestOfImage) return false;
+  const std::vector<double>& errors = image.errors_deg;
+  if (errors.size() < kFewestOfImage) return false;
   const double mean_deg = MeanAzimuth_deg(errors);
   const double from_quarter_turn_deg = AngleBetween_deg(4.0 * mean_deg, 0.0) / 4.0;
   const bool are_alike = std::ranges::all_of(errors, [&](double error_deg) {

@@ -18,10 +18,10 @@ namespace orbweave {
 /// than four standard deviations, 20 degrees at least and 90 at most. Headings may be wrong, or
 /// those of the way and not of the camera: between two drives, or within one, they are believed
 /// when there are ten edges with headings or more, of which three quarters agree. A compass beside
-/// iron is off by itself: where all edges of an image disagree, three at least, alike to 20
-/// degrees, and lead to images some of whose edges agree, its heading is not believed; unless they
-/// turn by a quarter or a half, to 20 degrees, as what repeats round corners does. Edges without
-/// headings stay.
+/// iron is off by itself: where all edges of an image, three at least, turn otherwise by the same
+/// angle to 20 degrees, and lead to images some of whose edges agree, its heading is not believed;
+/// unless that is a quarter turn or a half, to 20 degrees, as what repeats round corners has. Edges
+/// without headings stay.
 [[nodiscard]] SiftedEdges DropEdgesAgainstCompass(const std::vector<ViewEdge>& edges,
                                                   const ImageManifest& manifest);
 
