@@ -24,6 +24,11 @@ constexpr double kMoreBorneOut = 1.25;
 constexpr double kClearMisfit = 30.0;
 constexpr double kSameImages = 0.95;
 constexpr double kHardlyLess = 0.8;
+constexpr double kNotMuchMore = 1.5;
+
+double MeanMisfit(const GnssWays& ways, const MappingState& state) {
+  return ways.Misfit(state) / static_cast<double>(std::max<size_t>(ways.Ways().size(), 1));
+}
 
 }  // namespace
 
@@ -67,14 +72,18 @@ bool IsLikedByGnss(const MappingState& one,
                    const MappingOptions& options) {
   const auto size = static_cast<double>(one.Registered().size());
   const auto size_of_other = static_cast<double>(other.Registered().size());
-  if (std::min(size, size_of_other) < kSameImages * std::max(size, size_of_other)) return false;
   const double worth = BorneOutImages(one);
   const double worth_of_other = BorneOutImages(other);
-  if (worth > kMoreBorneOut * worth_of_other) return true;
-  if (kMoreBorneOut * worth < worth_of_other) return false;
   const double tolerance_px = kMatchTolerance * options.max_error_px;
   const GnssWays ways(one, tolerance_px);
   const GnssWays ways_of_other(other, tolerance_px);
+  if (std::min(size, size_of_other) < kSameImages * std::max(size, size_of_other)) {
+    return size > size_of_other && !ways.Ways().empty() &&
+           worth / size >= kSameImages * worth_of_other / size_of_other &&
+           MeanMisfit(ways, one) <= kNotMuchMore * (1.0 + MeanMisfit(ways_of_other, other));
+  }
+  if (worth > kMoreBorneOut * worth_of_other) return true;
+  if (kMoreBorneOut * worth < worth_of_other) return false;
   return ways.MisfitBeside(ways_of_other, one) + kClearMisfit <=
              ways_of_other.MisfitBeside(ways, other) &&
          EvidenceFor(one, options) >= kHardlyLess * EvidenceFor(other, options);

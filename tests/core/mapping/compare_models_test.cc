@@ -65,6 +65,20 @@ TEST(IsLikedByGnss, NotForWrongPositions) {
   EXPECT_TRUE(IsBetterModel(right, remade, {}));
 }
 
+TEST(IsLikedByGnss, WhereMoreImagesAreBorneOutAsWell) {
+  GnssWalk walk;
+  const auto part = [&walk](ImageSlot end) {
+    MappingState state(walk.Fixture().world.problem, walk.Fixture().graph);
+    for (ImageSlot image = 0; image < end; ++image) state.Register(image, walk.InModel(image));
+    return state;
+  };
+  const MappingState all = part(GnssWalk::kImages);
+  const MappingState most = part(10);
+  EXPECT_TRUE(IsLikedByGnss(all, most, {}));
+  EXPECT_FALSE(IsLikedByGnss(most, all, {}));
+  EXPECT_FALSE(IsLikedByGnss(TornAt(walk, 7, 40.0), most, {}));
+}
+
 TEST(IsLikedByGnss, NotWithoutPositions) {
   GnssWalk walk;
   for (uint32_t image = 0; image < GnssWalk::kImages; ++image)
