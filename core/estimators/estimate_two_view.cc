@@ -20,6 +20,7 @@
 #include "core/estimators/split_by_height.h"
 #include "core/estimators/split_by_motion.h"
 #include "core/estimators/two_view_inliers.h"
+#include "core/estimators/two_view_ransac.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
 

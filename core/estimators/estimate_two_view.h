@@ -7,8 +7,8 @@
 
 #include "absl/status/statusor.h"
 #include "core/base/stage_context.h"
+#include "core/estimators/match_order.h"
 #include "core/estimators/two_view_options.h"
-#include "core/estimators/two_view_ransac.h"
 #include "core/scene/two_view_geometry.h"
 
 namespace orbweave {
@@ -28,8 +28,8 @@ namespace orbweave {
 /// found in any number.
 /// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera
 /// frames; `matches` index into them. Returns kind kNone (and num_putative) when no geometry is
-/// supported. Cancelled when asked to stop. `context.seed` seeds the sampler. `order`: whether
-/// `matches` that come first are likelier to be right; then few right ones among many are found.
+/// supported. Cancelled when asked to stop. `context.seed` seeds the sampler. With `order`
+/// kBestFirst few right matches among many wrong ones are found.
 [[nodiscard]] absl::StatusOr<TwoViewGeometry> EstimateTwoView(
     ImagePair pair,
     std::span<const Eigen::Vector3d> bearings_a,

@@ -6,17 +6,17 @@
 
 #include "core/base/stage_context.h"
 #include "core/estimators/bearing_pairs.h"
+#include "core/estimators/match_order.h"
 #include "core/estimators/two_view_options.h"
 #include "core/geometry/rigid3.h"
 
 namespace orbweave {
 
-enum class MatchOrder { kUnknown, kBestFirst };
-
 /// RANSAC with local optimisation over the minimal solver of `options`: a pose, |T| = 1, of the
 /// essential matrix with the least truncated cost, any of its four (see ResolveCheirality). nullopt
 /// when there are fewer pairs than a sample or no sample has a solution. Cancelled when asked to
-/// stop. `order`: whether matches that come first are likelier to be right (SampleSource).
+/// stop. `order` of the matches that `pairs` were arranged from: the best first are tried first
+/// (SampleSource).
 [[nodiscard]] absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
                                                                      MatchOrder order,
                                                                      double max_error_rad,

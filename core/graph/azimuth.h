@@ -20,9 +20,14 @@ namespace orbweave {
   return AzimuthInCamera(b_from_a * Eigen::Vector3d::UnitZ());
 }
 
+/// The same azimuth in [-pi, pi].
+[[nodiscard]] inline double WrappedAzimuth(double azimuth) {
+  return std::remainder(azimuth, 2.0 * std::numbers::pi);
+}
+
 /// In [0, pi].
 [[nodiscard]] inline double AngleBetweenAzimuths(double azimuth_a, double azimuth_b) {
-  return std::abs(std::remainder(azimuth_a - azimuth_b, 2.0 * std::numbers::pi));
+  return std::abs(WrappedAzimuth(azimuth_a - azimuth_b));
 }
 
 }  // namespace orbweave

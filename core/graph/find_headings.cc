@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/graph/azimuth.h"
+
 namespace orbweave {
 namespace {
 
@@ -20,8 +22,6 @@ struct Vote {
   double sigma_rad = 0.0;
   double weight = 0.0;
 };
-
-double Wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
 /// Of camera a.
 std::optional<Vote> VoteOf(const MotionEdge& edge) {
@@ -58,7 +58,7 @@ std::optional<double> HeadingOf(std::vector<Vote> votes, double agree_rad) {
   if (votes.size() < kFewest) return std::nullopt;
   double all = 0.0;
   for (Vote& vote : votes) {
-    vote.heading_rad = Wrapped(vote.heading_rad);
+    vote.heading_rad = WrappedAzimuth(vote.heading_rad);
     all += vote.weight;
   }
   std::ranges::stable_sort(votes, {}, &Vote::heading_rad);

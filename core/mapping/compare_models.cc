@@ -22,12 +22,38 @@ constexpr size_t kManyObservations = 4;
 constexpr double kClearly = 1.5;
 constexpr double kMoreBorneOut = 1.25;
 constexpr double kClearMisfit = 30.0;
-constexpr double kSameImages = 0.95;
+constexpr double kAlike = 0.95;
 constexpr double kHardlyLess = 0.8;
 constexpr double kNotMuchMore = 1.5;
 
-double MeanMisfit(const GnssWays& ways, const MappingState& state) {
-  return ways.Misfit(state) / static_cast<double>(std::max<size_t>(ways.Ways().size(), 1));
+/// What GNSS has to say of a model.
+struct GnssOpinion {
+  const MappingState& state;
+  double worth = 0.0;
+  GnssWays ways;
+
+  [[nodiscard]] double Size() const { return static_cast<double>(state.Registered().size()); }
+  [[nodiscard]] double MeanMisfit() const {
+    return ways.Misfit(state) / static_cast<double>(std::max<size_t>(ways.Ways().size(), 1));
+  }
+};
+
+GnssOpinion OpinionOf(const MappingState& state, const MappingOptions& options) {
+  return {state, BorneOutImages(state), GnssWays(state, kMatchTolerance * options.max_error_px)};
+}
+
+/// IsLikedByGnss.
+bool IsLiked(const GnssOpinion& one, const GnssOpinion& other, const MappingOptions& options) {
+  if (std::min(one.Size(), other.Size()) < kAlike * std::max(one.Size(), other.Size())) {
+    return one.Size() > other.Size() && !one.ways.Ways().empty() &&
+           one.worth / one.Size() >= kAlike * other.worth / other.Size() &&
+           one.MeanMisfit() <= kNotMuchMore * (1.0 + other.MeanMisfit());
+  }
+  if (one.worth > kMoreBorneOut * other.worth) return true;
+  if (kMoreBorneOut * one.worth < other.worth) return false;
+  return one.ways.MisfitBeside(other.ways, one.state) + kClearMisfit <=
+             other.ways.MisfitBeside(one.ways, other.state) &&
+         EvidenceFor(one.state, options) >= kHardlyLess * EvidenceFor(other.state, options);
 }
 
 }  // namespace
@@ -70,34 +96,18 @@ bool SpeaksMoreFor(const MappingState& one,
 bool IsLikedByGnss(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
-  const auto size = static_cast<double>(one.Registered().size());
-  const auto size_of_other = static_cast<double>(other.Registered().size());
-  const double worth = BorneOutImages(one);
-  const double worth_of_other = BorneOutImages(other);
-  const double tolerance_px = kMatchTolerance * options.max_error_px;
-  const GnssWays ways(one, tolerance_px);
-  const GnssWays ways_of_other(other, tolerance_px);
-  if (std::min(size, size_of_other) < kSameImages * std::max(size, size_of_other)) {
-    return size > size_of_other && !ways.Ways().empty() &&
-           worth / size >= kSameImages * worth_of_other / size_of_other &&
-           MeanMisfit(ways, one) <= kNotMuchMore * (1.0 + MeanMisfit(ways_of_other, other));
-  }
-  if (worth > kMoreBorneOut * worth_of_other) return true;
-  if (kMoreBorneOut * worth < worth_of_other) return false;
-  return ways.MisfitBeside(ways_of_other, one) + kClearMisfit <=
-             ways_of_other.MisfitBeside(ways, other) &&
-         EvidenceFor(one, options) >= kHardlyLess * EvidenceFor(other, options);
+  return IsLiked(OpinionOf(one, options), OpinionOf(other, options), options);
 }
 
 bool IsBetterModel(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
-  const double worth = BorneOutImages(one);
-  const double worth_of_other = BorneOutImages(other);
-  if (worth > kClearly * worth_of_other) return true;
-  if (kClearly * worth < worth_of_other) return false;
-  if (IsLikedByGnss(one, other, options)) return true;
-  if (IsLikedByGnss(other, one, options)) return false;
+  const GnssOpinion of_one = OpinionOf(one, options);
+  const GnssOpinion of_other = OpinionOf(other, options);
+  if (of_one.worth > kClearly * of_other.worth) return true;
+  if (kClearly * of_one.worth < of_other.worth) return false;
+  if (IsLiked(of_one, of_other, options)) return true;
+  if (IsLiked(of_other, of_one, options)) return false;
   return SpeaksMoreFor(one, other, options);
 }
 

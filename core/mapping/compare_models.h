@@ -38,10 +38,11 @@ namespace orbweave {
 /// to a twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, the
 /// squared misfits of its ways are less by 30 (GnssWays::MisfitBeside), which is more than one
 /// wrong position makes of the ways that it parts, and not clearly less speaks for it (four fifths
-/// of EvidenceFor). Of more images it bears out as large a share of it, to a twentieth. Where
-/// houses repeat rays may like a wrong model better: of one rendered street they contradict it in 2
-/// places where it is 13 m off, and in 3 where it is 1.2 m off, of another in 1 and in 3; GNSS
-/// bears out 14 and 17 images, 13 and 18.
+/// of EvidenceFor). Of more images it bears out as large a share of it, to a twentieth, and its
+/// ways are not much worse: on average a squared misfit of at most 1.5 times one more than those of
+/// the other. Where houses repeat rays may like a wrong model better: of one rendered street they
+/// contradict it in 2 places where it is 13 m off, and in 3 where it is 1.2 m off, of another in 1
+/// and in 3; GNSS bears out 14 and 17 images, 13 and 18.
 [[nodiscard]] bool IsLikedByGnss(const MappingState& one,
                                  const MappingState& other,
                                  const MappingOptions& options);

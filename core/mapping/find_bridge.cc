@@ -59,8 +59,9 @@ class Bridging {
 
   [[nodiscard]] std::optional<Sim3> Find() const {
     if (!HasMatchesEnough()) return std::nullopt;
-    std::optional<Sim3> a_from_b = FindByPoints();
-    if (!a_from_b) a_from_b = FindByBothEnds();
+    const std::vector<Sim3> starts = Starts();
+    std::optional<Sim3> a_from_b = FindByPoints(starts);
+    if (!a_from_b) a_from_b = FindByBothEnds(starts);
     if (!a_from_b) return std::nullopt;
     return *a_from_b * Sim3{.translation = -origin_in_b_};
   }
@@ -82,9 +83,9 @@ class Bridging {
   }
 
   /// The best fit of all starts, where it is determined and supported.
-  [[nodiscard]] std::optional<Sim3> FindByPoints() const {
+  [[nodiscard]] std::optional<Sim3> FindByPoints(const std::vector<Sim3>& starts) const {
     std::optional<FittedBridge> best;
-    for (const Sim3& start : Starts()) {
+    for (const Sim3& start : starts) {
       const FittedBridge fitted = FitBridge(terms_, start);
       if (!best || fitted.cost < best->cost) best = fitted;
     }
@@ -94,13 +95,13 @@ class Bridging {
 
   /// As directions of the pairs and GNSS have it, whatever points say: of all starts the one from
   /// which pairs with most matches come to agree.
-  [[nodiscard]] std::optional<Sim3> FindByBothEnds() const {
+  [[nodiscard]] std::optional<Sim3> FindByBothEnds(const std::vector<Sim3>& starts) const {
     if (!HasGnss()) return std::nullopt;
     const BridgeTerms terms =
         TermsOf(a_, b_, pairs_, origin_in_b_, near_in_b_, enu_from_a_, std::nullopt);
     std::optional<Sim3> found;
     size_t most = NeededMatches() - 1;
-    for (const Sim3& start : Starts()) {
+    for (const Sim3& start : starts) {
       const FittedBridge fitted = FitBridge(terms, start);
       const std::vector<BridgePair> agreeing = Agreeing(fitted.a_from_b);
       const size_t matches = CountMatches(agreeing);

@@ -35,27 +35,13 @@ WorldTotals TotalsOf(const std::vector<SubproblemInspection>& subproblems) {
   return totals;
 }
 
-/// By what the bearings of images say less of their poses than their number and scatter claim
-/// (SupportVerdict::coherence), of those where they do; and the mean of all.
-struct Coherence {
-  std::map<ImageId, double> of_image{};
-  double mean = 1.0;
-};
-
-Coherence CoherenceOf(const std::vector<SubproblemInspection>& subproblems) {
-  std::map<ImageId, std::vector<PatchSupport>> supports;
-  for (const SubproblemInspection& subproblem : subproblems)
-    AddSupport(subproblem.supports, supports);
-  Coherence coherence;
-  if (supports.empty()) return coherence;
+/// By what the bearings of images say less of their poses than their number and scatter claim, on
+/// average (SupportVerdict::coherence).
+double MeanCoherence(const std::map<ImageId, SupportVerdict>& supports) {
+  if (supports.empty()) return 1.0;
   double sum = 0.0;
-  for (const auto& [id, patches] : supports) {
-    const double factor = std::max(JudgeSupport(patches).coherence, 1.0);
-    coherence.of_image[id] = factor;
-    sum += factor;
-  }
-  coherence.mean = sum / static_cast<double>(supports.size());
-  return coherence;
+  for (const auto& [id, verdict] : supports) sum += std::max(verdict.coherence, 1.0);
+  return sum / static_cast<double>(supports.size());
 }
 
 SeparatorSystem SumOfBearings(std::vector<SubproblemInspection> subproblems) {
@@ -78,18 +64,19 @@ SeparatorSystem WithoutPoints(SeparatorSystem sum) {
 /// all other poses as they are: variance S_ii^-1 times the difference of factors. Of images where
 /// that is more.
 std::map<ImageId, Block6> CovariancesBeyondMean(const SeparatorSystem& bearings,
-                                                const Coherence& coherence,
+                                                const std::map<ImageId, SupportVerdict>& supports,
+                                                double mean_coherence,
                                                 double bearing_factor) {
   std::map<ImageId, Block6> beyond;
   const SymmetricBlockMatrix& S = bearings.normal.S;
   for (uint32_t j = 0; j < S.num_blocks; ++j) {
-    const auto found = coherence.of_image.find(ImageId(bearings.variables[j].index));
-    if (found == coherence.of_image.end() || found->second <= coherence.mean) continue;
+    const auto support = supports.find(ImageId(bearings.variables[j].index));
+    if (support == supports.end() || support->second.coherence <= mean_coherence) continue;
     const Eigen::LDLT<Block6> block(S.values[S.Find({j, j})].selfadjointView<Eigen::Upper>());
     if (block.info() != Eigen::Success || !block.isPositive()) continue;
     const Block6 inverse = block.solve(Block6::Identity());
-    if (inverse.allFinite())
-      beyond[found->first] = bearing_factor * (found->second - coherence.mean) * inverse;
+    const double more = bearing_factor * (support->second.coherence - mean_coherence);
+    if (inverse.allFinite()) beyond[support->first] = more * inverse;
   }
   return beyond;
 }
@@ -184,12 +171,12 @@ double GaugeFreedoms(const GlobalProblem& problem, bool holds_distance) {
 }  // namespace
 
 AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
+                          const std::map<ImageId, SupportVerdict>& supports,
                           const GlobalProblem& problem,
                           const std::vector<Eigen::Vector3d>& biases_m,
                           const ImageManifest& manifest) {
   AssessedWorld assessed;
   const WorldTotals totals = TotalsOf(subproblems);
-  const Coherence coherence = CoherenceOf(subproblems);
   SeparatorSystem sum = SumOfBearings(std::move(subproblems));
   const auto num_split = static_cast<double>(
       std::ranges::count(sum.variables, SeparatorId::Kind::kPoint, &SeparatorId::kind));
@@ -205,11 +192,12 @@ AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
                             6.0 * static_cast<double>(bearings.variables.size());
   const double bearing_factor = totals.correlation.Inflation() *
                                 BearingVarianceFactor(totals.weighted_sum_of_squares, redundancy);
+  const double coherence = MeanCoherence(supports);
   const std::map<ImageId, Block6> beyond_mean =
-      CovariancesBeyondMean(bearings, coherence, bearing_factor);
+      CovariancesBeyondMean(bearings, supports, coherence, bearing_factor);
   const PoseCovariances covariances =
       poses.Covariances(std::move(bearings),
-                        {.bearings = coherence.mean * bearing_factor,
+                        {.bearings = coherence * bearing_factor,
                          .positions = EstimateGnssVariance(problem, biases_m, manifest).factors});
   UncertaintyReport& report = assessed.report;
   report.reason = covariances.reason;

@@ -27,8 +27,10 @@ struct AssessedWorld {
 /// average, what they move the panorama itself is added: the frame is known no worse for it. Memory
 /// grows with the panoramas, not with the points. GNSS errors count as correlated as they are found
 /// along the sequence (EstimateGnssVariance): an offset common to all positions shows nowhere.
-/// `problem` holds the world's poses and GNSS terms (AddGnss), `biases_m` are those of its drives.
+/// `supports`: what all subproblems together say of each image that they support. `problem` holds
+/// the world's poses and GNSS terms (AddGnss), `biases_m` are those of its drives.
 [[nodiscard]] AssessedWorld AssessWorld(std::vector<SubproblemInspection> subproblems,
+                                        const std::map<ImageId, SupportVerdict>& supports,
                                         const GlobalProblem& problem,
                                         const std::vector<Eigen::Vector3d>& biases_m,
                                         const ImageManifest& manifest);

@@ -89,40 +89,33 @@ SeamCertifier CertifierOf(const AdjustedWorld& adjusted, const std::vector<Seam>
   return certifier;
 }
 
-using Supports = std::map<ImageId, std::vector<PatchSupport>>;
 using SupportsOfSubproblems = std::vector<std::vector<PatchSupport>>;
+using SupportVerdicts = std::map<ImageId, SupportVerdict>;
 
-Supports SumOf(const SupportsOfSubproblems& of_subproblems) {
-  Supports supports;
+/// Of images that any subproblem supports.
+SupportVerdicts JudgeSupports(const SupportsOfSubproblems& of_subproblems) {
+  std::map<ImageId, std::vector<PatchSupport>> supports;
   for (const std::vector<PatchSupport>& own : of_subproblems) AddSupport(own, supports);
-  return supports;
-}
-
-/// Of images that are neither loose nor `weak` already.
-std::map<ImageId, SupportVerdict> JudgeSupports(const Supports& supports,
-                                                const Reconstruction& poses,
-                                                const std::set<ImageId>& weak) {
-  std::map<ImageId, SupportVerdict> verdicts;
-  for (const auto& [id, image] : poses.images) {
-    if (image.loose || weak.contains(id)) continue;
-    const auto support = supports.find(id);
-    verdicts[id] =
-        JudgeSupport(support == supports.end() ? std::vector<PatchSupport>() : support->second);
-  }
+  SupportVerdicts verdicts;
+  for (const auto& [id, patches] : supports) verdicts[id] = JudgeSupport(patches);
   return verdicts;
 }
 
 /// Takes out what its own observations do not place, until those of all that are left do.
+/// `verdicts`: of `supports`.
 absl::Status TakeOutWeak(const AdjustedWorld& adjusted,
                          SupportsOfSubproblems supports,
+                         SupportVerdicts verdicts,
                          const ImageManifest& manifest,
                          Reconstruction& poses,
                          GlobalAdjustReport& report) {
+  const SupportVerdict unsupported = JudgeSupport({});
   std::set<ImageId> weak;
-  std::map<ImageId, SupportVerdict> verdicts;
   for (size_t known = 0;; known = weak.size()) {
-    verdicts = JudgeSupports(SumOf(supports), poses, weak);
-    for (const auto& [id, verdict] : verdicts) {
+    for (const auto& [id, image] : poses.images) {
+      if (image.loose || weak.contains(id)) continue;
+      const auto found = verdicts.find(id);
+      const SupportVerdict& verdict = found == verdicts.end() ? unsupported : found->second;
       if (!verdict.is_weak) continue;
       weak.insert(id);
       report.weak_images.push_back({manifest.At(id).name, verdict.reason});
@@ -134,6 +127,7 @@ absl::Status TakeOutWeak(const AdjustedWorld& adjusted,
       if (!is_touched) continue;
       ORBWEAVE_ASSIGN_OR_RETURN(supports[place], adjusted.support_without(place, weak));
     }
+    verdicts = JudgeSupports(supports);
   }
   for (const ImageId id : weak) poses.images.erase(id);
   return absl::OkStatus();
@@ -161,8 +155,9 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
     supports.push_back(inspection.supports);
     std::ranges::copy(inspection.points_about, std::back_inserter(points_about));
   }
+  SupportVerdicts verdicts = JudgeSupports(supports);
   AssessedWorld assessed =
-      AssessWorld(std::move(adjusted.inspections), problem, biases_m, manifest);
+      AssessWorld(std::move(adjusted.inspections), verdicts, problem, biases_m, manifest);
   for (const auto& [id, uncertainty] : assessed.uncertainties)
     poses.images.at(id).uncertainty = uncertainty;
   WidenByDriveErrors(georeference, manifest, poses);
@@ -170,8 +165,8 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
                     std::back_inserter(world.report.checks));
   LoosenUnobserved(summaries, manifest, poses, world.report);
-  ORBWEAVE_RETURN_IF_ERROR(
-      TakeOutWeak(adjusted, std::move(supports), manifest, poses, world.report));
+  ORBWEAVE_RETURN_IF_ERROR(TakeOutWeak(
+      adjusted, std::move(supports), std::move(verdicts), manifest, poses, world.report));
   if (georeference.enu_from_world) {
     world.report.gnss = JudgeGnss(problem, biases_m, manifest, poses.images);
     world.report.gnss.deformation_m = georeference.deformation_m;

@@ -11,14 +11,25 @@
 namespace orbweave {
 namespace {
 
-/// With the images from `first` on so many metres further along the street, and the points that
-/// remain there.
-MappingState TornAt(const GnssWalk& walk, ImageSlot first, double metres) {
+/// With images [first, end) so many metres further along the street, and the points that remain
+/// there.
+MappingState Slid(const GnssWalk& walk, ImageSlot first, ImageSlot end, double metres) {
   const StreetFixture& street = walk.Fixture();
   MappingState state(street.world.problem, street.graph);
   for (ImageSlot image = 0; image < GnssWalk::kImages; ++image)
-    state.Register(image, walk.Further(image, image < first ? 0.0 : metres));
+    state.Register(image, walk.Further(image, image >= first && image < end ? metres : 0.0));
   for (const ImageSlot image : state.Registered()) TriangulateImage(state, image, TrackLimits{});
+  return state;
+}
+
+MappingState TornAt(const GnssWalk& walk, ImageSlot first, double metres) {
+  return Slid(walk, first, GnssWalk::kImages, metres);
+}
+
+/// The first images alone, without points.
+MappingState Part(const GnssWalk& walk, ImageSlot end) {
+  MappingState state(walk.Fixture().world.problem, walk.Fixture().graph);
+  for (ImageSlot image = 0; image < end; ++image) state.Register(image, walk.InModel(image));
   return state;
 }
 
@@ -35,8 +46,7 @@ TEST(IsBetterModel, PrefersTheOneForWhichMoreSpeaks) {
 TEST(IsBetterModel, PrefersALargerOneOfWhichGnssBearsOutMuchMore) {
   const GnssWalk walk;
   const MappingState all = walk.StateWithout(GnssWalk::kImages);
-  MappingState few(walk.Fixture().world.problem, walk.Fixture().graph);
-  for (ImageSlot image = 0; image < 6; ++image) few.Register(image, walk.InModel(image));
+  const MappingState few = Part(walk, 6);
   EXPECT_TRUE(IsBetterModel(all, few, {}));
   EXPECT_FALSE(IsBetterModel(few, all, {}));
 }
@@ -55,25 +65,15 @@ TEST(IsLikedByGnss, NotForWrongPositions) {
   for (const uint32_t image : {6U, 7U})
     *walk.Prior(image).position_in_enu += Eigen::Vector3d(5.0, 0.0, 0.0);
   const MappingState right = TornAt(walk, GnssWalk::kImages, 0.0);
-  MappingState fooled = right;
-  for (const uint32_t image : {6U, 7U}) fooled.SetPose(image, walk.Further(image, 5.0));
-  MappingState remade(walk.Fixture().world.problem, walk.Fixture().graph);
-  for (const ImageSlot image : fooled.Registered())
-    remade.Register(image, fooled.CamFromWorld(image));
-  for (const ImageSlot image : remade.Registered()) TriangulateImage(remade, image, TrackLimits{});
-  EXPECT_FALSE(IsLikedByGnss(remade, right, {}));
-  EXPECT_TRUE(IsBetterModel(right, remade, {}));
+  const MappingState fooled = Slid(walk, 6, 8, 5.0);
+  EXPECT_FALSE(IsLikedByGnss(fooled, right, {}));
+  EXPECT_TRUE(IsBetterModel(right, fooled, {}));
 }
 
 TEST(IsLikedByGnss, WhereMoreImagesAreBorneOutAsWell) {
-  GnssWalk walk;
-  const auto part = [&walk](ImageSlot end) {
-    MappingState state(walk.Fixture().world.problem, walk.Fixture().graph);
-    for (ImageSlot image = 0; image < end; ++image) state.Register(image, walk.InModel(image));
-    return state;
-  };
-  const MappingState all = part(GnssWalk::kImages);
-  const MappingState most = part(10);
+  const GnssWalk walk;
+  const MappingState all = Part(walk, GnssWalk::kImages);
+  const MappingState most = Part(walk, 10);
   EXPECT_TRUE(IsLikedByGnss(all, most, {}));
   EXPECT_FALSE(IsLikedByGnss(most, all, {}));
   EXPECT_FALSE(IsLikedByGnss(TornAt(walk, 7, 40.0), most, {}));

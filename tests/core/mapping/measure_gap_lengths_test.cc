@@ -219,11 +219,7 @@ TEST(GapLengths, ThereAreNoneOfNoModel) {
 /// With positions as they are, stated to so many metres.
 std::vector<GapLength> GapsWithGnss(double sigma_m, double torn_by_m) {
   TornStreet street;
-  for (uint32_t i = 0; i < kImages; ++i) {
-    PosePrior& prior = street.Fixture().world.problem.images[i].prior;
-    prior.position_in_enu = TornStreet::Centre(i);
-    prior.horizontal_sigma_m = prior.vertical_sigma_m = sigma_m;
-  }
+  street.GivePositions(1, 0.0, sigma_m);
   const MappingState state = Torn(street, torn_by_m);
   const AskedRays asked(state, {});
   const GnssWays gnss(state, 4.0 * kMatchTolerance);
@@ -241,13 +237,7 @@ TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
 
 TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
   TornStreet street;
-  Random random(3);
-  for (uint32_t i = 0; i < kImages; ++i) {
-    PosePrior& prior = street.Fixture().world.problem.images[i].prior;
-    prior.position_in_enu =
-        TornStreet::Centre(i) + 3.0 * Eigen::Vector3d(random.Normal(), random.Normal(), 0.0);
-    prior.horizontal_sigma_m = prior.vertical_sigma_m = 3.0;
-  }
+  street.GivePositions(3, 3.0, 3.0);
   const MappingState state = street.Right();
   const AskedRays asked(state, {});
   const GnssWays gnss(state, 4.0 * kMatchTolerance);

@@ -21,15 +21,7 @@ constexpr ImageSlot kLast = 7;
 /// along, and their pairs with all others be fooled.
 class FooledStreet {
  public:
-  FooledStreet() {
-    Random random(5);
-    for (uint32_t i = 0; i < kImages; ++i) {
-      PosePrior& prior = street_.Fixture().world.problem.images[i].prior;
-      prior.position_in_enu =
-          TornStreet::Centre(i) + 0.5 * Eigen::Vector3d(random.Normal(), random.Normal(), 0.0);
-      prior.horizontal_sigma_m = prior.vertical_sigma_m = 0.5;
-    }
-  }
+  FooledStreet() { street_.GivePositions(5, 0.5, 0.5); }
 
   /// Their pairs with the nearest others have more wrong matches than right ones, which say so.
   void Fool() {

@@ -27,6 +27,17 @@ class TornStreet {
   [[nodiscard]] static Eigen::Vector3d Centre(ImageSlot image) { return Centres()[image]; }
   [[nodiscard]] MappingState Right() const { return fixture_.StateWith(FirstImages(kImages)); }
 
+  /// Positions of GNSS, `error_m` off and stated to `sigma_m`.
+  void GivePositions(uint64_t seed, double error_m, double sigma_m) {
+    Random random(seed);
+    for (uint32_t i = 0; i < kImages; ++i) {
+      PosePrior& prior = fixture_.world.problem.images[i].prior;
+      prior.position_in_enu =
+          Centre(i) + error_m * Eigen::Vector3d(random.Normal(), random.Normal(), 0.0);
+      prior.horizontal_sigma_m = prior.vertical_sigma_m = sigma_m;
+    }
+  }
+
   static void Move(ImageSlot image, const Eigen::Vector3d& by, MappingState& state) {
     const Rigid3 pose = state.CamFromWorld(image);
     state.SetPose(image, Rigid3::FromCentre(pose.rotation, pose.Centre() + by));
