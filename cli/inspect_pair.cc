@@ -70,7 +70,7 @@ Rigid3 SecondFromFirst(const PairFacts& facts) {
 /// Of the second image's centre seen from the first, when the geometry tells.
 std::optional<Vector3d> Baseline(const PairFacts& facts) {
   const TwoViewKind kind = facts.inspection.geometry.kind;
-  if (kind != TwoViewKind::kGeneral && kind != TwoViewKind::kPlanar) return std::nullopt;
+  if (!HasBaseline(kind)) return std::nullopt;
   return SecondFromFirst(facts).Centre().normalized();
 }
 

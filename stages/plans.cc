@@ -46,8 +46,8 @@ constexpr double kUsualRounds = 26.0;
 constexpr uint32_t kMostRounds = 11 * (2 * 1000 + 1) + 1;
 /// The same of reviews, each a round, and the first.
 constexpr uint32_t kMostReviews = 11;
-/// The first pairs, those after them, the reserve.
-constexpr uint32_t kMostMatchings = 3;
+/// The first pairs, those after them, the reserve, those matched again.
+constexpr uint32_t kMostMatchings = 4;
 
 /// What a model is made from.
 struct VerifiedImages {

@@ -11,13 +11,14 @@ namespace {
 
 /// Sections 3 to 5 of the paper; docs/benchmarks.md says what each stands for. A stage that learns
 /// something the paper does not have gets a line here that turns it off.
-constexpr std::array<std::string_view, 20> kPaper = {
+constexpr std::array<std::string_view, 21> kPaper = {
     "mapping.preset=paper",
     "features.max_features=8192",
     "features.facades=off",
     "pairs.gnss_max_neighbours=10000",
     "pairs.gnss_min_neighbours=0",
     "pairs.first_neighbours=0",
+    "pairs.predict=false",
     "retrieval.num_neighbours=0",
     "matching.guided=false",
     "two_view.solver=eight_point",

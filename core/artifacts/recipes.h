@@ -4,11 +4,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/digest.h"
 #include "core/scene/ids.h"
+#include "core/scene/predicted_pose.h"
 
 /// A recipe names everything one part of a stage reads, by digest: it is the whole input of a task,
 /// so its own digest names the task, and an unchanged part of a changed job is not computed again.
@@ -40,6 +42,7 @@ struct MatchRecipe {
     ImagePair pair{};
     /// Putative matches given from outside (a database); empty: match descriptors.
     std::vector<FeatureMatch> matches{};
+    std::optional<PredictedPose> predicted{};  ///< the pair is matched again, under this rotation
   };
   std::vector<FeatureFile> images{};  ///< of all images in `pairs`, sorted
   std::vector<Pair> pairs{};          ///< sorted

@@ -94,7 +94,7 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
                                              std::span<const Vector3d> bearings_a,
                                              std::span<const Vector3d> bearings_b,
                                              std::span<const FeatureMatch> matches,
-                                             MatchOrder order,
+                                             const TwoViewHints& hints,
                                              double max_error_rad,
                                              const TwoViewOptions& options,
                                              const StageContext& context) {
@@ -102,17 +102,18 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
   if (matches.size() < static_cast<size_t>(options.min_inliers)) return geometry;
   const BearingPairs pairs = ArrangePairs(bearings_a, bearings_b, matches, context.seed);
   ORBWEAVE_ASSIGN_OR_RETURN(const auto best,
-                            FindRelativePose(pairs, order, max_error_rad, options, context));
+                            FindRelativePose(pairs, hints, max_error_rad, options, context));
   if (!best) return geometry;
   const ResolvedPose candidate =
       RefineToConvergence(pairs, ResolveCheirality(pairs, *best, max_error_rad), max_error_rad);
   if (!IsSupported(candidate.inliers.size(), matches.size(), options)) return geometry;
+  if (hints.predicted && !hints.predicted->AgreesWith(candidate.b_from_a)) return geometry;
 
   ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict,
                             Classify(pairs, candidate, max_error_rad, context));
   if (!IsSupported(verdict.inliers.Size(), matches.size(), options)) return geometry;
   geometry.log10_false_alarms =
-      EvidenceOf(pairs, verdict.b_from_a, max_error_rad).log10_false_alarms;
+      EvidenceOf(pairs, verdict.b_from_a, max_error_rad, hints.Sample()).log10_false_alarms;
   if (geometry.log10_false_alarms > options.max_log10_false_alarms) return geometry;
   geometry.kind = verdict.kind;
   geometry.b_from_a = verdict.b_from_a;
@@ -149,11 +150,11 @@ struct PairView {
   double max_error_rad = 0.0;
   const TwoViewOptions& options;
   const StageContext& context;
-  MatchOrder order = MatchOrder::kUnknown;  ///< of all matches that are passed
+  const TwoViewHints& hints;  ///< the order is that of all matches that are passed
 
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> From(std::span<const FeatureMatch> matches) const {
     return EstimateFrom(
-        pair, bearings_a, bearings_b, matches, order, max_error_rad, options, context);
+        pair, bearings_a, bearings_b, matches, hints, max_error_rad, options, context);
   }
 
   /// Whether what has moved is the scene, and what has not the carrier: it covers more of the
@@ -180,7 +181,7 @@ struct PairView {
       return !std::ranges::binary_search(sky, match);
     });
     const double evidence_of_all =
-        EvidenceOf(Arranged(rest), all.b_from_a, max_error_rad).log10_false_alarms;
+        EvidenceOf(Arranged(rest), all.b_from_a, max_error_rad, hints.Sample()).log10_false_alarms;
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry scene, From(rest));
     const bool is_scene =
         scene.kind != TwoViewKind::kNone && !ShowsTheCarrierAlone(scene, max_error_rad);
@@ -225,7 +226,8 @@ struct PairView {
     std::ranges::copy_if(matches, std::back_inserter(scene), [&](const FeatureMatch& match) {
       return !MayBeSky(match, geometry);
     });
-    return EvidenceOf(Arranged(scene), geometry.b_from_a, max_error_rad).log10_false_alarms;
+    return EvidenceOf(Arranged(scene), geometry.b_from_a, max_error_rad, hints.Sample())
+        .log10_false_alarms;
   }
 
   [[nodiscard]] BearingPairs Arranged(std::span<const FeatureMatch> matches) const {
@@ -322,8 +324,8 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
                                                 double max_error_rad,
                                                 const TwoViewOptions& options,
                                                 const StageContext& context,
-                                                MatchOrder order) {
-  const PairView view{pair, bearings_a, bearings_b, max_error_rad, options, context, order};
+                                                const TwoViewHints& hints) {
+  const PairView view{pair, bearings_a, bearings_b, max_error_rad, options, context, hints};
   const auto num_putative = static_cast<uint32_t>(matches.size());
   const MatchesByMotion split = SplitByMotion(bearings_a, bearings_b, matches, max_error_rad);
   if (static_cast<double>(split.fixed.size()) >= kNotedShare * static_cast<double>(num_putative)) {

@@ -7,7 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/base/stage_context.h"
-#include "core/estimators/match_order.h"
+#include "core/estimators/two_view_hints.h"
 #include "core/estimators/two_view_options.h"
 #include "core/scene/two_view_geometry.h"
 
@@ -28,8 +28,8 @@ namespace orbweave {
 /// found in any number.
 /// `bearings_a`, `bearings_b`: unit bearings of all features of the two images, in their camera
 /// frames; `matches` index into them. Returns kind kNone (and num_putative) when no geometry is
-/// supported. Cancelled when asked to stop. `context.seed` seeds the sampler. With `order`
-/// kBestFirst few right matches among many wrong ones are found.
+/// supported. Cancelled when asked to stop. `context.seed` seeds the sampler. With the order
+/// kBestFirst, and with a predicted pose, few right matches among many wrong ones are found.
 [[nodiscard]] absl::StatusOr<TwoViewGeometry> EstimateTwoView(
     ImagePair pair,
     std::span<const Eigen::Vector3d> bearings_a,
@@ -38,6 +38,6 @@ namespace orbweave {
     double max_error_rad,
     const TwoViewOptions& options,
     const StageContext& context,
-    MatchOrder order = MatchOrder::kUnknown);
+    const TwoViewHints& hints = {});
 
 }  // namespace orbweave

@@ -4,6 +4,7 @@
 #include "core/estimators/find_rival_direction.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -11,8 +12,8 @@
 #include "core/base/random.h"
 #include "core/estimators/bearing_pairs.h"
 #include "core/estimators/two_view_inliers.h"
-#include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
+#include "core/geometry/turned_two_point.h"
 
 namespace orbweave {
 namespace {
@@ -37,19 +38,6 @@ std::vector<FeatureMatch> MovedElsewise(std::span<const Vector3d> bearings_a,
   return moved;
 }
 
-/// The pose with rotation R whose epipolar planes hold both pairs, and that has the first in front.
-std::optional<Rigid3> PoseOf(const BearingPairs& pairs,
-                             size_t first,
-                             size_t second,
-                             const Eigen::Quaterniond& R) {
-  const Vector3d plane = (R * pairs.A(first)).cross(pairs.B(first));
-  const Vector3d direction = plane.cross((R * pairs.A(second)).cross(pairs.B(second)));
-  if (direction.norm() == 0.0) return std::nullopt;
-  const Rigid3 pose{R, direction.normalized()};
-  if (IsInFrontOfBoth(pose, pairs.A(first), pairs.B(first))) return pose;
-  return Rigid3{R, -pose.translation};
-}
-
 }  // namespace
 
 MatchEvidence FindRivalDirection(std::span<const Vector3d> bearings_a,
@@ -68,7 +56,9 @@ MatchEvidence FindRivalDirection(std::span<const Vector3d> bearings_a,
   for (int trial = 0; trial < kTrials; ++trial) {
     const uint32_t first = random.Index(static_cast<uint32_t>(pairs.Size()));
     const uint32_t second = random.Index(static_cast<uint32_t>(pairs.Size()));
-    const std::optional<Rigid3> pose = PoseOf(pairs, first, second, geometry.b_from_a.rotation);
+    const std::array a = {pairs.A(first), pairs.A(second)};
+    const std::array b = {pairs.B(first), pairs.B(second)};
+    const std::optional<Rigid3> pose = SolveTurnedTwoPoint(geometry.b_from_a.rotation, a, b);
     if (!pose || AngleBetween(pose->translation, geometry.b_from_a.translation) < kOneDirection_rad)
       continue;
     const size_t agreeing = InliersOf(pairs, *pose, max_error_rad).size();

@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr size_t kPoseSample = 5;
 constexpr size_t kRotationSample = 2;
 using internal::kNumErrors;
 /// Exchanged matches at most: the share of chance is then known to a tenth where it is a hundredth.
@@ -35,8 +34,11 @@ class PoseTest {
  public:
   PoseTest(const std::vector<PlacePairs::Match>& matches,
            const Rigid3& b_from_a,
-           double max_error_rad)
-      : has_baseline_(!b_from_a.translation.isZero()), size_(matches.size()) {
+           double max_error_rad,
+           size_t sample)
+      : has_baseline_(!b_from_a.translation.isZero()),
+        sample_(has_baseline_ ? sample : kRotationSample),
+        size_(matches.size()) {
     for (size_t e = 0; e < kNumErrors; ++e) {
       errors_rad_[e] = max_error_rad / std::exp2(e);
       const double sine = std::sin(errors_rad_[e]);
@@ -50,7 +52,7 @@ class PoseTest {
   }
 
   [[nodiscard]] double Error(size_t e) const { return errors_rad_[e]; }
-  [[nodiscard]] size_t Sample() const { return has_baseline_ ? kPoseSample : kRotationSample; }
+  [[nodiscard]] size_t Sample() const { return sample_; }
 
   /// The i-th match of one panorama with the (i + shift)-th of the other, shift below their number.
   [[nodiscard]] internal::ErrorCounts Count(size_t shift) const {
@@ -85,6 +87,7 @@ class PoseTest {
   }
 
   bool has_baseline_;
+  size_t sample_;
   size_t size_;
   std::array<double, kNumErrors> errors_rad_{};
   internal::ErrorLimits limits_{};
@@ -113,11 +116,14 @@ Exchanged CountExchanged(size_t n, const PoseTest& test) {
 
 }  // namespace
 
-MatchEvidence EvidenceOf(const BearingPairs& pairs, const Rigid3& b_from_a, double max_error_rad) {
+MatchEvidence EvidenceOf(const BearingPairs& pairs,
+                         const Rigid3& b_from_a,
+                         double max_error_rad,
+                         size_t sample) {
   const std::vector<PlacePairs::Match> matches = IndependentMatches(pairs);
   MatchEvidence evidence{.max_error_rad = max_error_rad,
                          .num_matches = static_cast<uint32_t>(matches.size())};
-  const PoseTest test(matches, b_from_a, max_error_rad);
+  const PoseTest test(matches, b_from_a, max_error_rad, sample);
   if (matches.size() <= test.Sample()) return evidence;
   const internal::ErrorCounts found = test.Count(0);
   const Exchanged exchanged = CountExchanged(matches.size(), test);
@@ -138,11 +144,11 @@ MatchEvidence EvidenceOf(const BearingPairs& pairs, const Rigid3& b_from_a, doub
 
 double SmallestTellingShare(size_t num_matches,
                             double max_error_rad,
-                            double max_log10_false_alarms) {
+                            double max_log10_false_alarms,
+                            size_t sample) {
   const double chance = 0.5 * std::sin(max_error_rad / std::exp2(kNumErrors - 1));
-  for (size_t k = kPoseSample + 1; k < num_matches; ++k) {
-    if (Log10FalseAlarms(num_matches, k, kPoseSample, chance, kNumErrors) <=
-        max_log10_false_alarms) {
+  for (size_t k = sample + 1; k < num_matches; ++k) {
+    if (Log10FalseAlarms(num_matches, k, sample, chance, kNumErrors) <= max_log10_false_alarms) {
       return static_cast<double>(k) / static_cast<double>(num_matches);
     }
   }

@@ -14,6 +14,7 @@
 #include "core/geometry/eight_point.h"
 #include "core/geometry/essential.h"
 #include "core/geometry/five_point.h"
+#include "core/geometry/turned_two_point.h"
 #include "core/geometry/upright_three_point.h"
 #include "core/robust/ransac.h"
 
@@ -27,6 +28,7 @@ constexpr int kMinTrials = 30;  // nearly planar scenes have two good models: bo
 
 struct FivePointSolver {
   static constexpr size_t kSampleSize = 5;
+  static constexpr size_t kEvidence = kPoseSample;
   static void Solve(std::span<const Vector3d, 5> a,
                     std::span<const Vector3d, 5> b,
                     std::vector<Rigid3>& poses) {
@@ -36,6 +38,7 @@ struct FivePointSolver {
 
 struct EightPointSolver {
   static constexpr size_t kSampleSize = 8;
+  static constexpr size_t kEvidence = kPoseSample;
   static void Solve(std::span<const Vector3d, 8> a,
                     std::span<const Vector3d, 8> b,
                     std::vector<Rigid3>& poses) {
@@ -45,10 +48,25 @@ struct EightPointSolver {
 
 struct UprightThreePointSolver {
   static constexpr size_t kSampleSize = 3;
+  static constexpr size_t kEvidence = kPoseSample;
   static void Solve(std::span<const Vector3d, 3> a,
                     std::span<const Vector3d, 3> b,
                     std::vector<Rigid3>& poses) {
     for (const Rigid3& pose : SolveUprightThreePoint(a, b)) poses.push_back(pose);
+  }
+};
+
+/// Baselines that lead where they are not predicted are none.
+struct TurnedTwoPointSolver {
+  static constexpr size_t kSampleSize = 2;
+  static constexpr size_t kEvidence = kTurnedSample;
+  const PredictedPose& predicted;
+
+  void Solve(std::span<const Vector3d, 2> a,
+             std::span<const Vector3d, 2> b,
+             std::vector<Rigid3>& poses) const {
+    const std::optional<Rigid3> pose = SolveTurnedTwoPoint(predicted.rotation, a, b);
+    if (pose && predicted.AgreesWith(*pose)) poses.push_back(*pose);
   }
 };
 
@@ -58,8 +76,11 @@ class TwoViewEstimator {
   static constexpr size_t kSampleSize = Solver::kSampleSize;
   using Model = Rigid3;
 
-  TwoViewEstimator(const BearingPairs& pairs, MatchOrder order, double max_error_rad)
-      : pairs_(pairs), max_error_rad_(max_error_rad) {
+  TwoViewEstimator(const Solver& solver,
+                   const BearingPairs& pairs,
+                   MatchOrder order,
+                   double max_error_rad)
+      : solver_(solver), pairs_(pairs), max_error_rad_(max_error_rad) {
     if (order == MatchOrder::kUnknown) return;
     best_first_.resize(pairs.Size());
     for (uint32_t i = 0; i < pairs.Size(); ++i) best_first_[pairs.order[i]] = i;
@@ -76,7 +97,7 @@ class TwoViewEstimator {
       a[k] = pairs_.A(sample[k]);
       b[k] = pairs_.B(sample[k]);
     }
-    Solver::Solve(a, b, models);
+    solver_.Solve(a, b, models);
   }
 
   /// Inliers on the wrong side count as outliers, for the best of the four poses. This is looked at
@@ -100,21 +121,24 @@ class TwoViewEstimator {
   }
 
  private:
+  const Solver& solver_;
   const BearingPairs& pairs_;
   std::vector<uint32_t> best_first_{};
   double max_error_rad_;
 };
 
 template <typename Solver>
-absl::StatusOr<std::optional<Rigid3>> Find(const BearingPairs& pairs,
+absl::StatusOr<std::optional<Rigid3>> Find(const Solver& solver,
+                                           const BearingPairs& pairs,
                                            MatchOrder order,
                                            double max_error_rad,
                                            const TwoViewOptions& options,
                                            const StageContext& context) {
-  const TwoViewEstimator<Solver> estimator(pairs, order, max_error_rad);
+  const TwoViewEstimator<Solver> estimator(solver, pairs, order, max_error_rad);
   const double telling_share =
       std::max(options.min_inlier_share,
-               SmallestTellingShare(pairs.Size(), max_error_rad, options.max_log10_false_alarms));
+               SmallestTellingShare(
+                   pairs.Size(), max_error_rad, options.max_log10_false_alarms, Solver::kEvidence));
   const RansacOptions ransac = {
       .confidence = options.confidence,
       .min_trials = kMinTrials,
@@ -130,19 +154,23 @@ absl::StatusOr<std::optional<Rigid3>> Find(const BearingPairs& pairs,
 }  // namespace
 
 absl::StatusOr<std::optional<Rigid3>> FindRelativePose(const BearingPairs& pairs,
-                                                       MatchOrder order,
+                                                       const TwoViewHints& hints,
                                                        double max_error_rad,
                                                        const TwoViewOptions& options,
                                                        const StageContext& context) {
+  const auto find = [&](const auto& solver) {
+    return Find(solver, pairs, hints.order, max_error_rad, options, context);
+  };
+  if (hints.predicted) return find(TurnedTwoPointSolver{*hints.predicted});
   switch (options.solver) {
     case TwoViewSolver::kEightPoint:
-      return Find<EightPointSolver>(pairs, order, max_error_rad, options, context);
+      return find(EightPointSolver{});
     case TwoViewSolver::kUprightThreePoint:
-      return Find<UprightThreePointSolver>(pairs, order, max_error_rad, options, context);
+      return find(UprightThreePointSolver{});
     case TwoViewSolver::kFivePoint:
       break;
   }
-  return Find<FivePointSolver>(pairs, order, max_error_rad, options, context);
+  return find(FivePointSolver{});
 }
 
 }  // namespace orbweave

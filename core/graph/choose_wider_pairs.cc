@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/graph/disjoint_sets.h"
+#include "core/graph/predict_pairs.h"
 #include "core/scene/places_in_drives.h"
 
 namespace orbweave {
@@ -140,6 +141,16 @@ void DecideAboutReserve(const ImageManifest& manifest,
   std::ranges::sort(wider.reserve);
 }
 
+void DecideAboutPredicted(const ImageManifest& manifest,
+                          const PairCandidates& candidates,
+                          std::span<const MatchedPair> matched,
+                          WiderPairs& wider) {
+  Pairs tried = candidates.first;
+  for (const Pairs* pairs : {&wider.second, &wider.reserve})
+    tried.insert(tried.end(), pairs->begin(), pairs->end());
+  wider.predicted = PredictPairs(tried, matched, manifest.images.size());
+}
+
 }  // namespace
 
 WiderPairs ChooseWiderPairs(const ImageManifest& manifest,
@@ -156,6 +167,11 @@ WiderPairs ChooseWiderPairs(const ImageManifest& manifest,
   if (wider.decisions == 1) {
     wider.decisions = 2;
     DecideAboutReserve(manifest, candidates, matched, options, wider);
+    if (!wider.reserve.empty()) return wider;
+  }
+  if (wider.decisions == 2) {
+    wider.decisions = 3;
+    if (options.predict) DecideAboutPredicted(manifest, candidates, matched, wider);
   }
   return wider;
 }

@@ -23,7 +23,10 @@ namespace orbweave {
 /// those of small parts that verified pairs hold together: what was held back of theirs is matched
 /// after all, and the reserve.
 ///
-/// Both look at what is found alone, so equal findings give equal decisions. Memory is
+/// At last about pairs that were matched and not verified, where others predict how their cameras
+/// are turned (PredictPairs, pairs.predict): they are matched again.
+///
+/// All look at what is found alone, so equal findings give equal decisions. Memory is
 /// linear in the candidates, time but for sorting them and the pairs of pairs of an image.
 [[nodiscard]] WiderPairs ChooseWiderPairs(const ImageManifest& manifest,
                                           const PairCandidates& candidates,

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kTurnsOtherwise_rad = std::numbers::pi / 3.0;
 
-bool HasDirection(const ViewEdge& edge) {
-  return edge.kind == TwoViewKind::kGeneral || edge.kind == TwoViewKind::kPlanar;
-}
-
 MotionEdge MotionOf(const std::vector<ViewEdge>& edges, uint32_t e, const PlacesInDrives& places) {
   return {.edge = e,
           .a = edges[e].pair.a.value,
@@ -38,7 +34,7 @@ EdgeStep StepTo(double azimuth_rad, const ViewEdge& edge) {
 std::optional<EdgeStep> StepByGnss(const ViewEdge& edge, const ImageManifest& manifest) {
   const PosePrior& a = manifest.At(edge.pair.a).prior;
   const PosePrior& b = manifest.At(edge.pair.b).prior;
-  if (!HasDirection(edge) || !a.position_in_enu || !b.position_in_enu) return std::nullopt;
+  if (!HasBaseline(edge.kind) || !a.position_in_enu || !b.position_in_enu) return std::nullopt;
   const Eigen::Vector3d step_m = *b.position_in_enu - *a.position_in_enu;
   EdgeStep step = StepTo(std::atan2(step_m.x(), step_m.y()), edge);
   step.distance_m = DistanceBetween(a, b);
@@ -70,7 +66,7 @@ std::vector<MotionEdge> MotionEdgesAlongWay(const std::vector<ViewEdge>& edges,
   std::vector<MotionEdge> motions;
   for (uint32_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e].pair;
-    if (!HasDirection(edges[e]) || !IsInSequence(edges[e].pair, places)) continue;
+    if (!HasBaseline(edges[e].kind) || !IsInSequence(edges[e].pair, places)) continue;
     const bool is_onward = places.PlaceOf(a) < places.PlaceOf(b);
     motions.push_back(MotionOf(edges, e, places));
     motions.back().step = StepTo(is_onward ? 0.0 : std::numbers::pi, edges[e]);

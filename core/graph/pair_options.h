@@ -16,6 +16,7 @@ struct PairOptions {
   double similar_gate_sigmas = 3.0;
   int first_neighbours = 3;
   int thin_below = 4;
+  bool predict = true;
 
   template <typename Self, typename Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -56,6 +57,9 @@ struct PairOptions {
           self.thin_below,
           "images with fewer verified pairs get twice the candidates (0: none do)",
           Range{0, 10000});
+    visit("predict",
+          self.predict,
+          "pairs that show nothing are matched again where two others say how they are turned");
   }
 };
 

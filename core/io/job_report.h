@@ -186,6 +186,7 @@ struct ReportWiderPairs {
   uint64_t second = 0;       ///< pairs of which no strong chain told enough
   uint64_t held_back = 0;    ///< pairs of one drive, not matched: a strong chain joins their images
   uint64_t reserve = 0;      ///< pairs of images with few others
+  uint64_t predicted = 0;    ///< pairs matched again, under what others predict of them
   uint64_t thin_images = 0;  ///< these images
 };
 

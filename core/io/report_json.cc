@@ -247,6 +247,7 @@ std::string ReportJson(const JobReport& report) {
   json["wider_pairs"] = {{"second", report.wider_pairs.second},
                          {"held_back", report.wider_pairs.held_back},
                          {"reserve", report.wider_pairs.reserve},
+                         {"predicted", report.wider_pairs.predicted},
                          {"thin_images", report.wider_pairs.thin_images}};
   json["checks"] = Checks(report);
   json["gnss"] = Gnss(report.gnss);

@@ -90,9 +90,7 @@ bool TellMotion(const ClusterProblem& problem, TwoViewGeometry& pair) {
 }  // namespace
 
 std::optional<ClusterProblem> FindSmallMotions(const ClusterProblem& problem) {
-  const auto is_motion = [](const TwoViewGeometry& pair) {
-    return pair.kind == TwoViewKind::kGeneral || pair.kind == TwoViewKind::kPlanar;
-  };
+  const auto is_motion = [](const TwoViewGeometry& pair) { return HasBaseline(pair.kind); };
   if (std::ranges::any_of(problem.pairs, is_motion)) return std::nullopt;
   ClusterProblem told = problem;
   size_t num_told = 0;

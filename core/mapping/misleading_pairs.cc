@@ -48,7 +48,7 @@ std::optional<ImageSlot> MisleadingPairs::At(ImageSlot image, int places_on) con
 bool MisleadingPairs::LeadsBack(uint32_t pair) const {
   const LinkedPair& link = state_.Graph().pairs[pair];
   const TwoViewGeometry& geometry = state_.Problem().pairs[link.index];
-  if (geometry.kind != TwoViewKind::kGeneral && geometry.kind != TwoViewKind::kPlanar) return false;
+  if (!HasBaseline(geometry.kind)) return false;
   const bool is_forward = place_[link.a] < place_[link.b];
   const auto [first, last] = is_forward ? std::pair(link.a, link.b) : std::pair(link.b, link.a);
   if (At(first, 1) != last && At(first, kNeighbours) != last) return false;

@@ -8,6 +8,7 @@
 #include "core/base/quantile.h"
 #include "core/merging/estimate_gravity.h"
 #include "core/merging/find_gravity.h"
+#include "core/merging/turn_to_headings.h"
 
 namespace orbweave {
 namespace {
@@ -44,8 +45,11 @@ Sim3 ChooseLocalFrame(const Reconstruction& reconstruction, const ImageManifest&
   if (centres.empty()) return local_from_world;
   const double step = MedianStep(centres);
   if (step > 0.0) local_from_world.scale = 1.0 / step;
-  if (const auto down = EstimateGravity(reconstruction, manifest))
-    local_from_world.rotation = UprightFromDown(down->down_in_world);
+  if (const auto down = EstimateGravity(reconstruction, manifest)) {
+    const Eigen::Quaterniond upright = UprightFromDown(down->down_in_world);
+    const double turn = TurnToHeadings(reconstruction, upright, manifest).value_or(0.0);
+    local_from_world.rotation = Eigen::AngleAxisd(-turn, Eigen::Vector3d::UnitZ()) * upright;
+  }
   local_from_world.translation =
       MedianGnss(reconstruction, manifest) - local_from_world * centres.front();
   return local_from_world;

@@ -17,6 +17,7 @@
 #include "core/merging/check_attitudes.h"
 #include "core/merging/check_drive_motion.h"
 #include "core/merging/check_gnss.h"
+#include "core/merging/check_missed_points.h"
 #include "core/merging/check_sequence_steps.h"
 #include "core/merging/choose_local_frame.h"
 #include "core/merging/global_problem.h"
@@ -151,9 +152,11 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   const SeamCertifier certifier = CertifierOf(adjusted, seams);
   SupportsOfSubproblems supports;
   std::vector<Eigen::Vector3d> points_about;
+  std::vector<SeenBetween> seen_between;
   for (const SubproblemInspection& inspection : adjusted.inspections) {
     supports.push_back(inspection.supports);
     std::ranges::copy(inspection.points_about, std::back_inserter(points_about));
+    std::ranges::copy(inspection.seen_between, std::back_inserter(seen_between));
   }
   SupportVerdicts verdicts = JudgeSupports(supports);
   AssessedWorld assessed =
@@ -187,6 +190,7 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   const std::map<ImageId, RegisteredImage> images = ModelImages(world);
   world.report.checks.push_back(CheckSequenceSteps(images, manifest, is_in_metres));
   if (is_in_metres) world.report.checks.push_back(CheckDriveMotion(images, manifest));
+  world.report.checks.push_back(CheckMissedPoints(seen_between, images, manifest));
   std::ranges::move(CheckAttitudes(images, manifest), std::back_inserter(world.report.checks));
   return world;
 }

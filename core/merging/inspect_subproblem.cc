@@ -158,6 +158,7 @@ SubproblemInspection InspectSubproblem(const Subproblem& subproblem, int num_thr
                                   .supports = SupportOf(subproblem),
                                   .correlation = CorrelationOf(subproblem)};
   inspection.points_about = PointsAboutPanoramas(subproblem);
+  inspection.seen_between = CountSeenBetween(subproblem);
   AddBearings(subproblem, num_threads, inspection);
   const auto held = std::ranges::find_if(subproblem.images, &SubproblemImage::is_held);
   if (held != subproblem.images.end()) inspection.held = held->id;

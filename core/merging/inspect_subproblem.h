@@ -7,6 +7,7 @@
 
 #include "core/merging/image_support.h"
 #include "core/merging/place_by_sides.h"
+#include "core/merging/seen_between.h"
 #include "core/merging/track_correlation.h"
 #include "core/partitioned_ba/separator_system.h"
 #include "core/partitioned_ba/subproblem.h"
@@ -32,6 +33,7 @@ struct SubproblemInspection {
   std::vector<PatchSupport> supports{};         ///< SupportOf
   TrackCorrelation correlation{};               ///< of tracks that this subproblem has for itself
   std::vector<Eigen::Vector3d> points_about{};  ///< PointsAboutPanoramas
+  std::vector<SeenBetween> seen_between{};      ///< CountSeenBetween
 };
 
 /// For AssessWorld and SeamCertifier. Same bytes for any `num_threads`.

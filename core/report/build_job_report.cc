@@ -175,6 +175,7 @@ ReportWiderPairs WiderPairsRow(const WiderPairs& wider) {
   return {.second = wider.second.size(),
           .held_back = wider.num_held_back,
           .reserve = wider.reserve.size(),
+          .predicted = wider.predicted.size(),
           .thin_images = wider.num_thin_images};
 }
 

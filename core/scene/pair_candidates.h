@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene/ids.h"
+#include "core/scene/predicted_pose.h"
 #include "core/scene/two_view_geometry.h"
 
 namespace orbweave {
@@ -31,16 +32,18 @@ struct MatchedPair {
   uint32_t num_moved = 0;  ///< inliers that moved by more than a rotation explains
   double log10_false_alarms = 0.0;
   MatchRung rung = MatchRung::kDescriptors;
-  friend bool operator==(const MatchedPair&, const MatchedPair&) = default;
+  Rigid3 b_from_a{};  ///< as of TwoViewGeometry
 };
 
 /// Pairs to match beside the first ones, as far as that is decided. Lists are sorted.
 struct WiderPairs {
-  uint32_t decisions = 0;            ///< 1: about the second ones; 2: about the reserve too
-  std::vector<ImagePair> second{};   ///< of PairCandidates::second
-  std::vector<ImagePair> reserve{};  ///< of PairCandidates::reserve, or held back before
-  uint32_t num_held_back = 0;        ///< second ones between images that a strong chain joins
-  uint32_t num_thin_images = 0;      ///< those that `reserve` is for
+  /// 1: about the second ones; 2: about the reserve too; 3: about those to match again.
+  uint32_t decisions = 0;
+  std::vector<ImagePair> second{};         ///< of PairCandidates::second
+  std::vector<ImagePair> reserve{};        ///< of PairCandidates::reserve, or held back before
+  std::vector<PredictedPair> predicted{};  ///< of all that were matched and not verified
+  uint32_t num_held_back = 0;              ///< second ones between images that a strong chain joins
+  uint32_t num_thin_images = 0;            ///< those that `reserve` is for
 };
 
 }  // namespace orbweave

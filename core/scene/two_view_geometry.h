@@ -21,6 +21,11 @@ enum class TwoViewKind : uint8_t {
   kPlanar = 3,        ///< general, but nearly all inliers lie on one plane
 };
 
+/// Whether a pair of this kind says where one camera lies from the other.
+[[nodiscard]] constexpr bool HasBaseline(TwoViewKind kind) {
+  return kind == TwoViewKind::kGeneral || kind == TwoViewKind::kPlanar;
+}
+
 /// How the matches of a pair were found: the rungs of a ladder, each tried where those before it
 /// find no evidence.
 enum class MatchRung : uint8_t {
@@ -30,8 +35,9 @@ enum class MatchRung : uint8_t {
   kGuided = 3,       ///< too little by themselves; what they predict was found along the planes
   kLargest = 4,      ///< tried first: as kDescriptors, of the features of the largest scales alone
   kFacades = 5,      ///< with nearest descriptors of facade views, of any orientation or upright
+  kPropagated = 6,   ///< matched again under the rotation that two other pairs predict
 };
-constexpr size_t kNumMatchRungs = 6;
+constexpr size_t kNumMatchRungs = 7;
 
 template <>
 struct EnumNames<MatchRung> {
@@ -41,7 +47,8 @@ struct EnumNames<MatchRung> {
        {MatchRung::kUpright, "upright_samples"},
        {MatchRung::kGuided, "predicted_matches"},
        {MatchRung::kLargest, "largest_features"},
-       {MatchRung::kFacades, "facades"}}};
+       {MatchRung::kFacades, "facades"},
+       {MatchRung::kPropagated, "propagated"}}};
 };
 
 /// What two panoramas say about each other.

@@ -16,6 +16,7 @@
 namespace orbweave {
 namespace {
 
+using SeenBetweenBytes = std::array<uint32_t, 3>;
 using CorrelationBytes = std::array<double, TrackCorrelation::kLengths>;
 
 void ToProto(const std::vector<SidePlacement>& placements, v1::SubproblemInspection* proto) {
@@ -161,6 +162,10 @@ absl::StatusOr<std::string> EncodeSubproblemInspection(const SubproblemInspectio
   for (const Eigen::Vector3d& point : inspection.points_about)
     points_about.push_back(codec::ToArray(point));
   proto.set_points_about(codec::Pack(points_about));
+  std::vector<SeenBetweenBytes> seen_between;
+  for (const SeenBetween& count : inspection.seen_between)
+    seen_between.push_back({count.image.value, count.asked, count.seen});
+  proto.set_seen_between(codec::Pack(seen_between));
   return codec::Serialize(proto, "block inspection");
 }
 
@@ -187,6 +192,13 @@ absl::StatusOr<SubproblemInspection> DecodeSubproblemInspection(std::string_view
     if (!codec::IsPoint(point))
       return absl::DataLossError("block inspection: a point is not a number");
     inspection.points_about.push_back(point);
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto seen_between,
+                            codec::Unpack<SeenBetweenBytes>(proto.seen_between(), "seen between"));
+  for (const auto& [image, asked, seen] : seen_between) {
+    if (asked == 0 || seen > asked)
+      return absl::DataLossError("block inspection: more seen than asked for");
+    inspection.seen_between.push_back({ImageId(image), asked, seen});
   }
   return inspection;
 }

@@ -6,6 +6,7 @@
 
 #include "proto/codec/pack.h"
 #include "proto/codec/plausible.h"
+#include "proto/codec/predicted_pose_message.h"
 
 namespace orbweave {
 namespace {
@@ -47,14 +48,15 @@ absl::StatusOr<std::string> EncodeMatchedPairs(const std::vector<MatchedPair>& p
   std::vector<uint32_t> moved;
   std::vector<double> evidence;
   std::vector<uint8_t> rungs;
+  v1::MatchedPairs proto;
   for (const MatchedPair& pair : pairs) {
     names.push_back(pair.pair);
     kinds.push_back(static_cast<uint8_t>(pair.kind));
     moved.push_back(pair.num_moved);
     evidence.push_back(pair.log10_false_alarms);
     rungs.push_back(static_cast<uint8_t>(pair.rung));
+    codec::ToProto(pair.b_from_a, proto.add_poses());
   }
-  v1::MatchedPairs proto;
   proto.set_pairs(codec::Pack(names));
   proto.set_kinds(codec::Pack(kinds));
   proto.set_num_moved(codec::Pack(moved));
@@ -88,13 +90,18 @@ absl::StatusOr<std::vector<MatchedPair>> DecodeMatchedPairs(std::string_view byt
       "unknown kind"));
   ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
       std::ranges::all_of(evidence, codec::IsNumber), kWhat, "evidence is no number"));
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      static_cast<size_t>(proto.poses_size()) == names.size(), kWhat, "not one pose for each"));
   std::vector<MatchedPair> pairs;
-  for (size_t i = 0; i < names.size(); ++i)
-    pairs.push_back({names[i],
-                     static_cast<TwoViewKind>(kinds[i]),
-                     moved[i],
-                     evidence[i],
-                     static_cast<MatchRung>(rungs[i])});
+  for (size_t i = 0; i < names.size(); ++i) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Rigid3 pose,
+                              codec::FromProto(proto.poses(static_cast<int>(i))));
+    const auto kind = static_cast<TwoViewKind>(kinds[i]);
+    ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+        !HasBaseline(kind) || codec::IsDirection(pose.translation), kWhat, "a pose leads nowhere"));
+    pairs.push_back(
+        {names[i], kind, moved[i], evidence[i], static_cast<MatchRung>(rungs[i]), pose});
+  }
   return pairs;
 }
 
@@ -105,6 +112,12 @@ absl::StatusOr<std::string> EncodeWiderPairs(const WiderPairs& wider) {
   proto.set_reserve(codec::Pack(wider.reserve));
   proto.set_num_held_back(wider.num_held_back);
   proto.set_num_thin_images(wider.num_thin_images);
+  std::vector<ImagePair> predicted;
+  for (const PredictedPair& pair : wider.predicted) {
+    predicted.push_back(pair.pair);
+    codec::ToProto(pair.pose, proto.add_predicted_poses());
+  }
+  proto.set_predicted(codec::Pack(predicted));
   return codec::Serialize(proto, "wider pairs", codec::Empty::kIsLegal);
 }
 
@@ -117,6 +130,16 @@ absl::StatusOr<WiderPairs> DecodeWiderPairs(std::string_view bytes) {
                    .num_thin_images = proto.num_thin_images()};
   ORBWEAVE_ASSIGN_OR_RETURN(wider.second, PairsFrom(proto.second(), kWhat));
   ORBWEAVE_ASSIGN_OR_RETURN(wider.reserve, PairsFrom(proto.reserve(), kWhat));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto predicted, PairsFrom(proto.predicted(), kWhat));
+  ORBWEAVE_RETURN_IF_ERROR(
+      codec::Expect(static_cast<size_t>(proto.predicted_poses_size()) == predicted.size(),
+                    kWhat,
+                    "not one predicted pose for each"));
+  for (size_t i = 0; i < predicted.size(); ++i) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const PredictedPose pose,
+                              codec::FromProto(proto.predicted_poses(static_cast<int>(i))));
+    wider.predicted.push_back({predicted[i], pose});
+  }
   return wider;
 }
 

@@ -7,6 +7,7 @@
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
 #include "proto/codec/plausible.h"
+#include "proto/codec/predicted_pose_message.h"
 
 namespace orbweave {
 namespace {
@@ -112,6 +113,7 @@ absl::StatusOr<std::string> EncodeMatchRecipe(const MatchRecipe& recipe) {
     out->set_a(pair.pair.a.value);
     out->set_b(pair.pair.b.value);
     out->set_matches(codec::Pack(pair.matches));
+    if (pair.predicted) codec::ToProto(*pair.predicted, out->mutable_predicted());
   }
   return codec::Serialize(proto, "match recipe");
 }
@@ -124,6 +126,9 @@ absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
   for (const v1::MatchRecipe::Pair& in : proto.pairs()) {
     MatchRecipe::Pair pair{.pair = {ImageId(in.a()), ImageId(in.b())}};
     ORBWEAVE_ASSIGN_OR_RETURN(pair.matches, codec::Unpack<FeatureMatch>(in.matches(), "matches"));
+    if (in.has_predicted()) {
+      ORBWEAVE_ASSIGN_OR_RETURN(pair.predicted, codec::FromProto(in.predicted()));
+    }
     if (!ListsPair(recipe.images, pair.pair)) {
       return absl::DataLossError("match recipe: a pair out of order or without its images");
     }

@@ -11,7 +11,7 @@ namespace orbweave {
 /// One subproblem and a request -> its answer; see SteerAdjustmentStage. The subproblems that a
 /// process works on stay in it (SubproblemCache).
 struct AdjustBlockStage {
-  static constexpr StageFacts kFacts{.name = "adjust_block", .version = "5", .weight = 9.0};
+  static constexpr StageFacts kFacts{.name = "adjust_block", .version = "6", .weight = 9.0};
   using Options = OptionSections<GlobalAdjustOptions, BundleOptions>;
 
   Parts<SubproblemTask> request;

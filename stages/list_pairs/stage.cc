@@ -28,13 +28,22 @@ absl::Status ListPairsStage::Run(StageTask<ListPairsStage>& task) {
   for (const std::vector<ImagePair>* pairs : {&wider.second, &wider.reserve})
     ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, num_images));
   size_t count = 0;
+  const auto leave = [&](std::vector<MatchRecipe::Pair> listed) {
+    count += listed.size();
+    return task.LeaveAll(&Outputs::runs,
+                         PlanMatching(std::move(listed), features.first, kPairsPerTask));
+  };
   for (const std::vector<ImagePair>* pairs : {&candidates.first, &wider.second, &wider.reserve}) {
     std::vector<MatchRecipe::Pair> listed;
-    for (const ImagePair& pair : *pairs) listed.push_back({pair, {}});
-    count += listed.size();
-    ORBWEAVE_RETURN_IF_ERROR(task.LeaveAll(
-        &Outputs::runs, PlanMatching(std::move(listed), features.first, kPairsPerTask)));
+    for (const ImagePair& pair : *pairs) listed.push_back({.pair = pair});
+    ORBWEAVE_RETURN_IF_ERROR(leave(std::move(listed)));
   }
+  std::vector<MatchRecipe::Pair> again;
+  for (const PredictedPair& predicted : wider.predicted) {
+    ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers({&predicted.pair, 1}, num_images));
+    again.push_back({.pair = predicted.pair, .predicted = predicted.pose});
+  }
+  ORBWEAVE_RETURN_IF_ERROR(leave(std::move(again)));
   task.Report(nlohmann::json{{"pairs", count}}.dump());
   return absl::OkStatus();
 }

@@ -13,7 +13,7 @@ namespace orbweave {
 /// The first candidates, and those asked for since -> all of them in runs (PlanMatching). A run of
 /// an earlier round is the same recipe again, whose result is known.
 struct ListPairsStage {
-  static constexpr StageFacts kFacts{.name = "list_pairs", .version = "1", .weight = 0.1};
+  static constexpr StageFacts kFacts{.name = "list_pairs", .version = "2", .weight = 0.1};
   using Options = OptionSections<>;
 
   One<PairCandidates> candidates;

@@ -105,7 +105,7 @@ absl::StatusOr<PairInspection> InspectPair(ImagePair pair,
   } else {
     ORBWEAVE_ASSIGN_OR_RETURN(
         inspection.geometry,
-        MatchImagePair(pair, a, b, given, match_options, two_view_options, context));
+        MatchImagePair(pair, a, b, {given}, match_options, two_view_options, context));
   }
   inspection.verdict = PairVerdict::kVerified;
   if (inspection.geometry.kind == TwoViewKind::kNone) {

@@ -70,10 +70,6 @@ double ShareOf(const TwoViewGeometry& geometry) {
   return static_cast<double>(geometry.inliers.size()) / geometry.num_putative;
 }
 
-bool HasEpipolarPlanes(const TwoViewGeometry& geometry) {
-  return geometry.kind == TwoViewKind::kGeneral || geometry.kind == TwoViewKind::kPlanar;
-}
-
 /// The rungs of the ladder for one pair.
 struct PairMatcher {
   ImagePair pair{};
@@ -82,20 +78,15 @@ struct PairMatcher {
   const MatchOptions& match_options;
   const TwoViewOptions& two_view_options;
   const StageContext& context;
+  const TwoViewHints& hints;
   std::vector<RatedMatch> of_facades{};  ///< beside those of the panoramas themselves
 
   [[nodiscard]] double MaxError() const { return MaxErrorRad(a, b, two_view_options.max_error_px); }
 
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> Verify(const std::vector<FeatureMatch>& best_first,
                                                        const TwoViewOptions& options) const {
-    return EstimateTwoView(pair,
-                           a.bearings,
-                           b.bearings,
-                           best_first,
-                           MaxError(),
-                           options,
-                           context,
-                           MatchOrder::kBestFirst);
+    return EstimateTwoView(
+        pair, a.bearings, b.bearings, best_first, MaxError(), options, context, hints);
   }
 
   /// The geometry that the largest features show beyond doubt, by themselves or by what it predicts
@@ -169,8 +160,8 @@ struct PairMatcher {
     TwoViewOptions any = two_view_options;
     any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kWorthALook);
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry best, Verify(matches, any));
-    best.rung = MatchRung::kDescriptors;
-    if (IsEvident(best) || any.solver != TwoViewSolver::kFivePoint) return best;
+    best.rung = hints.predicted ? MatchRung::kPropagated : MatchRung::kDescriptors;
+    if (hints.predicted || IsEvident(best) || any.solver != TwoViewSolver::kFivePoint) return best;
     any.solver = TwoViewSolver::kUprightThreePoint;
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry upright, Verify(matches, any));
     upright.rung = MatchRung::kUpright;
@@ -189,13 +180,13 @@ struct PairMatcher {
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> Confirm(const TwoViewGeometry& geometry,
                                                         const NearestTwoBothWays* nearest) const {
     const TwoViewGeometry nothing{.pair = pair, .num_putative = geometry.num_putative};
-    if (!HasEpipolarPlanes(geometry) || !match_options.guided)
+    if (!HasBaseline(geometry.kind) || !match_options.guided)
       return IsEvident(geometry) ? geometry : nothing;
     const PredictedMatches predicted = Predict(geometry, nearest, !IsEvident(geometry));
     TwoViewGeometry confirmed = geometry;
     confirmed.log10_false_alarms += predicted.log10_chance;
     if (!IsEvident(geometry)) {
-      confirmed.rung = MatchRung::kGuided;
+      if (!hints.predicted) confirmed.rung = MatchRung::kGuided;
       confirmed.log10_false_alarms += kDoubtOfPredictions;
       if (!IsEvident(confirmed)) return nothing;
     }
@@ -235,7 +226,7 @@ struct PairMatcher {
     std::ranges::copy(matcher.of_facades, std::back_inserter(all));
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, matcher.Climb(std::move(all)));
     if (geometry.kind == TwoViewKind::kNone || !IsBorneOut(geometry, matches)) return nothing;
-    geometry.rung = MatchRung::kFacades;
+    if (!hints.predicted) geometry.rung = MatchRung::kFacades;
     return matcher.Confirm(geometry, &nearest);
   }
 
@@ -245,8 +236,17 @@ struct PairMatcher {
     for (const RatedMatch& one : rated) matches.push_back(one.match);
     return EvidenceOf(ArrangePairs(a.bearings, b.bearings, matches, context.seed),
                       geometry.b_from_a,
-                      MaxError())
+                      MaxError(),
+                      hints.Sample())
                .log10_false_alarms <= kWorthALook;
+  }
+
+  /// None where refinement has led away from what is predicted: to what drives along, or the sky.
+  [[nodiscard]] TwoViewGeometry AsPredicted(const TwoViewGeometry& geometry) const {
+    if (!hints.predicted || geometry.kind == TwoViewKind::kNone) return geometry;
+    if (HasBaseline(geometry.kind) && hints.predicted->AgreesWith(geometry.b_from_a))
+      return geometry;
+    return {.pair = pair, .num_putative = geometry.num_putative};
   }
 
   [[nodiscard]] bool IsEvident(const TwoViewGeometry& geometry) const {
@@ -260,21 +260,22 @@ struct PairMatcher {
 absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
                                                const PairSide& a,
                                                const PairSide& b,
-                                               const std::vector<FeatureMatch>& given,
+                                               const GivenPair& given,
                                                const MatchOptions& match_options,
                                                const TwoViewOptions& two_view_options,
                                                const StageContext& context) {
-  const PairMatcher matcher{pair, a, b, match_options, two_view_options, context};
-  if (!given.empty()) {
+  const TwoViewHints hints{.order = MatchOrder::kBestFirst, .predicted = given.predicted};
+  const PairMatcher matcher{pair, a, b, match_options, two_view_options, context, hints};
+  if (!given.matches.empty()) {
     return EstimateTwoView(
-        pair, a.bearings, b.bearings, given, matcher.MaxError(), two_view_options, context);
+        pair, a.bearings, b.bearings, given.matches, matcher.MaxError(), two_view_options, context);
   }
   if (a.features.descriptors.empty() || b.features.descriptors.empty()) {
     return TwoViewGeometry{.pair = pair};
   }
   GrowingNearest growing(a, b);
   const bool have_facades = a.HasFacades() && b.HasFacades();
-  if (!have_facades) {
+  if (!have_facades && !given.predicted) {
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry first, matcher.FromLargest(growing));
     if (first.kind != TwoViewKind::kNone) return first;
   }
@@ -283,10 +284,11 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
   const std::vector<RatedMatch> matches = matcher.Rated(nearest);
   if (have_facades) {
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.ByFacades(matches, nearest));
-    if (geometry.kind != TwoViewKind::kNone) return geometry;
+    if (geometry.kind != TwoViewKind::kNone) return matcher.AsPredicted(geometry);
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.Climb(matches));
-  return matcher.Confirm(geometry, &nearest);
+  ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry confirmed, matcher.Confirm(geometry, &nearest));
+  return matcher.AsPredicted(confirmed);
 }
 
 MatchedPair WithoutMatches(const TwoViewGeometry& geometry,
@@ -297,7 +299,8 @@ MatchedPair WithoutMatches(const TwoViewGeometry& geometry,
           .kind = geometry.kind,
           .num_moved = CountMoved(geometry, a, b, MaxErrorRad(a, b, two_view_options.max_error_px)),
           .log10_false_alarms = geometry.log10_false_alarms,
-          .rung = geometry.rung};
+          .rung = geometry.rung,
+          .b_from_a = geometry.b_from_a};
 }
 
 }  // namespace orbweave

@@ -63,7 +63,7 @@ absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
                               MatchImagePair(pair.pair,
                                              a.side,
                                              b.side,
-                                             pair.matches,
+                                             {pair.matches, pair.predicted},
                                              match_options,
                                              two_view_options,
                                              PairContext(context, a, b)));

@@ -34,6 +34,10 @@ absl::StatusOr<std::vector<MatchedPair>> CollectMatched(size_t num_images, Task&
   return all;
 }
 
+size_t CountListed(const WiderPairs& wider) {
+  return wider.second.size() + wider.reserve.size() + wider.predicted.size();
+}
+
 }  // namespace
 
 absl::Status SelectWiderPairsStage::Run(StageTask<SelectWiderPairsStage>& task) {
@@ -49,11 +53,12 @@ absl::Status SelectWiderPairsStage::Run(StageTask<SelectWiderPairsStage>& task) 
   const WiderPairs wider =
       ChooseWiderPairs(manifest, candidates, matched, before, task.options<PairOptions>());
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::wider, wider).status());
-  if (wider.second.size() + wider.reserve.size() > before.second.size() + before.reserve.size())
+  if (CountListed(wider) > CountListed(before))
     ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::another_round, wider));
   task.Report(nlohmann::json{{"second", wider.second.size()},
                              {"held_back", wider.num_held_back},
                              {"reserve", wider.reserve.size()},
+                             {"predicted", wider.predicted.size()},
                              {"thin_images", wider.num_thin_images}}
                   .dump());
   return absl::OkStatus();

@@ -13,7 +13,7 @@ namespace orbweave {
 /// What the pairs so far have shown -> which others to match too (ChooseWiderPairs). As long as
 /// there are any, another round begins.
 struct SelectWiderPairsStage {
-  static constexpr StageFacts kFacts{.name = "select_wider_pairs", .version = "2", .weight = 0.1};
+  static constexpr StageFacts kFacts{.name = "select_wider_pairs", .version = "4", .weight = 0.1};
   using Options = OptionSections<PairOptions>;
 
   One<ImageManifest> manifest;

@@ -14,7 +14,7 @@ namespace orbweave {
 /// -> what to ask the subproblems next (AdvanceAdjustment). Worlds smaller than
 /// blocks.distribute_from are adjusted here and now, by the same steps (AdjustSubproblems).
 struct SteerAdjustmentStage {
-  static constexpr StageFacts kFacts{.name = "steer_adjustment", .version = "4", .weight = 1.0};
+  static constexpr StageFacts kFacts{.name = "steer_adjustment", .version = "5", .weight = 1.0};
   using Options = OptionSections<GlobalAdjustOptions, BundleOptions, DistributionOptions>;
 
   One<std::vector<JoinedWorld>> worlds;

@@ -96,7 +96,8 @@ void AddAdjustmentSeeds(Seeds& seeds) {
            .held = ImageId(0),
            .placements = {{.image = ImageId(2), .cluster = 3, .num_points = 7}},
            .supports = {{.image = ImageId(2), .patch = 5, .observations = 8, .equations = 16}},
-           .points_about = {{1, 2, 3}}})
+           .points_about = {{1, 2, 3}},
+           .seen_between = {{.image = ImageId(2), .asked = 60, .seen = 20}}})
           .value()};
   AdjustmentProgress progress{.worlds = {{.phase = 1, .report = SmallReport()}}, .is_asked = {1}};
   progress.worlds[0].path.separators_of_subproblem = {SmallSystem().variables};

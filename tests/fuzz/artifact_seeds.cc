@@ -59,12 +59,15 @@ void AddViewGraph(Seeds& seeds) {
   const std::vector<ImagePair> pairs = {{ImageId(0), ImageId(3)}, {ImageId(1), ImageId(2)}};
   seeds["pair_candidates"] = {
       EncodePairCandidates({.first = pairs, .second = pairs, .reserve = pairs}).value()};
-  seeds["matched_pairs"] = {EncodeMatchedPairs({{pairs[0], TwoViewKind::kGeneral, 70, -130.5},
-                                                {pairs[1], TwoViewKind::kPureRotation, 0, -8.0}})
-                                .value()};
+  const Rigid3& pose = pair.b_from_a;
+  seeds["matched_pairs"] = {
+      EncodeMatchedPairs({{.pair = pairs[0], .kind = TwoViewKind::kGeneral, .b_from_a = pose},
+                          {.pair = pairs[1], .kind = TwoViewKind::kPureRotation}})
+          .value()};
   seeds["wider_pairs"] = {EncodeWiderPairs({.decisions = 2,
                                             .second = pairs,
                                             .reserve = pairs,
+                                            .predicted = {{pairs[0], PredictPose(pose, pose)}},
                                             .num_held_back = 5,
                                             .num_thin_images = 1})
                               .value()};

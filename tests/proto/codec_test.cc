@@ -193,6 +193,14 @@ TEST(RecipesCodec, RoundTrip) {
   ASSERT_TRUE(match_out.ok()) << match_out.status();
   EXPECT_EQ(match_out->images[0].features, digest);
   EXPECT_EQ(match_out->pairs[0].matches, match.pairs[0].matches);
+  EXPECT_FALSE(match_out->pairs[0].predicted.has_value());
+  MatchRecipe again = match;
+  again.pairs[0].predicted = PredictedPose{.last = Eigen::Vector3d::UnitZ()};
+  const auto again_out = DecodeMatchRecipe(EncodeMatchRecipe(again).value());
+  ASSERT_TRUE(again_out.ok()) << again_out.status();
+  ASSERT_TRUE(again_out->pairs[0].predicted.has_value());
+  EXPECT_EQ(again_out->pairs[0].predicted->first, Eigen::Vector3d::UnitX());
+  EXPECT_EQ(again_out->pairs[0].predicted->last, Eigen::Vector3d::UnitZ());
 
   const ClusterRecipe cluster{.cluster = 3,
                               .images = match.images,

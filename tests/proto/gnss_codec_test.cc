@@ -62,6 +62,19 @@ TEST(JoinedWorldsCodec, RefusesErrorsThatAreNoNumbers) {
   }
 }
 
+TEST(SubproblemInspectionCodec, CarriesWhatPanoramasBetweenOthersSee) {
+  SubproblemInspection inspection;
+  inspection.seen_between = {{ImageId(2), 80, 41}, {ImageId(7), 1, 0}};
+  const auto decoded = DecodeSubproblemInspection(EncodeSubproblemInspection(inspection).value());
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  ASSERT_EQ(decoded->seen_between.size(), 2U);
+  EXPECT_EQ(decoded->seen_between[0].image, ImageId(2));
+  EXPECT_EQ(decoded->seen_between[0].asked, 80U);
+  EXPECT_EQ(decoded->seen_between[0].seen, 41U);
+  inspection.seen_between[1].seen = 2;
+  EXPECT_FALSE(DecodeSubproblemInspection(EncodeSubproblemInspection(inspection).value()).ok());
+}
+
 TEST(SubproblemInspectionCodec, CarriesPointsAboutPanoramas) {
   SubproblemInspection inspection;
   inspection.points_about = {{1.0, 2.0, 3.0}, {-4.0, 5.0, -6.0}};

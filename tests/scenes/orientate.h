@@ -54,7 +54,7 @@ inline std::vector<TwoViewGeometry> Verify(const Corridor& corridor) {
     const uint32_t a = pair.pair.a.value;
     const uint32_t b = pair.pair.b.value;
     const StageContext context{.seed = Random((uint64_t{a} << 32) | b).Next()};
-    auto geometry = MatchImagePair(pair.pair, sides[a], sides[b], pair.matches, {}, {}, context);
+    auto geometry = MatchImagePair(pair.pair, sides[a], sides[b], {pair.matches}, {}, {}, context);
     EXPECT_TRUE(geometry.ok()) << geometry.status();
     if (geometry.ok()) geometries.push_back(*std::move(geometry));
   }

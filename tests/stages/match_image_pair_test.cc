@@ -160,6 +160,41 @@ TEST(MatchImagePair, DoesNotBelieveFacadesAlone) {
   EXPECT_EQ(geometry->kind, TwoViewKind::kNone);
 }
 
+/// The chain of two pairs over a panorama half way.
+PredictedPose PredictedOf(const Sides& sides) {
+  const Rigid3 half = Rigid3::FromCentre(sides.b_from_a.rotation, 0.5 * sides.b_from_a.Centre());
+  return PredictPose(half, sides.b_from_a * half.Inverse());
+}
+
+absl::StatusOr<TwoViewGeometry> MatchAsPredicted(const Sides& sides, const PredictedPose& pose) {
+  return MatchImagePair(
+      kPair, PairSide(sides.a), PairSide(sides.b), {.predicted = pose}, {}, {}, {.seed = 1});
+}
+
+TEST(MatchImagePair, FindsUnderAPredictedTurnWhatSamplesOfFiveDoNot) {
+  const Sides sides = MakeSides(8, {.large = 26, .small = 0, .alike = 600});
+  const auto alone =
+      MatchImagePair(kPair, PairSide(sides.a), PairSide(sides.b), {}, {}, {}, {.seed = 1});
+  EXPECT_EQ(alone->kind, TwoViewKind::kNone);
+  const auto geometry = MatchAsPredicted(sides, PredictedOf(sides));
+  ASSERT_TRUE(geometry.ok()) << geometry.status();
+  EXPECT_EQ(geometry->kind, TwoViewKind::kGeneral);
+  EXPECT_EQ(geometry->rung, MatchRung::kPropagated);
+  EXPECT_LT(testing::RotationError(geometry->b_from_a.rotation, sides.b_from_a.rotation),
+            0.3 * kDegree);
+  EXPECT_LE(geometry->log10_false_alarms, TwoViewOptions().max_log10_false_alarms);
+}
+
+/// What is predicted is no evidence.
+TEST(MatchImagePair, BelievesNoPredictionThatMatchesDoNotBearOut) {
+  const Sides alike = MakeSides(9, {.large = 3, .small = 0, .alike = 600});
+  EXPECT_EQ(MatchAsPredicted(alike, PredictedOf(alike))->kind, TwoViewKind::kNone);
+  const Sides sides = MakeSides(1, {.large = 80, .small = 600});
+  PredictedPose wrong = PredictedOf(sides);
+  wrong.first = wrong.last = -wrong.last;
+  EXPECT_EQ(MatchAsPredicted(sides, wrong)->kind, TwoViewKind::kNone);
+}
+
 TEST(MatchImagePair, NeedsFacadesOfBoth) {
   Sides sides = MakeSides(1, {.large = 80, .small = 600});
   AddFacades(sides, 7, 160);

@@ -57,7 +57,7 @@ JobPlan MatchingPlan() {
                                  .candidates = job.candidates,
                                  .matched = matched.matched,
                                  .before = RoundBefore(wider)});
-  plan.RepeatFrom<ListPairsStage>(1.0, 3);
+  plan.RepeatFrom<ListPairsStage>(1.0, 4);
   return std::move(plan).Finish();
 }
 
@@ -122,6 +122,8 @@ class Matching {
     return Reader().List(&MatchImagesStage::Outputs::verified).value().size();
   }
   [[nodiscard]] const PairCandidates& candidates() const { return candidates_; }
+  /// Pairs that came with what others predict of them.
+  [[nodiscard]] const Pairs& again() const { return again_; }
   /// How often a task was done.
   [[nodiscard]] const std::multiset<Digest>& matchings() const { return matchings_; }
 
@@ -132,6 +134,7 @@ class Matching {
     std::vector<TwoViewGeometry> verified;
     std::vector<MatchedPair> matched;
     for (const MatchRecipe::Pair& pair : recipe.pairs) {
+      if (pair.predicted) again_.push_back(pair.pair);
       MatchedPair found = find_(pair.pair);
       if (found.kind == TwoViewKind::kNone) continue;
       found.pair = pair.pair;
@@ -150,9 +153,15 @@ class Matching {
   JobSpec job_{};
   std::vector<TaskOutcome> outcomes_{};
   std::multiset<Digest> matchings_{};
+  Pairs again_{};
 };
 
-MatchedPair Strong(const ImagePair&) { return {{}, TwoViewKind::kGeneral, 300, -400.0}; }
+MatchedPair Strong(const ImagePair&) {
+  return {.kind = TwoViewKind::kGeneral,
+          .num_moved = 300,
+          .log10_false_alarms = -400.0,
+          .b_from_a = {Eigen::Quaterniond::Identity(), -Eigen::Vector3d::UnitX()}};
+}
 
 Pairs Together(const std::vector<Pairs>& runs) {
   Pairs all;
@@ -193,6 +202,18 @@ TEST(MatchingRounds, ListTheFirstPairsFirstAndEveryPairOnce) {
                                  std::span(all).last(matching.Wider().reserve.size())));
   std::ranges::sort(all);
   EXPECT_EQ(std::ranges::adjacent_find(all), all.end());
+}
+
+TEST(MatchingRounds, MatchAgainUnderWhatOtherPairsPredict) {
+  Matching matching([](const ImagePair& pair) {
+    return pair.b.value - pair.a.value == 1 ? Strong(pair) : MatchedPair{};
+  });
+  matching.Run();
+  ASSERT_EQ(matching.again().size(), kImages - 2);
+  EXPECT_EQ(matching.Wider().predicted.size(), kImages - 2);
+  const std::vector<Pairs> runs = matching.Runs();
+  EXPECT_EQ(matching.matchings().size(), runs.size());
+  EXPECT_EQ(runs.back().back(), matching.again().back()) << "they come last";
 }
 
 TEST(MatchingRounds, ComputeNoTaskTwice) {

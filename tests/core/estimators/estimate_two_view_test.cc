@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/estimators/two_view_options.h"
+#include "core/geometry/rotation.h"
 #include "core/synthetic/make_street.h"
 #include "tests/support/random_world.h"
 
@@ -121,7 +122,7 @@ int CountFound(double outlier_share, double largest_of_right, MatchOrder order) 
                                           kMaxErrorRad,
                                           {},
                                           {.seed = seed},
-                                          order);
+                                          {.order = order});
     EXPECT_TRUE(geometry.ok()) << geometry.status();
     if (geometry->kind != TwoViewKind::kGeneral) continue;
     EXPECT_LT(RotationError(geometry->b_from_a.rotation, world.b_from_a.rotation), 1e-2) << seed;
@@ -137,6 +138,55 @@ TEST(EstimateTwoView, FindsFewRightMatchesAmongTheBest) {
 
 TEST(EstimateTwoView, IsNotMisledByAnOrderThatIsWrong) {
   EXPECT_EQ(CountFound(0.7, 3.0, MatchOrder::kBestFirst), 8);
+}
+
+/// A chain over a panorama somewhere between the two of a world, and as far again aside.
+PredictedPose PredictedOf(const TwoViewWorld& world, double off_rad) {
+  Random random(9);
+  const Vector3d to_b = world.b_from_a.Centre();
+  const Vector3d m = 0.4 * to_b + 0.2 * to_b.cross(RandomDirection(random)).normalized();
+  const Rigid3 m_from_a = Rigid3::FromCentre(RandomRotation(random), m);
+  PredictedPose predicted = PredictPose(m_from_a, world.b_from_a * m_from_a.Inverse());
+  predicted.rotation = predicted.rotation * RotationFromVector(off_rad * RandomDirection(random));
+  return predicted;
+}
+
+TwoViewGeometry EstimateAsPredicted(const TwoViewWorld& world, const PredictedPose& predicted) {
+  const auto geometry = EstimateTwoView(kPair,
+                                        world.bearings_a,
+                                        world.bearings_b,
+                                        MatchesInOrder(world.bearings_a.size()),
+                                        kMaxErrorRad,
+                                        {},
+                                        {.seed = 1},
+                                        {.predicted = predicted});
+  EXPECT_TRUE(geometry.ok()) << geometry.status();
+  return *geometry;
+}
+
+TEST(EstimateTwoView, FindsFewRightMatchesWhereTheTurnIsPredicted) {
+  int without = 0;
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const TwoViewWorld world = MakeTwoViewWorld(seed, 800, 0.94, kSigmaRad);
+    without += Estimate(world).kind == TwoViewKind::kNone ? 0 : 1;
+    const TwoViewGeometry geometry =
+        EstimateAsPredicted(world, PredictedOf(world, 0.3 * kMaxErrorRad));
+    EXPECT_EQ(geometry.kind, TwoViewKind::kGeneral) << seed;
+    EXPECT_LT(RotationError(geometry.b_from_a.rotation, world.b_from_a.rotation), 1e-2) << seed;
+    EXPECT_LT(DirectionError(geometry, world), 2e-2) << seed;
+  }
+  EXPECT_LE(without, 2);
+}
+
+TEST(EstimateTwoView, FindsNothingWhereWhatIsPredictedIsWrong) {
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const TwoViewWorld world = MakeTwoViewWorld(seed, 400, 0.5, kSigmaRad);
+    EXPECT_EQ(EstimateAsPredicted(world, PredictedOf(world, 1.0)).kind, TwoViewKind::kNone) << seed;
+    PredictedPose elsewhere = PredictedOf(world, 0.0);
+    elsewhere.first = -elsewhere.first;
+    elsewhere.last = elsewhere.first;
+    EXPECT_EQ(EstimateAsPredicted(world, elsewhere).kind, TwoViewKind::kNone) << seed;
+  }
 }
 
 struct Case {

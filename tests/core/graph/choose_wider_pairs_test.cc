@@ -30,7 +30,13 @@ ImageManifest ThereAndBack() {
   return manifest;
 }
 
-MatchedPair Strong(const ImagePair& pair) { return {pair, TwoViewKind::kGeneral, 300, -400.0}; }
+MatchedPair Strong(const ImagePair& pair) {
+  return {.pair = pair,
+          .kind = TwoViewKind::kGeneral,
+          .num_moved = 300,
+          .log10_false_alarms = -400.0,
+          .b_from_a = {Eigen::Quaterniond::Identity(), -Eigen::Vector3d::UnitX()}};
+}
 
 bool IsOfSequence(const ImagePair& pair) { return pair.b.value - pair.a.value <= 10; }
 
@@ -174,7 +180,7 @@ TEST(ChooseWiderPairs, DoesNotCareInWhichOrderPairsWereFound) {
 WiderPairs ChooseToTheEnd(const Street& street,
                           const std::function<MatchedPair(const ImagePair&)>& find) {
   WiderPairs wider;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 4; ++round) {
     Pairs pairs = street.candidates.first;
     pairs.insert(pairs.end(), wider.second.begin(), wider.second.end());
     pairs.insert(pairs.end(), wider.reserve.begin(), wider.reserve.end());
@@ -210,7 +216,6 @@ TEST(ChooseWiderPairs, OpensTheReserveOfThinImagesAlone) {
     return is_thin && !is_one_of_two ? MatchedPair{} : Strong(pair);
   };
   const WiderPairs wider = ChooseToTheEnd(street, joins_few);
-  EXPECT_EQ(wider.decisions, 2U);
   EXPECT_EQ(wider.num_thin_images, 1U);
   EXPECT_TRUE(Has(wider.reserve, 12, 12 + 15));
   EXPECT_TRUE(Has(wider.reserve, 12, 12 + 5));  // held back at first
@@ -232,6 +237,31 @@ TEST(ChooseWiderPairs, OpensTheReserveOfSmallParts) {
   EXPECT_FALSE(Has(wider.reserve, 20, 20 + 20));
 }
 
+/// Neighbours are joined, and a chain over the one between them predicts what is further apart.
+TEST(ChooseWiderPairs, MatchesAgainWhatOthersPredict) {
+  Street street;
+  const auto joins_neighbours = [](const ImagePair& pair) {
+    return pair.b.value - pair.a.value == 1 ? Strong(pair) : MatchedPair{};
+  };
+  const WiderPairs wider = ChooseToTheEnd(street, joins_neighbours);
+  EXPECT_EQ(wider.decisions, 3U);
+  ASSERT_EQ(wider.predicted.size(), kImages - 2);
+  for (const PredictedPair& predicted : wider.predicted) {
+    EXPECT_EQ(predicted.pair.b.value - predicted.pair.a.value, 2U);
+    EXPECT_TRUE(predicted.pose.AgreesWith(Strong(predicted.pair).b_from_a));
+  }
+  EXPECT_EQ(street.Choose({}, wider).predicted.size(), wider.predicted.size()) << "decided once";
+  PairOptions options = kOptions;
+  options.predict = false;
+  WiderPairs without{.decisions = 2, .second = wider.second, .reserve = wider.reserve};
+  without = ChooseWiderPairs(street.manifest,
+                             street.candidates,
+                             Match(street.candidates.first, joins_neighbours),
+                             without,
+                             options);
+  EXPECT_TRUE(without.predicted.empty());
+}
+
 TEST(ChooseWiderPairs, DecidesOnce) {
   const Street street;
   const WiderPairs wider = ChooseToTheEnd(street, [](const ImagePair&) { return MatchedPair{}; });
@@ -245,7 +275,7 @@ TEST(ChooseWiderPairs, DecidesOnce) {
 
 TEST(ChooseWiderPairs, AsksForNothingWhereThereIsNothing) {
   const WiderPairs wider = ChooseWiderPairs({}, {}, {}, {}, kOptions);
-  EXPECT_EQ(wider.decisions, 2U);
+  EXPECT_EQ(wider.decisions, 3U);
   EXPECT_TRUE(wider.second.empty());
   EXPECT_TRUE(wider.reserve.empty());
 }
