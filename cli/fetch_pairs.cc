@@ -11,6 +11,17 @@
 #include "stages/plans.h"
 
 namespace orbweave {
+namespace {
+
+/// What is matched again comes last.
+void KeepLastOfEach(std::vector<MatchRecipe::Pair>& tried) {
+  std::ranges::reverse(tried);
+  std::ranges::stable_sort(tried, {}, &MatchRecipe::Pair::pair);
+  const auto rest = std::ranges::unique(tried, {}, &MatchRecipe::Pair::pair);
+  tried.erase(rest.begin(), rest.end());
+}
+
+}  // namespace
 
 absl::StatusOr<JobPairs> FetchPairs(BlobAccess& coordinator,
                                     const JobSpec& job,
@@ -35,7 +46,7 @@ absl::StatusOr<JobPairs> FetchPairs(BlobAccess& coordinator,
       if (wanted(geometry.pair)) pairs.verified.push_back(std::move(geometry));
     }
   }
-  std::ranges::sort(pairs.tried, {}, &MatchRecipe::Pair::pair);
+  KeepLastOfEach(pairs.tried);
   std::ranges::sort(pairs.verified, {}, &TwoViewGeometry::pair);
   return pairs;
 }

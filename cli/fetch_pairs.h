@@ -12,8 +12,9 @@
 
 namespace orbweave {
 
-/// Pairs of a job: those that were to be tried, with matches that came from outside, and those of
-/// them that have a geometry; both sorted.
+/// Pairs of a job: those that were to be tried, each once, with matches that came from outside, and
+/// those of them that have a geometry; both sorted. Of a pair that was matched again the second
+/// time counts.
 struct JobPairs {
   std::vector<MatchRecipe::Pair> tried{};
   std::vector<TwoViewGeometry> verified{};

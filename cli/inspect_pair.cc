@@ -135,7 +135,10 @@ std::string VerdictText(const InspectedJob& job, const PairFacts& facts) {
   switch (inspection.verdict) {
     case PairVerdict::kVerified:
       return text + (facts.was_tried ? "verified, " : "would be verified, ") +
-             KindText(inspection.geometry.kind) + ": " + MatchesText(inspection);
+             KindText(inspection.geometry.kind) +
+             (inspection.geometry.rung == MatchRung::kPropagated ? ", as others predict it: "
+                                                                 : ": ") +
+             MatchesText(inspection);
     case PairVerdict::kRejected:
       return text + absl::StrFormat(
                         "not verified: the best geometry of %u matches has %u inliers, "

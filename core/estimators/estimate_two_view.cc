@@ -107,7 +107,6 @@ absl::StatusOr<TwoViewGeometry> EstimateFrom(ImagePair pair,
   const ResolvedPose candidate =
       RefineToConvergence(pairs, ResolveCheirality(pairs, *best, max_error_rad), max_error_rad);
   if (!IsSupported(candidate.inliers.size(), matches.size(), options)) return geometry;
-  if (hints.predicted && !hints.predicted->AgreesWith(candidate.b_from_a)) return geometry;
 
   ORBWEAVE_ASSIGN_OR_RETURN(const Verdict verdict,
                             Classify(pairs, candidate, max_error_rad, context));
@@ -331,11 +330,12 @@ absl::StatusOr<TwoViewGeometry> EstimateTwoView(ImagePair pair,
   if (static_cast<double>(split.fixed.size()) >= kNotedShare * static_cast<double>(num_putative)) {
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry moved, view.BelowSky(split.moved));
     moved.num_putative = num_putative;
-    if (moved.kind != TwoViewKind::kNone && view.IsTheScene(moved, split)) return moved;
+    const bool is_scene = moved.kind != TwoViewKind::kNone && hints.Allow(moved);
+    if (is_scene && view.IsTheScene(moved, split)) return moved;
   }
   ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, view.BelowSky(matches));
   ORBWEAVE_ASSIGN_OR_RETURN(geometry, view.BesidesPlane(std::move(geometry), matches));
-  if (ShowsTheCarrierAlone(geometry, max_error_rad)) {
+  if (ShowsTheCarrierAlone(geometry, max_error_rad) || !hints.Allow(geometry)) {
     return TwoViewGeometry{.pair = pair, .num_putative = num_putative};
   }
   return geometry;

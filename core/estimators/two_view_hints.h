@@ -7,6 +7,7 @@
 
 #include "core/estimators/match_evidence.h"
 #include "core/scene/predicted_pose.h"
+#include "core/scene/two_view_geometry.h"
 
 namespace orbweave {
 
@@ -22,6 +23,11 @@ struct TwoViewHints {
 
   /// Matches that a pose is found from (EvidenceOf).
   [[nodiscard]] size_t Sample() const { return predicted ? kTurnedSample : kPoseSample; }
+  /// Whether refinement has not led away from what is predicted, if anything is: to what drives
+  /// along, or the sky.
+  [[nodiscard]] bool Allow(const TwoViewGeometry& geometry) const {
+    return !predicted || (HasBaseline(geometry.kind) && predicted->AgreesWith(geometry.b_from_a));
+  }
 };
 
 }  // namespace orbweave

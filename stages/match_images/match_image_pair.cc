@@ -241,11 +241,9 @@ struct PairMatcher {
                .log10_false_alarms <= kWorthALook;
   }
 
-  /// None where refinement has led away from what is predicted: to what drives along, or the sky.
+  /// None where growth has led away from what is predicted.
   [[nodiscard]] TwoViewGeometry AsPredicted(const TwoViewGeometry& geometry) const {
-    if (!hints.predicted || geometry.kind == TwoViewKind::kNone) return geometry;
-    if (HasBaseline(geometry.kind) && hints.predicted->AgreesWith(geometry.b_from_a))
-      return geometry;
+    if (hints.Allow(geometry)) return geometry;
     return {.pair = pair, .num_putative = geometry.num_putative};
   }
 
