@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t kFewestAsked = 50;
 constexpr double kOfUsual = 0.125;
+constexpr double kLeastShare = 0.03;
 
 double ShareOf(const SeenBetween& count) {
   return static_cast<double>(count.seen) / static_cast<double>(count.asked);
@@ -50,7 +51,7 @@ CrossCheck CheckMissedPoints(const std::vector<SeenBetween>& counts,
   }
   std::vector<double> shares;
   for (const SeenBetween& count : summed) shares.push_back(ShareOf(count));
-  check.limit = kOfUsual * Quantile(shares, 0.5);
+  check.limit = std::max(kLeastShare, kOfUsual * Quantile(shares, 0.5));
   const SeenBetween& worst = *std::ranges::min_element(summed, {}, ShareOf);
   check.value = ShareOf(worst);
   if (check.IsWithinLimit()) {

@@ -48,6 +48,13 @@ TEST(CheckMissedPoints, NamesWhoSeesHardlyAnything) {
   EXPECT_THAT(check.sentence, HasSubstr("first 8.jpg: 3 of 308 points"));
 }
 
+TEST(CheckMissedPoints, IsNoneTheBetterForAllOthersSeeingAsLittle) {
+  Model model;
+  for (SeenBetween& count : model.counts) count.seen = 0;
+  EXPECT_EQ(model.Check().level, CheckLevel::kDoubtful);
+  EXPECT_THAT(model.Check().sentence, HasSubstr("12 of 12 panoramas"));
+}
+
 /// What several subproblems know of one panorama counts together.
 TEST(CheckMissedPoints, AddsWhatSubproblemsKnow) {
   Model model;
