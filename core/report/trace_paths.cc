@@ -21,6 +21,7 @@ namespace {
 
 constexpr size_t kFewestNearer = 3;
 constexpr size_t kMostNearer = 20;
+constexpr size_t kDisordered = 4;  // one of so many is not next to the next one
 constexpr double kStanding = 0.1;  // of a usual step, as in UsualStep
 constexpr size_t kSample = 500;    // images of a drive that are asked for all others
 
@@ -109,7 +110,8 @@ std::set<uint32_t> DrivesWithoutOrder(const ImageManifest& manifest, const std::
   for (const Leg& leg : legs) AskForOrder(leg, votes[leg.drive]);
   std::set<uint32_t> drives;
   for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    if (TimedAmong(manifest, sequence).empty() && 2 * votes[drive].against > votes[drive].asked)
+    if (TimedAmong(manifest, sequence).empty() &&
+        kDisordered * votes[drive].against > votes[drive].asked)
       drives.insert(drive);
   }
   return drives;

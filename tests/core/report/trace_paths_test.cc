@@ -99,6 +99,21 @@ TEST(TracePaths, AreNoneOfNamesInNoOrderWhoseStepsAreThoseToTheNearest) {
   }
 }
 
+/// As of places that a grid over a town picks: row by row across its streets, every third image is
+/// far from the next.
+TEST(TracePaths, AreNoneWhereNamesGoToAndFroBetweenStreets) {
+  std::vector<Eigen::Vector3d> places;
+  for (int row = 0; row < 50; ++row) {
+    for (const double street : {0.0, 120.0}) {
+      for (const double along : {0.0, 3.0, 6.0})
+        places.emplace_back(street, 9.0 * row + along, 0.0);
+    }
+  }
+  Job job(places);
+  EXPECT_THAT(job.Paths(), IsEmpty());
+  EXPECT_FALSE(job.model().is_in_order);
+}
+
 TEST(TracePaths, KeepTheOrderOfTimesHoweverItGoes) {
   Job job(Shuffled(Street(40), 1));
   for (uint32_t i = 0; i < 40; ++i) job.manifest.images[i].capture_time_s = i;
