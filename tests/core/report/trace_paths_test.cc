@@ -99,16 +99,21 @@ TEST(TracePaths, AreNoneOfNamesInNoOrderWhoseStepsAreThoseToTheNearest) {
   }
 }
 
-/// As of places that a grid over a town picks: row by row across its streets, every third image is
-/// far from the next.
-TEST(TracePaths, AreNoneWhereNamesGoToAndFroBetweenStreets) {
-  std::vector<Eigen::Vector3d> places;
-  for (int row = 0; row < 50; ++row) {
-    for (const double street : {0.0, 120.0}) {
-      for (const double along : {0.0, 3.0, 6.0})
-        places.emplace_back(street, 9.0 * row + along, 0.0);
-    }
+/// Of places all over a quarter every sixth is five rows off, so that a third of the steps lead
+/// there and back.
+TEST(TracePaths, AreNoneWhereNamesTellTheOrderOfSomeAlone) {
+  constexpr size_t kSide = 20;
+  std::vector<Eigen::Vector3d> in_rows;
+  for (size_t i = 0; i < kSide * kSide; ++i) {
+    const size_t row = i / kSide;
+    const size_t column = row % 2 == 0 ? i % kSide : kSide - 1 - i % kSide;
+    in_rows.emplace_back(9.0 * static_cast<double>(column), 9.0 * static_cast<double>(row), 0.0);
   }
+  std::vector<Eigen::Vector3d> places = in_rows;
+  for (size_t i = 0; i + 102 < places.size(); i += 6) places[i] = in_rows[i + 102];
+  Job ordered(in_rows);
+  ordered.Paths();
+  EXPECT_TRUE(ordered.model().is_in_order);
   Job job(places);
   EXPECT_THAT(job.Paths(), IsEmpty());
   EXPECT_FALSE(job.model().is_in_order);
