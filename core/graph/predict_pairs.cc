@@ -19,8 +19,6 @@ namespace {
 /// turned by 80 degrees and more.
 constexpr double kMaxTurnOfWay_rad = std::numbers::pi / 3.0;
 constexpr double kEvident = -40.0;
-/// Right chains agree to a degree.
-constexpr double kAgree_rad = 0.05;
 
 /// A verified pair, seen from one of its images.
 struct Link {
@@ -70,9 +68,8 @@ std::optional<PredictedPose> Agreed(std::span<const Chain> chains) {
   const Chain* best = nullptr;
   ptrdiff_t most = 0;
   for (const Chain& chain : chains) {
-    const ptrdiff_t agreeing = std::ranges::count_if(chains, [&](const Chain& other) {
-      return RotationAngle(chain.pose.rotation.conjugate() * other.pose.rotation) <= kAgree_rad;
-    });
+    const ptrdiff_t agreeing = std::ranges::count_if(
+        chains, [&](const Chain& other) { return chain.pose.TurnsLike(other.pose.rotation); });
     const bool is_stronger = best == nullptr || chain.log10_false_alarms < best->log10_false_alarms;
     if (agreeing < most || (agreeing == most && !is_stronger)) continue;
     most = agreeing;

@@ -34,8 +34,12 @@ double PredictedPose::LeadsPast(const Rigid3& b_from_a) const {
   return std::min(AngleBetween(first, direction), AngleBetween(last, direction));
 }
 
+bool PredictedPose::TurnsLike(const Eigen::Quaterniond& other) const {
+  return RotationAngle(rotation.conjugate() * other) <= kTurned_rad;
+}
+
 bool PredictedPose::AgreesWith(const Rigid3& b_from_a) const {
-  return TurnedFrom(b_from_a) <= kTurned_rad && LeadsPast(b_from_a) <= kPast_rad;
+  return TurnsLike(b_from_a.rotation) && LeadsPast(b_from_a) <= kPast_rad;
 }
 
 PredictedPose PredictPose(const Rigid3& m_from_a, const Rigid3& b_from_m) {

@@ -22,7 +22,8 @@ struct PredictedPose {
   /// to v, in radians.
   [[nodiscard]] double TurnedFrom(const Rigid3& b_from_a) const;
   [[nodiscard]] double LeadsPast(const Rigid3& b_from_a) const;
-  /// Whether a pose is what the two pairs predict, as far as they know it.
+  /// Whether a rotation b_from_a, and a pose, are what the two pairs predict, as far as they know.
+  [[nodiscard]] bool TurnsLike(const Eigen::Quaterniond& other) const;
   [[nodiscard]] bool AgreesWith(const Rigid3& b_from_a) const;
 };
 

@@ -160,7 +160,7 @@ struct PairMatcher {
     TwoViewOptions any = two_view_options;
     any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kWorthALook);
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry best, Verify(matches, any));
-    best.rung = hints.predicted ? MatchRung::kPropagated : MatchRung::kDescriptors;
+    best.rung = MatchRung::kDescriptors;
     if (hints.predicted || IsEvident(best) || any.solver != TwoViewSolver::kFivePoint) return best;
     any.solver = TwoViewSolver::kUprightThreePoint;
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry upright, Verify(matches, any));
@@ -186,7 +186,7 @@ struct PairMatcher {
     TwoViewGeometry confirmed = geometry;
     confirmed.log10_false_alarms += predicted.log10_chance;
     if (!IsEvident(geometry)) {
-      if (!hints.predicted) confirmed.rung = MatchRung::kGuided;
+      confirmed.rung = MatchRung::kGuided;
       confirmed.log10_false_alarms += kDoubtOfPredictions;
       if (!IsEvident(confirmed)) return nothing;
     }
@@ -226,7 +226,7 @@ struct PairMatcher {
     std::ranges::copy(matcher.of_facades, std::back_inserter(all));
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, matcher.Climb(std::move(all)));
     if (geometry.kind == TwoViewKind::kNone || !IsBorneOut(geometry, matches)) return nothing;
-    if (!hints.predicted) geometry.rung = MatchRung::kFacades;
+    geometry.rung = MatchRung::kFacades;
     return matcher.Confirm(geometry, &nearest);
   }
 
@@ -241,10 +241,12 @@ struct PairMatcher {
                .log10_false_alarms <= kWorthALook;
   }
 
-  /// None where growth has led away from what is predicted.
-  [[nodiscard]] TwoViewGeometry AsPredicted(const TwoViewGeometry& geometry) const {
-    if (hints.Allow(geometry)) return geometry;
-    return {.pair = pair, .num_putative = geometry.num_putative};
+  /// With a prediction that is the rung, however the geometry was found; none where growth has led
+  /// away from it.
+  [[nodiscard]] TwoViewGeometry AsPredicted(TwoViewGeometry geometry) const {
+    if (!hints.Allow(geometry)) return {.pair = pair, .num_putative = geometry.num_putative};
+    if (hints.predicted) geometry.rung = MatchRung::kPropagated;
+    return geometry;
   }
 
   [[nodiscard]] bool IsEvident(const TwoViewGeometry& geometry) const {
@@ -281,12 +283,12 @@ absl::StatusOr<TwoViewGeometry> MatchImagePair(ImagePair pair,
   const NearestTwoBothWays nearest = growing.Nearest();
   const std::vector<RatedMatch> matches = matcher.Rated(nearest);
   if (have_facades) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.ByFacades(matches, nearest));
-    if (geometry.kind != TwoViewKind::kNone) return matcher.AsPredicted(geometry);
+    ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry geometry, matcher.ByFacades(matches, nearest));
+    if (geometry.kind != TwoViewKind::kNone) return matcher.AsPredicted(std::move(geometry));
   }
   ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry geometry, matcher.Climb(matches));
-  ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry confirmed, matcher.Confirm(geometry, &nearest));
-  return matcher.AsPredicted(confirmed);
+  ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry confirmed, matcher.Confirm(geometry, &nearest));
+  return matcher.AsPredicted(std::move(confirmed));
 }
 
 MatchedPair WithoutMatches(const TwoViewGeometry& geometry,
