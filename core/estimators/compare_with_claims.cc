@@ -60,6 +60,8 @@ std::optional<ClaimErrors> CompareWithClaims(std::span<const Rigid3> cams_from_m
     const Eigen::Vector3d error =
         cams_from_model[i].Centre() - model_from_reference * cams_from_reference[i].Centre();
     errors.squared_over_variance += error.cwiseQuotient(sigmas[i]).cwiseAbs2();
+    const double slack = kMisplacedSlack * model_from_reference.scale;
+    if (error.norm() > 3.0 * sigmas[i].norm() + slack) ++errors.misplaced;
     ++errors.cameras;
   }
   if (errors.cameras == 0) return std::nullopt;

@@ -11,12 +11,18 @@
 
 namespace orbweave {
 
+/// What a camera may be off besides what its sigma allows, units of the reference: metres.
+inline constexpr double kMisplacedSlack = 0.05;
+
 /// How the errors of cameras compare with what their sigmas claim.
 struct ClaimErrors {
   /// Mean over cameras of squared error over claimed variance, per axis of the world: 1 where
   /// sigmas are true.
   Eigen::Vector3d squared_over_variance = Eigen::Vector3d::Zero();
   size_t cameras = 0;
+  /// Cameras that are misplaced: off by more than three of their sigmas (the norm of all axes') and
+  /// `kMisplacedSlack`.
+  size_t misplaced = 0;
   bool is_relative = false;  ///< to the camera whose sigmas are zero; else absolute
 };
 

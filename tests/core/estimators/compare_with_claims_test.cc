@@ -67,6 +67,28 @@ TEST(CompareWithClaims, RelativeSigmasReferToTheHeldCameraInAnyFrame) {
   EXPECT_NEAR(here->squared_over_variance.x(), 1.0, 0.3);
 }
 
+TEST(CompareWithClaims, CountsWhatIsOffByMoreThanThreeSigmasAndFiveCentimetres) {
+  Random random(3);
+  Cameras cameras = SomeCameras(random);
+  cameras.model = cameras.truth;
+  const auto misplaced = [&] {
+    return CompareWithClaims(cameras.model, cameras.sigmas, cameras.truth)->misplaced;
+  };
+  const auto move = [&](size_t camera, double by_m) {
+    cameras.model[camera] = Rigid3::FromCentre(
+        cameras.model[camera].rotation,
+        cameras.truth[camera].Centre() + Eigen::Vector3d(0.6 * by_m, 0.0, 0.8 * by_m));
+  };
+  EXPECT_EQ(misplaced(), 0U);
+  const double allowed = 3.0 * cameras.sigmas[7].norm() + kMisplacedSlack;
+  move(7, allowed - 1e-6);
+  EXPECT_EQ(misplaced(), 0U);
+  move(7, allowed + 1e-6);
+  EXPECT_EQ(misplaced(), 1U);
+  for (Eigen::Vector3d& sigma : cameras.sigmas) sigma *= 1.1;
+  EXPECT_EQ(misplaced(), 0U);
+}
+
 TEST(CompareWithClaims, NothingToJudge) {
   EXPECT_FALSE(CompareWithClaims({}, {}, {}).has_value());
   const std::vector<Rigid3> one(1);
