@@ -8,6 +8,7 @@
 
 #include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_problem.h"
+#include "core/mapping/level_cameras.h"
 
 namespace orbweave {
 namespace {
@@ -87,6 +88,7 @@ absl::StatusOr<BundleReport> AdjustPart(MappingState& state,
   for (const PointIndex point : points) AddPoint(state, point, table, problem);
 
   if (state.IsInEnu()) AddPositions(state, images, problem);
+  AddLevelPriors(state, images, problem);
 
   ORBWEAVE_ASSIGN_OR_RETURN(BundleReport report, AdjustBundle(problem, options, context));
   for (size_t i = 0; i < images.size(); ++i) state.SetPose(images[i], problem.cams_from_world[i]);

@@ -106,6 +106,11 @@ PairCheck CheckAgainstPairs(const MappingState& state, const MappingOptions& opt
   return check;
 }
 
+std::string TearOf(const PairCheck& check) {
+  if (check.joined_share == 1.0 || check.is_joined_by_positions) return "";
+  return "only " + Percent(check.joined_share) + " of its images are joined by common points";
+}
+
 std::string FaultOf(const PairCheck& check) {
   constexpr double kMinAgreeing = 0.8;
   constexpr double kMinExplained = 0.3;
@@ -116,9 +121,7 @@ std::string FaultOf(const PairCheck& check) {
   if (check.explained_share < kMinExplained) {
     return "only " + Percent(check.explained_share) + " of the matches are explained";
   }
-  if (check.joined_share < 1.0 && !check.is_joined_by_positions) {
-    return "only " + Percent(check.joined_share) + " of its images are joined by common points";
-  }
+  if (std::string tear = TearOf(check); !tear.empty()) return tear;
   if (check.worst_image_ratio > kMaxImageRatio) {
     return "an image's errors are " + std::to_string(std::lround(check.worst_image_ratio)) +
            " times those of the others";

@@ -33,6 +33,9 @@ struct PairCheck {
 /// Pure rotations join images but take no part in the shares of matches.
 [[nodiscard]] PairCheck CheckAgainstPairs(const MappingState& state, const MappingOptions& options);
 
+/// That its images are not joined, in words; empty where they are.
+[[nodiscard]] std::string TearOf(const PairCheck& check);
+
 /// The first thing that a sound model does not show, in words; empty for a sound one.
 [[nodiscard]] std::string FaultOf(const PairCheck& check);
 

@@ -34,21 +34,23 @@ namespace orbweave {
                                  const MappingState& other,
                                  const MappingOptions& options);
 
-/// Whether GNSS clearly has the one rather than the other of two models. Of about the same images,
-/// to a twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, the
-/// squared misfits of its ways are less by 30 (GnssWays::MisfitBeside), which is more than one
-/// wrong position makes of the ways that it parts, and not clearly less speaks for it (four fifths
-/// of EvidenceFor). Of more images it bears out as large a share of it, to a twentieth, and its
-/// ways are not much worse: on average a squared misfit of at most 1.5 times one more than those of
+/// Whether GNSS has the one rather than the other of two models. Of about the same images, to a
+/// twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, its images
+/// lie closer to their positions (PositionMisfit), by more than rays speak against it, which count
+/// as a squared misfit of three for every place where they contradict its lengths
+/// (FindLengthFaults), less fifteen times the logarithm of EvidenceFor; and not clearly less speaks
+/// for it (four fifths of EvidenceFor), so that two positions that are wrong decide nothing. Of
+/// more images it bears out as large a share of it, to a twentieth, and these are not much further
+/// from their positions: on average a squared misfit of at most 1.5 times one more than those of
 /// the other. Where houses repeat rays may like a wrong model better: of one rendered street they
 /// contradict it in 2 places where it is 13 m off, and in 3 where it is 1.2 m off, of another in 1
-/// and in 3; GNSS bears out 14 and 17 images, 13 and 18.
+/// and in 3; positions are off by a squared misfit of 123 and 46, 75 and 30.
 [[nodiscard]] bool IsLikedByGnss(const MappingState& one,
                                  const MappingState& other,
                                  const MappingOptions& options);
 
 /// Whether the one is a better model than the other: GNSS bears out half as much again of it
-/// (BorneOutImages), or not that much less of it and likes it clearly better (IsLikedByGnss), or
+/// (BorneOutImages), or not that much less of it and likes it better (IsLikedByGnss), or
 /// not that either and more speaks for it (SpeaksMoreFor). GNSS of some metres may bear a wrong one
 /// out better by chance (18 images against 15).
 [[nodiscard]] bool IsBetterModel(const MappingState& one,

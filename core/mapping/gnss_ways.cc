@@ -94,31 +94,15 @@ GnssWays::GnssWays(const MappingState& state, double tolerance_px) {
   for (size_t i = 0; i < ways_.size(); ++i) place_of_way_[{ways_[i].image, ways_[i].next}] = i;
 }
 
-const GnssWay* GnssWays::WayBetween(ImageSlot image, ImageSlot next) const {
-  const auto place = place_of_way_.find({image, next});
-  return place == place_of_way_.end() ? nullptr : &ways_[place->second];
-}
-
 const GnssWay* GnssWays::WayToNext(ImageSlot image, ImageSlot next) const {
-  const GnssWay* const way = WayBetween(image, next);
-  return way != nullptr && way->leads_to_next ? way : nullptr;
+  const auto place = place_of_way_.find({image, next});
+  if (place == place_of_way_.end() || !ways_[place->second].leads_to_next) return nullptr;
+  return &ways_[place->second];
 }
 
 double GnssWays::Misfit(const MappingState& state) const {
   double sum = 0.0;
   for (const GnssWay& way : ways_) sum += SquareOf(way, state);
-  return sum;
-}
-
-double GnssWays::MisfitBeside(const GnssWays& other, const MappingState& state) const {
-  double sum = 0.0;
-  for (GnssWay way : ways_) {
-    const GnssWay* same = other.WayBetween(way.image, way.next);
-    if (same == nullptr) same = other.WayBetween(way.next, way.image);
-    if (same == nullptr) continue;
-    way.sigma = std::min(way.sigma, way.length * same->sigma / same->length);
-    sum += SquareOf(way, state);
-  }
   return sum;
 }
 

@@ -42,15 +42,10 @@ class GnssWays {
   /// Sum of all squared misfits, 25 of each at most: a position that is off by tens of metres
   /// speaks no louder.
   [[nodiscard]] double Misfit(const MappingState& state) const;
-  /// The same of the ways that `other`, of another model, has as well; with the smaller of both
-  /// their sigmas, as a share of the way: a model that is wrong takes GNSS for worse than it is.
-  [[nodiscard]] double MisfitBeside(const GnssWays& other, const MappingState& state) const;
   /// The same of the ways of which one end is among `images` and the other is not.
   [[nodiscard]] double MisfitAtEdges(const MappingState& state, const CandidateMove& images) const;
 
  private:
-  [[nodiscard]] const GnssWay* WayBetween(ImageSlot image, ImageSlot next) const;
-
   std::vector<GnssWay> ways_{};
   std::map<std::pair<ImageSlot, ImageSlot>, size_t> place_of_way_{};
 };

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,6 +51,10 @@ class MappingState {
     position_factor_ = position_factor;
     height_offset_m_ = std::move(height_offset_m);
   }
+
+  /// How level cameras are held, where adjustments are to hold them so (AddLevelPriors).
+  [[nodiscard]] const std::optional<double>& LevelSigma() const { return level_sigma_rad_; }
+  void SetLevelSigma(std::optional<double> sigma_rad) { level_sigma_rad_ = sigma_rad; }
 
   /// Registered images in order of registration.
   [[nodiscard]] const std::vector<ImageSlot>& Registered() const { return registered_; }
@@ -103,6 +108,7 @@ class MappingState {
   std::vector<uint8_t> cell_of_node_{};
   std::vector<VisibilityPyramid> visible_{};
   double position_factor_ = 0.0;
+  std::optional<double> level_sigma_rad_{};
   std::vector<double> height_offset_m_{};
   uint32_t num_points_ = 0;
   uint32_t num_observations_ = 0;

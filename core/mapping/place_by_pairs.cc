@@ -8,75 +8,28 @@
 #include <utility>
 
 #include "core/averaging/average_differences.h"
-#include "core/averaging/average_rotations.h"
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/average_baselines.h"
+#include "core/mapping/pair_directions.h"
 #include "core/mapping/place_in_enu.h"
 #include "core/mapping/position_agreement.h"
 
 namespace orbweave {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-/// Pairs whose rotation is off by more are wrong.
-constexpr double kMaxRotationErrorRad = 2.0 * kRadiansPerDegree;
-
-/// Pairs that say how images lie to each other, as indices into graph.pairs.
-std::vector<uint32_t> SelectPairs(const ClusterProblem& problem,
-                                  const CorrespondenceGraph& graph,
-                                  std::span<const uint8_t> available,
-                                  const MappingOptions& options) {
-  std::vector<uint32_t> pairs;
-  for (uint32_t p = 0; p < graph.pairs.size(); ++p) {
-    const LinkedPair& pair = graph.pairs[p];
-    if (available[pair.a] != 0 && available[pair.b] != 0 &&
-        problem.pairs[pair.index].inliers.size() >= static_cast<size_t>(options.min_inliers)) {
-      pairs.push_back(p);
-    }
-  }
-  return pairs;
-}
-
-/// The pairs as a view graph whose images are the cluster's slots.
-ViewGraph ViewGraphOf(const ClusterProblem& problem,
-                      const CorrespondenceGraph& graph,
-                      std::span<const uint32_t> pairs) {
-  ViewGraph view_graph{.num_images = graph.NumImages()};
-  for (const uint32_t p : pairs) {
-    const LinkedPair& pair = graph.pairs[p];
-    const TwoViewGeometry& geometry = problem.pairs[pair.index];
-    view_graph.edges.push_back({.pair = {ImageId(pair.a), ImageId(pair.b)},
-                                .kind = geometry.kind,
-                                .b_from_a = geometry.b_from_a,
-                                .num_inliers = static_cast<uint32_t>(geometry.inliers.size()),
-                                .median_angle_rad = geometry.median_angle_rad,
-                                .spread = geometry.spread});
-  }
-  return view_graph;
-}
-
-bool HasDirection(const ViewEdge& edge) {
-  return edge.kind != TwoViewKind::kPureRotation && edge.median_angle_rad > 0.0;
-}
-
 /// Displacements C_b - C_a in the world as a graph over images.
-DifferenceGraph DisplacementGraph(const ViewGraph& view_graph,
-                                  const std::vector<uint32_t>& edges,
-                                  const std::vector<double>& lengths,
-                                  const std::vector<Eigen::Quaterniond>& cam_from_world) {
-  DifferenceGraph graph{.num_nodes = view_graph.num_images};
-  const auto num_edges = static_cast<Eigen::Index>(edges.size());
+DifferenceGraph DisplacementGraph(const PairDirections& pairs, const std::vector<double>& lengths) {
+  DifferenceGraph graph{.num_nodes = static_cast<uint32_t>(pairs.cams_from_world.size())};
+  const auto num_edges = static_cast<Eigen::Index>(pairs.edges.size());
   graph.differences.resize(num_edges, 3);
   graph.weights.resize(num_edges);
   Eigen::Index row = 0;
-  for (size_t i = 0; i < edges.size(); ++i) {
-    if (lengths[i] == 0.0) continue;
-    const ViewEdge& edge = view_graph.edges[edges[i]];
-    const Eigen::Vector3d displacement =
-        lengths[i] * (cam_from_world[edge.pair.a.value].conjugate() * edge.b_from_a.Centre());
+  for (size_t e = 0; e < pairs.edges.size(); ++e) {
+    if (lengths[e] == 0.0) continue;
+    const ViewEdge& edge = pairs.edges[e];
     graph.edges.push_back({edge.pair.a.value, edge.pair.b.value});
-    graph.differences.row(row) = displacement.transpose();
-    const double angle_per_length = edge.median_angle_rad / lengths[i];
+    graph.differences.row(row) = lengths[e] * pairs.Direction(e).transpose();
+    const double angle_per_length = edge.median_angle_rad / lengths[e];
     graph.weights[row] = edge.num_inliers * angle_per_length * angle_per_length;
     ++row;
   }
@@ -132,30 +85,17 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
                                            std::span<const uint8_t> available,
                                            const MappingOptions& options,
                                            const StageContext& context) {
-  const double min_angle_rad = options.min_angle_deg * kRadiansPerDegree;
-  const std::vector<uint32_t> pairs = SelectPairs(problem, graph, available, options);
-  const ViewGraph view_graph = ViewGraphOf(problem, graph, pairs);
-  ORBWEAVE_ASSIGN_OR_RETURN(const AveragedRotations rotations,
-                            AverageRotations(view_graph, context));
-
-  std::vector<uint32_t> edges;
-  std::vector<uint32_t> pairs_of_edges;
-  for (uint32_t e = 0; e < view_graph.edges.size(); ++e) {
-    if (rotations.error_rad[e] > kMaxRotationErrorRad || !HasDirection(view_graph.edges[e])) {
-      continue;
-    }
-    edges.push_back(e);
-    pairs_of_edges.push_back(pairs[e]);
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(const PairDirections pairs,
+                            FindPairDirections(problem, graph, available, options, context));
+  const double min_angle_rad = options.min_angle_deg * std::numbers::pi / 180.0;
   ORBWEAVE_ASSIGN_OR_RETURN(const BaselineLengths baselines,
                             AverageBaselines(problem,
                                              graph,
-                                             pairs_of_edges,
-                                             GnssSteps(problem, graph, pairs_of_edges),
+                                             pairs.pairs,
+                                             GnssSteps(problem, graph, pairs.pairs),
                                              min_angle_rad,
                                              context));
-  DifferenceGraph displacements =
-      DisplacementGraph(view_graph, edges, baselines.lengths, rotations.cam_from_world);
+  DifferenceGraph displacements = DisplacementGraph(pairs, baselines.lengths);
   PairPlacement placement{.images = LargestPart(displacements)};
   KeepEdgesAmong(placement.images, displacements);
   std::optional<EnuPlacement> placed;
@@ -163,7 +103,7 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
     ORBWEAVE_ASSIGN_OR_RETURN(placed,
                               PlaceInEnu(problem,
                                          placement.images,
-                                         rotations.cam_from_world,
+                                         pairs.cams_from_world,
                                          displacements,
                                          LeastScatter(baselines.step_factor),
                                          context));
@@ -179,7 +119,7 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
   }
   for (const ImageSlot image : placement.images) {
     placement.cams_from_world.push_back(
-        Rigid3::FromCentre(rotations.cam_from_world[image] * placed->enu_from_world.conjugate(),
+        Rigid3::FromCentre(pairs.cams_from_world[image] * placed->enu_from_world.conjugate(),
                            placed->centres.row(image).transpose()));
   }
   return placement;

@@ -4,6 +4,8 @@
 #include "core/mapping/reconstruct_globally.h"
 
 #include "core/mapping/check_against_pairs.h"
+#include "core/mapping/level_cameras.h"
+#include "core/mapping/mapping_schedule.h"
 #include "core/mapping/start_globally.h"
 
 namespace orbweave {
@@ -11,18 +13,24 @@ namespace orbweave {
 absl::StatusOr<GlobalModel> ReconstructGlobally(const ClusterProblem& problem,
                                                 const CorrespondenceGraph& graph,
                                                 std::span<const uint8_t> available,
+                                                GlobalStart start,
                                                 const MappingOptions& options,
                                                 RegistrationLog& log,
                                                 const StageContext& context) {
   GlobalModel model;
   MappingState state(problem, graph);
-  ORBWEAVE_ASSIGN_OR_RETURN(const bool started, StartGlobally(state, available, options, context));
+  if (ScheduleOf(options).relaxes_registration) state.SetLevelSigma(LevelSigma(problem, graph));
+  const auto begin = start == GlobalStart::kPairs ? StartGlobally : StartOnPositions;
+  ORBWEAVE_ASSIGN_OR_RETURN(const bool started, begin(state, available, options, context));
   if (!started) {
-    model.fault = "pairs place " + std::to_string(state.Registered().size()) + " images only";
+    const std::string who = start == GlobalStart::kPairs ? "pairs" : "positions";
+    model.fault = who + " place " + std::to_string(state.Registered().size()) + " images only";
     return model;
   }
   ORBWEAVE_ASSIGN_OR_RETURN(model.growth, GrowSubmodel(state, available, options, log, context));
-  model.fault = FaultOf(CheckAgainstPairs(state, options));
+  const PairCheck check = CheckAgainstPairs(state, options);
+  // Where houses repeat many pairs do not agree with a right model either.
+  model.fault = start == GlobalStart::kPairs ? FaultOf(check) : TearOf(check);
   model.state.emplace(std::move(state));
   return model;
 }

@@ -16,12 +16,19 @@ struct GlobalModel {
   std::string fault{};  ///< why the model is absent or not to be trusted; empty for a sound one
 };
 
-/// A model of the available images begun with all of them at once (StartGlobally), grown like any
-/// other (GrowSubmodel), then checked against the pairs (CheckAgainstPairs). Cancelled when asked
-/// to stop.
+/// Where all images begin at once.
+enum class GlobalStart {
+  kPairs,      ///< StartGlobally
+  kPositions,  ///< StartOnPositions
+};
+
+/// A model of the available images begun with all of them at once, grown like any other
+/// (GrowSubmodel), then checked against the pairs (CheckAgainstPairs). Cancelled when asked to
+/// stop.
 [[nodiscard]] absl::StatusOr<GlobalModel> ReconstructGlobally(const ClusterProblem& problem,
                                                               const CorrespondenceGraph& graph,
                                                               std::span<const uint8_t> available,
+                                                              GlobalStart start,
                                                               const MappingOptions& options,
                                                               RegistrationLog& log,
                                                               const StageContext& context);

@@ -9,6 +9,7 @@
 #include "core/mapping/compare_models.h"
 #include "core/mapping/find_seed_pairs.h"
 #include "core/mapping/initialise_from_pair.h"
+#include "core/mapping/level_cameras.h"
 #include "core/mapping/mapping_schedule.h"
 #include "core/mapping/reconstruct_globally.h"
 
@@ -102,6 +103,7 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     ++tried;
     MappingState state(problem, graph);
+    if (ScheduleOf(options).relaxes_registration) state.SetLevelSigma(LevelSigma(problem, graph));
     ORBWEAVE_ASSIGN_OR_RETURN(const bool started,
                               InitialiseFromPair(state, pair, options, context));
     if (!started) {
@@ -141,8 +143,9 @@ absl::StatusOr<bool> GrowGlobally(const ClusterProblem& problem,
                                   const StageContext& context,
                                   SubmodelResult& result) {
   ResetAttempts(log);
-  ORBWEAVE_ASSIGN_OR_RETURN(GlobalModel model,
-                            ReconstructGlobally(problem, graph, available, options, log, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      GlobalModel model,
+      ReconstructGlobally(problem, graph, available, GlobalStart::kPairs, options, log, context));
   result.growth = model.growth;
   result.start_remark = model.fault;
   const bool is_forced = options.start == MappingStart::kGlobal;
@@ -171,17 +174,20 @@ bool LeavesImagesOut(const CorrespondenceGraph& graph,
 
 /// Whether a model of all images at once is to be had instead of one from seeds: GNSS does not
 /// speak against it, and it holds clearly more where that leaves images out; where it leaves none
-/// out, more has to speak for it, and that is not GNSS, as it began with its positions.
+/// out, more has to speak for it, and that is not GNSS, as it began with its positions. Begun on
+/// positions it need only be the better one: the steps of pairs are right there or wrong together.
 bool Surpasses(const MappingState& global,
-               const MappingState& grown,
+               GlobalStart start,
+               const MappingState& kept,
                const CorrespondenceGraph& graph,
                std::span<const uint8_t> available,
                const MappingOptions& options) {
-  if (IsLikedByGnss(grown, global, options)) return false;
-  if (LeavesImagesOut(graph, available, grown))
-    return BorneOutImages(global) > (1.0 + kClearlyMore) * BorneOutImages(grown);
-  return global.Registered().size() >= grown.Registered().size() &&
-         SpeaksMoreFor(global, grown, options);
+  if (start == GlobalStart::kPositions) return IsBetterModel(global, kept, options);
+  if (IsLikedByGnss(kept, global, options)) return false;
+  if (LeavesImagesOut(graph, available, kept))
+    return BorneOutImages(global) > (1.0 + kClearlyMore) * BorneOutImages(kept);
+  return global.Registered().size() >= kept.Registered().size() &&
+         SpeaksMoreFor(global, kept, options);
 }
 
 /// Where seeds leave images out, or pairs contest their model: all at once, if that is sound and
@@ -189,6 +195,7 @@ bool Surpasses(const MappingState& global,
 absl::Status CompeteGlobally(const ClusterProblem& problem,
                              const CorrespondenceGraph& graph,
                              std::span<const uint8_t> available,
+                             GlobalStart start,
                              const MappingOptions& options,
                              RegistrationLog& log,
                              const StageContext& context,
@@ -196,11 +203,12 @@ absl::Status CompeteGlobally(const ClusterProblem& problem,
   RegistrationLog own_log = log;
   ResetAttempts(own_log);
   ORBWEAVE_ASSIGN_OR_RETURN(
-      GlobalModel model, ReconstructGlobally(problem, graph, available, options, own_log, context));
+      GlobalModel model,
+      ReconstructGlobally(problem, graph, available, start, options, own_log, context));
   result.growth.num_local_adjustments += model.growth.num_local_adjustments;
   result.growth.num_global_adjustments += model.growth.num_global_adjustments;
   if (!model.state || !model.fault.empty()) return absl::OkStatus();
-  if (result.state && !Surpasses(*model.state, *result.state, graph, available, options))
+  if (result.state && !Surpasses(*model.state, start, *result.state, graph, available, options))
     return absl::OkStatus();
   result.state.emplace(std::move(*model.state));
   result.started_globally = true;
@@ -228,8 +236,10 @@ absl::StatusOr<SubmodelResult> ReconstructSubmodel(const ClusterProblem& problem
                            ScheduleOf(options).relaxes_registration;
   if (may_compete && (!result.state || LeavesImagesOut(graph, available, *result.state) ||
                       IsContested(*result.state, options))) {
-    ORBWEAVE_RETURN_IF_ERROR(
-        CompeteGlobally(problem, graph, available, options, log, context, result));
+    for (const GlobalStart start : {GlobalStart::kPairs, GlobalStart::kPositions}) {
+      ORBWEAVE_RETURN_IF_ERROR(
+          CompeteGlobally(problem, graph, available, start, options, log, context, result));
+    }
   }
   return result;
 }

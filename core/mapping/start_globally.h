@@ -23,4 +23,10 @@ namespace orbweave {
                                                  const MappingOptions& options,
                                                  const StageContext& context);
 
+/// The same from poses by PlaceByPositions.
+[[nodiscard]] absl::StatusOr<bool> StartOnPositions(MappingState& state,
+                                                    std::span<const uint8_t> available,
+                                                    const MappingOptions& options,
+                                                    const StageContext& context);
+
 }  // namespace orbweave

@@ -17,6 +17,7 @@
 #include "core/merging/check_attitudes.h"
 #include "core/merging/check_drive_motion.h"
 #include "core/merging/check_gnss.h"
+#include "core/merging/check_leans.h"
 #include "core/merging/check_missed_points.h"
 #include "core/merging/check_sequence_steps.h"
 #include "core/merging/choose_local_frame.h"
@@ -191,6 +192,7 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   world.report.checks.push_back(CheckSequenceSteps(images, manifest, is_in_metres));
   if (is_in_metres) world.report.checks.push_back(CheckDriveMotion(images, manifest));
   world.report.checks.push_back(CheckMissedPoints(seen_between, images, manifest));
+  world.report.checks.push_back(CheckLeans(images, manifest));
   std::ranges::move(CheckAttitudes(images, manifest), std::back_inserter(world.report.checks));
   return world;
 }

@@ -78,34 +78,6 @@ TEST(GnssWays, APositionThatIsFarOffSpeaksNoLouder) {
   EXPECT_LE(WaysOf(state).Misfit(state), before + 4 * 25.0 + 10.0);
 }
 
-TEST(GnssWays, OfTwoModelsCountWhatBothHave) {
-  for (uint64_t seed = 1; seed <= 10; ++seed) {
-    const GnssWalk walk(seed);
-    const MappingState right = StateOf(walk);
-    MappingState torn = right;
-    Slide(6, kImages - 1, 7.0, walk, torn);
-    const GnssWays of_right = WaysOf(right);
-    const GnssWays of_torn = WaysOf(torn);
-    EXPECT_LT(of_right.MisfitBeside(of_torn, right) + 30.0, of_torn.MisfitBeside(of_right, torn))
-        << "seed " << seed;
-    EXPECT_NEAR(of_right.MisfitBeside(of_right, right), of_right.Misfit(right), 1e-9);
-    MappingState few(walk.Fixture().world.problem, walk.Fixture().graph);
-    few.Register(0, walk.InModel(0));
-    few.Register(1, walk.InModel(1));
-    EXPECT_LE(of_right.MisfitBeside(WaysOf(few), right), 25.0);
-  }
-}
-
-TEST(GnssWays, OfAWrongModelAreHeldAgainstWhatTheRightOneMakesOfGnss) {
-  const GnssWalk walk;
-  const MappingState right = StateOf(walk);
-  MappingState wrong = right;
-  for (ImageSlot image = 0; image < kImages; ++image)
-    wrong.SetPose(image, walk.Further(image, image % 2 == 0 ? 3.0 : -3.0));
-  const GnssWays of_wrong = WaysOf(wrong);
-  EXPECT_GT(of_wrong.MisfitBeside(WaysOf(right), wrong), 2.0 * of_wrong.Misfit(wrong));
-}
-
 TEST(GnssWays, AreNoneWithoutPositions) {
   GnssWalk walk;
   for (uint32_t image = 0; image < kImages; ++image) walk.Prior(image).position_in_enu.reset();

@@ -15,7 +15,8 @@ namespace {
 GlobalModel Reconstruct(const StreetFixture& street) {
   const std::vector<uint8_t> available(street.graph.NumImages(), 1);
   RegistrationLog log(street.graph.NumImages());
-  auto model = ReconstructGlobally(street.world.problem, street.graph, available, {}, log, {});
+  auto model = ReconstructGlobally(
+      street.world.problem, street.graph, available, GlobalStart::kPairs, {}, log, {});
   EXPECT_TRUE(model.ok()) << model.status();
   return model.ok() ? *std::move(model) : GlobalModel{};
 }

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace orbweave {
+
+/// A camera of an upright model and its position, seen from above.
+struct PlanStation {
+  std::complex<double> centre{};
+  std::complex<double> position{};
+  double sigma_m = 1.0;
+  double weight = 1.0;
+};
+
+/// The similarity position = turn * centre + shift, with |turn| the scale: four unknowns, so that a
+/// straight street determines them too.
+struct PlanFit {
+  std::complex<double> turn{};  ///< zero where centres coincide
+  std::complex<double> shift{};
+  double extent_sigmas = 0.0;  ///< rms distance of the centres from their mean
+
+  [[nodiscard]] double ErrorSigmas(const PlanStation& station) const {
+    return std::abs(turn * station.centre + shift - station.position) / station.sigma_m;
+  }
+};
+
+/// By reweighted least squares (Cauchy); weights of stations are renewed.
+[[nodiscard]] PlanFit FitPlanRobustly(std::vector<PlanStation>& stations);
+
+}  // namespace orbweave

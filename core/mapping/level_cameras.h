@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "core/bundle/bundle_problem.h"
+#include "core/mapping/correspondence_graph.h"
+#include "core/mapping/mapping_state.h"
+
+namespace orbweave {
+
+/// How level the cameras of a cluster are held, as their pairs have it: standard deviation, about
+/// either horizontal axis, of how a camera leans. Vertical axes of two cameras that are held by the
+/// same carriers lie alike, however these turn: of independent leans s the angle between them is
+/// s sqrt(2) 1.18 in the median. A degree at least. nullopt where the median is more than three
+/// degrees, as of panoramas held by hand, or there are fewer than ten pairs.
+[[nodiscard]] std::optional<double> LevelSigma(const ClusterProblem& problem,
+                                               const CorrespondenceGraph& graph);
+
+/// Which way is up in a model, and in the cameras of each drive: R_i u_world = u_drive but for what
+/// single cameras lean, in the mean over registered images; as if three cameras more of each drive
+/// stood upright.
+struct LevelFrame {
+  Eigen::Vector3d up_in_world = Eigen::Vector3d::UnitZ();
+  std::map<uint32_t, Eigen::Vector3d> up_in_cam{};
+};
+
+/// nullopt: cameras do not agree which way up is (UprightFromWorld).
+[[nodiscard]] std::optional<LevelFrame> FindLevelFrame(const MappingState& state);
+
+/// Holds images level, give or take state.LevelSigma(): the pitch of a pair whose facades have
+/// neither ground nor roof is good to a degree or two, always to the same side, and a street of a
+/// hundred panoramas that is held by its pairs alone came out leaning by 36 degrees at its end,
+/// 80 m above the ground. Cameras that lean by more, as on a hill, count for less
+/// (Cauchy, three sigmas). `images`: poses of the problem, from the first on. Nothing where the
+/// state has no sigma.
+void AddLevelPriors(const MappingState& state,
+                    std::span<const ImageSlot> images,
+                    BundleProblem& problem);
+
+/// Whether an image with that pose would lean as cameras on a carrier do not, on no slope: by more
+/// than ten degrees and five of state.LevelSigma(), against five registered images or more. What
+/// few matches put askew carries everything along that is registered by it.
+[[nodiscard]] bool LeansFar(const MappingState& state,
+                            ImageSlot image,
+                            const Rigid3& cam_from_world);
+
+}  // namespace orbweave
