@@ -27,8 +27,8 @@ constexpr double kHardlyLess = 0.8;
 constexpr double kNotMuchMore = 1.5;
 /// Of ten models each of six streets with houses that repeat, the one that these, and the misfit of
 /// positions, have as the best was the best or 0.4 m worse.
-constexpr double kMisfitOfFault = 3.0;
-constexpr double kMisfitOfEvidence = 15.0;
+constexpr double kMisfitOfFault = 1.5;
+constexpr double kMisfitOfEvidence = 20.0;
 
 /// What GNSS has to say of a model.
 struct GnssOpinion {
