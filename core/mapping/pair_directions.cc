@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/averaging/average_rotations.h"
+#include "core/graph/disjoint_sets.h"
 
 namespace orbweave {
 namespace {
@@ -69,6 +70,21 @@ absl::StatusOr<PairDirections> FindPairDirections(const ClusterProblem& problem,
     found.pairs.push_back(pairs[e]);
   }
   return found;
+}
+
+std::vector<ImageSlot> LargestPart(uint32_t num_images, std::span<const GraphEdge> edges) {
+  if (edges.empty()) return {};
+  DisjointSets sets(num_images);
+  for (const GraphEdge& edge : edges) sets.Unite(edge.a, edge.b);
+  uint32_t largest = 0;
+  for (uint32_t image = 0; image < num_images; ++image) {
+    if (sets.SizeOf(image) > sets.SizeOf(largest)) largest = image;
+  }
+  std::vector<ImageSlot> images;
+  for (uint32_t image = 0; image < num_images; ++image) {
+    if (sets.Find(image) == sets.Find(largest)) images.push_back(image);
+  }
+  return images;
 }
 
 }  // namespace orbweave

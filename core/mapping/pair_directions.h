@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/averaging/difference_solver.h"
 #include "core/base/stage_context.h"
 #include "core/mapping/correspondence_graph.h"
 #include "core/mapping/mapping_options.h"
@@ -38,5 +39,10 @@ struct PairDirections {
                                                                 std::span<const uint8_t> available,
                                                                 const MappingOptions& options,
                                                                 const StageContext& context);
+
+/// The largest set of images that edges join, ascending; of equal ones that of the lowest image.
+/// Empty without edges.
+[[nodiscard]] std::vector<ImageSlot> LargestPart(uint32_t num_images,
+                                                 std::span<const GraphEdge> edges);
 
 }  // namespace orbweave

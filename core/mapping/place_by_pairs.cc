@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/averaging/average_differences.h"
-#include "core/graph/disjoint_sets.h"
 #include "core/mapping/average_baselines.h"
 #include "core/mapping/pair_directions.h"
 #include "core/mapping/place_in_enu.h"
@@ -54,22 +53,6 @@ void KeepEdgesAmong(const std::vector<ImageSlot>& images, DifferenceGraph& graph
   graph.weights.conservativeResize(row);
 }
 
-/// The largest set of images that edges join, ascending; empty without edges.
-std::vector<ImageSlot> LargestPart(const DifferenceGraph& graph) {
-  if (graph.edges.empty()) return {};
-  DisjointSets sets(graph.num_nodes);
-  for (const GraphEdge& edge : graph.edges) sets.Unite(edge.a, edge.b);
-  uint32_t largest = 0;
-  for (uint32_t image = 0; image < graph.num_nodes; ++image) {
-    if (sets.SizeOf(image) > sets.SizeOf(largest)) largest = image;
-  }
-  std::vector<ImageSlot> images;
-  for (uint32_t image = 0; image < graph.num_nodes; ++image) {
-    if (sets.Find(image) == sets.Find(largest)) images.push_back(image);
-  }
-  return images;
-}
-
 /// Neighbours stand as images see them: what single positions are off must not move them against
 /// each other. So positions that are no better between neighbours than they state count for a
 /// third.
@@ -96,7 +79,7 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
                                              min_angle_rad,
                                              context));
   DifferenceGraph displacements = DisplacementGraph(pairs, baselines.lengths);
-  PairPlacement placement{.images = LargestPart(displacements)};
+  PairPlacement placement{.images = LargestPart(displacements.num_nodes, displacements.edges)};
   KeepEdgesAmong(placement.images, displacements);
   std::optional<EnuPlacement> placed;
   if (baselines.in_metres) {

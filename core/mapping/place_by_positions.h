@@ -22,13 +22,13 @@ namespace orbweave {
 /// errors e in sigmas (Geman and McClure 1987), reweighted,
 ///
 ///   |C_i - G_i|^2               horizontally, and vertically from an origin of each drive; sigmas
-///                               as stated, times what positions prove to be worth, two at first;
+///                               as stated, times what positions prove to be worth, two at least;
 ///   |(I - u u^T)(C_b - C_a)|^2  with the direction u from a to b; sigma a degree and 0.1 m, and at
-///                               first as much as positions are off.
+///                               first as much as positions are off;
+///   (u^T (C_b - C_a) - l)^2     of steps, with the length l of those about; sigma 0.3 l.
 ///
 /// Directions that lie elsewhere than two positions by three of their sigmas take no part; a
-/// position that most of its directions contradict says nothing at first. Where one is missing or
-/// says nothing, the strongest directions to either side are as long as those of others, to half.
+/// position that most of its directions contradict says nothing at first (SightsBesidePositions).
 ///
 /// Good to a metre or two of GNSS with three metres: a start for an adjustment. Holds the largest
 /// set of `available` images that directions join; empty where positions do not tell where they are
