@@ -10,6 +10,7 @@
 
 #include "core/base/quantile.h"
 #include "core/graph/smooth_motion.h"
+#include "core/robust/loss.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -123,17 +124,15 @@ class TrackSmoother {
       apart_m_[i] = (track_.values.row(i) - smoothed_.positions.row(i)).norm();
       variance_by_others_[i] *= ratio;
       const double error = ratio * apart_m_[i] / std::sqrt(variances[i] + variance_by_others_[i]);
-      const double square = error * error / (kRejecting * kRejecting);
-      weights_[i] = 1.0 / ((1.0 + square) * (1.0 + square));
+      weights_[i] = kLoss.Weight(error * error);
       errors_.push_back(error);
     }
     scale_ *= Quantile(errors_, 0.5) / MedianLength(track_.values.cols());
     scale_ = std::clamp(scale_, errors_.size() < kMany ? 1.0 : kSmallestScale, kLargestScale);
   }
 
-  /// Of Geman and McClure's loss: the last position of a drive, which one neighbour contradicts,
-  /// must not pull that along.
-  static constexpr double kRejecting = 3.0;
+  /// The last position of a drive, which one neighbour contradicts, must not pull that along.
+  static constexpr GemanMcClureLoss kLoss{3.0};
   static constexpr double kRejected = 0.05;
   static constexpr double kAboutAsWell = 3.0;
   const Track& track_;

@@ -30,57 +30,59 @@ constexpr double kNotMuchMore = 1.5;
 constexpr double kMisfitOfFault = 1.5;
 constexpr double kMisfitOfEvidence = 20.0;
 
-/// What GNSS has to say of a model.
-struct GnssOpinion {
-  const MappingState& state;
+/// What rays say of a model.
+struct RayOpinion {
+  size_t faults = 0;      ///< places where they contradict its lengths (FindLengthFaults)
+  double evidence = 0.0;  ///< EvidenceFor
+
+  /// As a squared misfit.
+  [[nodiscard]] double Misfit() const {
+    return kMisfitOfFault * static_cast<double>(faults) - kMisfitOfEvidence * std::log(evidence);
+  }
+};
+
+RayOpinion RaysOf(const MappingState& state, const MappingOptions& options) {
+  return {FindLengthFaults(state, options).size(), EvidenceFor(state, options)};
+}
+
+/// SpeaksMoreFor.
+bool SpeaksMore(const RayOpinion& one, const RayOpinion& other) {
+  if (one.faults != other.faults) return one.faults < other.faults;
+  return one.evidence > other.evidence;
+}
+
+/// What GNSS and rays have to say of a model.
+struct Opinion {
+  double size = 0.0;
   double worth = 0.0;
   PositionMisfit misfit;
-
-  [[nodiscard]] double Size() const { return static_cast<double>(state.Registered().size()); }
+  RayOpinion rays{};
 };
 
-GnssOpinion OpinionOf(const MappingState& state, const MappingOptions& options) {
-  return {
-      state, BorneOutImages(state), PositionMisfit(state, kMatchTolerance * options.max_error_px)};
+Opinion OpinionOf(const MappingState& state, const MappingOptions& options) {
+  return {static_cast<double>(state.Registered().size()),
+          BorneOutImages(state),
+          PositionMisfit(state, kMatchTolerance * options.max_error_px),
+          RaysOf(state, options)};
 }
 
-bool AreOfAboutTheSameImages(const GnssOpinion& one, const GnssOpinion& other) {
-  return std::min(one.Size(), other.Size()) >= kAlike * std::max(one.Size(), other.Size());
-}
-
-/// What rays have against a model, as a squared misfit.
-double MisfitOfRays(const MappingState& state, const MappingOptions& options) {
-  return kMisfitOfFault * static_cast<double>(FindLengthFaults(state, options).size()) -
-         kMisfitOfEvidence * std::log(EvidenceFor(state, options));
-}
-
-/// By how much the one is more at odds with its positions, and with these and its rays together.
-struct MisfitBeyond {
-  double of_positions = 0.0;
-  double of_all = 0.0;
-};
-
-MisfitBeyond Compare(const GnssOpinion& one,
-                     const GnssOpinion& other,
-                     const MappingOptions& options) {
-  const double of_positions = one.misfit.Beside(other.misfit) - other.misfit.Beside(one.misfit);
-  return {of_positions,
-          of_positions + MisfitOfRays(one.state, options) - MisfitOfRays(other.state, options)};
+bool AreOfAboutTheSameImages(const Opinion& one, const Opinion& other) {
+  return std::min(one.size, other.size) >= kAlike * std::max(one.size, other.size);
 }
 
 /// IsLikedByGnss.
-bool IsLiked(const GnssOpinion& one, const GnssOpinion& other, const MappingOptions& options) {
+bool IsLiked(const Opinion& one, const Opinion& other) {
   if (!AreOfAboutTheSameImages(one, other)) {
-    return one.Size() > other.Size() && one.misfit.Tells() &&
-           one.worth / one.Size() >= kAlike * other.worth / other.Size() &&
+    return one.size > other.size && one.misfit.Tells() &&
+           one.worth / one.size >= kAlike * other.worth / other.size &&
            one.misfit.MeanBeside(other.misfit) <=
                kNotMuchMore * (1.0 + other.misfit.MeanBeside(one.misfit));
   }
   if (one.worth > kMoreBorneOut * other.worth) return true;
   if (kMoreBorneOut * one.worth < other.worth) return false;
-  const MisfitBeyond beyond = Compare(one, other, options);
-  return beyond.of_positions < 0.0 && beyond.of_all < 0.0 &&
-         EvidenceFor(one.state, options) >= kHardlyLess * EvidenceFor(other.state, options);
+  const double beyond = one.misfit.Beside(other.misfit) - other.misfit.Beside(one.misfit);
+  return beyond < 0.0 && beyond + one.rays.Misfit() - other.rays.Misfit() < 0.0 &&
+         one.rays.evidence >= kHardlyLess * other.rays.evidence;
 }
 
 }  // namespace
@@ -114,28 +116,25 @@ double EvidenceFor(const MappingState& state, const MappingOptions& options) {
 bool SpeaksMoreFor(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
-  const size_t faults = FindLengthFaults(one, options).size();
-  const size_t faults_of_other = FindLengthFaults(other, options).size();
-  if (faults != faults_of_other) return faults < faults_of_other;
-  return EvidenceFor(one, options) > EvidenceFor(other, options);
+  return SpeaksMore(RaysOf(one, options), RaysOf(other, options));
 }
 
 bool IsLikedByGnss(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
-  return IsLiked(OpinionOf(one, options), OpinionOf(other, options), options);
+  return IsLiked(OpinionOf(one, options), OpinionOf(other, options));
 }
 
 bool IsBetterModel(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
-  const GnssOpinion of_one = OpinionOf(one, options);
-  const GnssOpinion of_other = OpinionOf(other, options);
+  const Opinion of_one = OpinionOf(one, options);
+  const Opinion of_other = OpinionOf(other, options);
   if (of_one.worth > kClearly * of_other.worth) return true;
   if (kClearly * of_one.worth < of_other.worth) return false;
-  if (IsLiked(of_one, of_other, options)) return true;
-  if (IsLiked(of_other, of_one, options)) return false;
-  return SpeaksMoreFor(one, other, options);
+  if (IsLiked(of_one, of_other)) return true;
+  if (IsLiked(of_other, of_one)) return false;
+  return SpeaksMore(of_one.rays, of_other.rays);
 }
 
 }  // namespace orbweave

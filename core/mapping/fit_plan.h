@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <vector>
+
+#include "core/scene/image_manifest.h"
 
 namespace orbweave {
 
@@ -14,6 +17,14 @@ struct PlanStation {
   double sigma_m = 1.0;
   double weight = 1.0;
 };
+
+/// A centre in a frame whose third axis is up, and its position, which must be there.
+[[nodiscard]] inline PlanStation SeenFromAbove(const Eigen::Vector3d& centre,
+                                               const PosePrior& prior) {
+  return {.centre = {centre.x(), centre.y()},
+          .position = {prior.position_in_enu->x(), prior.position_in_enu->y()},
+          .sigma_m = prior.horizontal_sigma_m};
+}
 
 /// The similarity position = turn * centre + shift, with |turn| the scale: four unknowns, so that a
 /// straight street determines them too.

@@ -10,6 +10,7 @@
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
+#include "core/mapping/mapping_schedule.h"
 #include "core/mapping/upright.h"
 
 namespace orbweave {
@@ -44,11 +45,21 @@ std::optional<double> LevelSigma(const ClusterProblem& problem, const Correspond
   return std::max(kLeastSigma_rad, median / kMedianOfLeans);
 }
 
+MappingState LevelState(const ClusterProblem& problem,
+                        const CorrespondenceGraph& graph,
+                        const MappingOptions& options) {
+  MappingState state(problem, graph);
+  if (ScheduleOf(options).relaxes_registration) state.SetLevelSigma(LevelSigma(problem, graph));
+  return state;
+}
+
+Eigen::Vector3d LevelFrame::UpInCam(uint32_t drive) const {
+  const auto up = up_in_cam.find(drive);
+  return up == up_in_cam.end() ? Vector3d(-Vector3d::UnitY()) : up->second;
+}
+
 std::optional<LevelFrame> FindLevelFrame(const MappingState& state) {
-  std::vector<Eigen::Quaterniond> rotations;
-  for (const ImageSlot image : state.Registered())
-    rotations.push_back(state.CamFromWorld(image).rotation);
-  const auto upright = UprightFromWorld(rotations);
+  const auto upright = UprightFromWorld(state, state.Registered());
   if (!upright) return std::nullopt;
   LevelFrame frame{.up_in_world = upright->conjugate() * Vector3d::UnitZ()};
   for (int round = 0; round < kRounds; ++round) {
@@ -79,7 +90,7 @@ void AddLevelPriors(const MappingState& state,
   if (!frame) return;
   for (uint32_t pose = 0; pose < images.size(); ++pose) {
     const ImageSlot image = images[pose];
-    const Vector3d& up_in_cam = frame->up_in_cam.at(state.Problem().images[image].drive);
+    const Vector3d up_in_cam = frame->UpInCam(state.Problem().images[image].drive);
     const double lean =
         AngleBetween(state.CamFromWorld(image).rotation * frame->up_in_world, up_in_cam);
     const double far = lean / (kLossSigmas * *state.LevelSigma());
@@ -94,9 +105,7 @@ bool LeansFar(const MappingState& state, ImageSlot image, const Rigid3& cam_from
   if (!state.LevelSigma() || state.Registered().size() < kFewestToJudge) return false;
   const std::optional<LevelFrame> frame = FindLevelFrame(state);
   if (!frame) return false;
-  const auto drive = frame->up_in_cam.find(state.Problem().images[image].drive);
-  const Vector3d up_in_cam =
-      drive == frame->up_in_cam.end() ? Vector3d(-Vector3d::UnitY()) : drive->second;
+  const Vector3d up_in_cam = frame->UpInCam(state.Problem().images[image].drive);
   return AngleBetween(cam_from_world.rotation * frame->up_in_world, up_in_cam) >
          std::max(kMaxLean_rad, kMaxSigmas * *state.LevelSigma());
 }

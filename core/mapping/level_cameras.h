@@ -9,6 +9,7 @@
 
 #include "core/bundle/bundle_problem.h"
 #include "core/mapping/correspondence_graph.h"
+#include "core/mapping/mapping_options.h"
 #include "core/mapping/mapping_state.h"
 
 namespace orbweave {
@@ -21,12 +22,21 @@ namespace orbweave {
 [[nodiscard]] std::optional<double> LevelSigma(const ClusterProblem& problem,
                                                const CorrespondenceGraph& graph);
 
+/// An empty state whose adjustments are to hold cameras level, as level as their pairs have them;
+/// with options that follow the paper to the letter an empty state.
+[[nodiscard]] MappingState LevelState(const ClusterProblem& problem,
+                                      const CorrespondenceGraph& graph,
+                                      const MappingOptions& options);
+
 /// Which way is up in a model, and in the cameras of each drive: R_i u_world = u_drive but for what
 /// single cameras lean, in the mean over registered images; as if three cameras more of each drive
 /// stood upright.
 struct LevelFrame {
   Eigen::Vector3d up_in_world = Eigen::Vector3d::UnitZ();
   std::map<uint32_t, Eigen::Vector3d> up_in_cam{};
+
+  /// That of a drive; upright where none of its cameras is registered.
+  [[nodiscard]] Eigen::Vector3d UpInCam(uint32_t drive) const;
 };
 
 /// nullopt: cameras do not agree which way up is (UprightFromWorld).

@@ -72,6 +72,26 @@ absl::StatusOr<PairDirections> FindPairDirections(const ClusterProblem& problem,
   return found;
 }
 
+DifferenceGraph Displacements(const PairDirections& pairs, std::span<const double> lengths) {
+  DifferenceGraph graph{.num_nodes = static_cast<uint32_t>(pairs.cams_from_world.size())};
+  const auto num_edges = static_cast<Eigen::Index>(pairs.edges.size());
+  graph.differences.resize(num_edges, 3);
+  graph.weights.resize(num_edges);
+  Eigen::Index row = 0;
+  for (size_t e = 0; e < pairs.edges.size(); ++e) {
+    if (lengths[e] == 0.0) continue;
+    const ViewEdge& edge = pairs.edges[e];
+    graph.edges.push_back({edge.pair.a.value, edge.pair.b.value});
+    graph.differences.row(row) = lengths[e] * pairs.Direction(e).transpose();
+    const double angle_per_length = edge.median_angle_rad / lengths[e];
+    graph.weights[row] = edge.num_inliers * angle_per_length * angle_per_length;
+    ++row;
+  }
+  graph.differences.conservativeResize(row, 3);
+  graph.weights.conservativeResize(row);
+  return graph;
+}
+
 std::vector<ImageSlot> LargestPart(uint32_t num_images, std::span<const GraphEdge> edges) {
   if (edges.empty()) return {};
   DisjointSets sets(num_images);

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/averaging/difference_solver.h"
+#include "core/averaging/average_differences.h"
 #include "core/base/stage_context.h"
 #include "core/mapping/correspondence_graph.h"
 #include "core/mapping/mapping_options.h"
@@ -39,6 +39,12 @@ struct PairDirections {
                                                                 std::span<const uint8_t> available,
                                                                 const MappingOptions& options,
                                                                 const StageContext& context);
+
+/// Displacements C_b - C_a in the world as a graph over the images of the cluster, of edges with
+/// these `lengths`; those of length 0 are left out. A displacement is as exact as length / angle,
+/// as noise of the rays turns a baseline the more the smaller the angles under which points see it.
+[[nodiscard]] DifferenceGraph Displacements(const PairDirections& pairs,
+                                            std::span<const double> lengths);
 
 /// The largest set of images that edges join, ascending; of equal ones that of the lowest image.
 /// Empty without edges.

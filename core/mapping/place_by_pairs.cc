@@ -16,27 +16,6 @@
 namespace orbweave {
 namespace {
 
-/// Displacements C_b - C_a in the world as a graph over images.
-DifferenceGraph DisplacementGraph(const PairDirections& pairs, const std::vector<double>& lengths) {
-  DifferenceGraph graph{.num_nodes = static_cast<uint32_t>(pairs.cams_from_world.size())};
-  const auto num_edges = static_cast<Eigen::Index>(pairs.edges.size());
-  graph.differences.resize(num_edges, 3);
-  graph.weights.resize(num_edges);
-  Eigen::Index row = 0;
-  for (size_t e = 0; e < pairs.edges.size(); ++e) {
-    if (lengths[e] == 0.0) continue;
-    const ViewEdge& edge = pairs.edges[e];
-    graph.edges.push_back({edge.pair.a.value, edge.pair.b.value});
-    graph.differences.row(row) = lengths[e] * pairs.Direction(e).transpose();
-    const double angle_per_length = edge.median_angle_rad / lengths[e];
-    graph.weights[row] = edge.num_inliers * angle_per_length * angle_per_length;
-    ++row;
-  }
-  graph.differences.conservativeResize(row, 3);
-  graph.weights.conservativeResize(row);
-  return graph;
-}
-
 /// Drops what joins other images.
 void KeepEdgesAmong(const std::vector<ImageSlot>& images, DifferenceGraph& graph) {
   Eigen::Index row = 0;
@@ -78,7 +57,7 @@ absl::StatusOr<PairPlacement> PlaceByPairs(const ClusterProblem& problem,
                                              GnssSteps(problem, graph, pairs.pairs),
                                              min_angle_rad,
                                              context));
-  DifferenceGraph displacements = DisplacementGraph(pairs, baselines.lengths);
+  DifferenceGraph displacements = Displacements(pairs, baselines.lengths);
   PairPlacement placement{.images = LargestPart(displacements.num_nodes, displacements.edges)};
   KeepEdgesAmong(placement.images, displacements);
   std::optional<EnuPlacement> placed;

@@ -107,19 +107,6 @@ absl::Status PlaceCentres(const ClusterProblem& problem,
   return absl::OkStatus();
 }
 
-double ScatterAbout(const ClusterProblem& problem,
-                    std::span<const ImageSlot> images,
-                    const Eigen::MatrixXd& centres) {
-  std::vector<double> errors;
-  for (const ImageSlot image : images) {
-    const PosePrior& prior = problem.images[image].prior;
-    if (!prior.position_in_enu) continue;
-    const Vector3d error = centres.row(image).transpose() - *prior.position_in_enu;
-    errors.push_back(error.head<2>().norm() / prior.horizontal_sigma_m);
-  }
-  return ScatterOfPositions(errors);
-}
-
 }  // namespace
 
 absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(
@@ -135,11 +122,11 @@ absl::StatusOr<std::optional<EnuPlacement>> PlaceInEnu(
                           EnuFromDisplacements(problem, images, cams_from_world, displacements)};
   TurnToEnu(placed.enu_from_world, displacements);
   ORBWEAVE_RETURN_IF_ERROR(PlaceCentres(problem, images, displacements, context, placed));
-  placed.scatter = std::max(least_scatter, ScatterAbout(problem, images, placed.centres));
+  const auto centre_of = [&](ImageSlot image) -> Vector3d { return placed.centres.row(image); };
+  placed.scatter = std::max(least_scatter, ScatterAbout(problem, images, centre_of));
   if (!DoPositionsSpread(problem, images, placed.scatter)) return std::optional<EnuPlacement>();
   if (placed.scatter > 1.0)
     ORBWEAVE_RETURN_IF_ERROR(PlaceCentres(problem, images, displacements, context, placed));
-  const auto centre_of = [&](ImageSlot image) -> Vector3d { return placed.centres.row(image); };
   if (ShareOnPositions(problem, images, placed.scatter, centre_of) < kMinAgreeing)
     return std::optional<EnuPlacement>();
   return placed;

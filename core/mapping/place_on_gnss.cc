@@ -23,14 +23,6 @@ constexpr double kMaxSigmas = 3.0;
 /// The scale is then good to a tenth with 25 positions, to a quarter with 4.
 constexpr double kMinExtentSigmas = 2.0;
 
-std::optional<Eigen::Quaterniond> UprightFrom(const MappingState& state,
-                                              std::span<const ImageSlot> images) {
-  std::vector<Eigen::Quaterniond> cams_from_world;
-  for (const ImageSlot image : images)
-    cams_from_world.push_back(state.CamFromWorld(image).rotation);
-  return UprightFromWorld(cams_from_world);
-}
-
 /// Cameras of the upright submodel and their positions.
 struct Stations {
   std::vector<PlanStation> plan{};
@@ -46,9 +38,7 @@ Stations StationsOf(const MappingState& state,
     const PosePrior& prior = state.Problem().images[image].prior;
     if (!prior.position_in_enu) continue;
     const Vector3d centre = upright * state.Centre(image);
-    stations.plan.push_back({.centre = {centre.x(), centre.y()},
-                             .position = {prior.position_in_enu->x(), prior.position_in_enu->y()},
-                             .sigma_m = prior.horizontal_sigma_m});
+    stations.plan.push_back(SeenFromAbove(centre, prior));
     stations.centre_up.push_back(centre.z());
     stations.position_up.push_back(prior.position_in_enu->z());
   }
@@ -79,7 +69,7 @@ std::vector<ImageSlot> ImagesNear(const MappingState& state, const Vector3d& pla
 }
 
 std::optional<Sim3> PlaceOnGnss(const MappingState& state, std::span<const ImageSlot> images) {
-  const std::optional<Eigen::Quaterniond> upright = UprightFrom(state, images);
+  const std::optional<Eigen::Quaterniond> upright = UprightFromWorld(state, images);
   if (!upright) return std::nullopt;
   Stations stations = StationsOf(state, images, *upright);
   if (stations.plan.size() < kMinPositions) return std::nullopt;

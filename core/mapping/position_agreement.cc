@@ -85,6 +85,19 @@ double ShareOnPositions(const ClusterProblem& problem,
   return agreeing / all;
 }
 
+double ScatterAbout(const ClusterProblem& problem,
+                    std::span<const ImageSlot> images,
+                    const std::function<Vector3d(ImageSlot)>& centre_of) {
+  std::vector<double> errors;
+  for (const ImageSlot image : images) {
+    const PosePrior& prior = problem.images[image].prior;
+    if (!prior.position_in_enu) continue;
+    const Vector3d error = centre_of(image) - *prior.position_in_enu;
+    errors.push_back(error.head<2>().norm() / prior.horizontal_sigma_m);
+  }
+  return ScatterOfPositions(errors);
+}
+
 std::optional<double> AgreementWithPositions(const MappingState& state) {
   const Positions all = PositionsOf(state);
   if (!DoPositionsSpread(state.Problem(), state.Registered(), 1.0)) return std::nullopt;

@@ -19,6 +19,11 @@ inline constexpr double kMaxScatter = 5.0;
 /// be wrong, or of images that are.
 [[nodiscard]] double ScatterOfPositions(const std::vector<double>& errors);
 
+/// The same of the images of these that have a position, with centres in east, north and up.
+[[nodiscard]] double ScatterAbout(const ClusterProblem& problem,
+                                  std::span<const ImageSlot> images,
+                                  const std::function<Eigen::Vector3d(ImageSlot)>& centre_of);
+
 /// Whether positions of these images tell where all of them are: 10 at least, spread (rms distance
 /// from their mean, horizontally) by three sigmas, which are `scatter` times what is stated.
 [[nodiscard]] bool DoPositionsSpread(const ClusterProblem& problem,

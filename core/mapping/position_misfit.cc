@@ -13,6 +13,7 @@
 #include "core/mapping/position_agreement.h"
 #include "core/mapping/registered_sequence.h"
 #include "core/mapping/upright.h"
+#include "core/robust/loss.h"
 
 namespace orbweave {
 namespace {
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr size_t kFewestPositions = 10;
 constexpr size_t kPlacesAbout = 30;
-constexpr double kFarSquared = 9.0;
+constexpr GemanMcClureLoss kLoss(3.0);
 
 /// An image with a position.
 struct Placed {
@@ -31,15 +32,13 @@ struct Placed {
 
 std::optional<Eigen::Quaterniond> LevelFromWorld(const MappingState& state,
                                                  std::span<const ImageSlot> images) {
-  std::vector<Eigen::Quaterniond> rotations;
+  if (const auto upright = UprightFromWorld(state, images)) return upright;
   std::vector<Vector3d> centres;
   std::vector<Vector3d> positions;
   for (const ImageSlot image : images) {
-    rotations.push_back(state.CamFromWorld(image).rotation);
     centres.push_back(state.Centre(image));
     positions.push_back(*state.Problem().images[image].prior.position_in_enu);
   }
-  if (const auto upright = UprightFromWorld(rotations)) return upright;
   const std::optional<Sim3> enu_from_world = FitSimilarity(centres, positions, {});
   if (!enu_from_world) return std::nullopt;
   return enu_from_world->rotation;
@@ -58,12 +57,9 @@ std::vector<Placed> PlacedImages(const MappingState& state, double tolerance_px)
   if (!level_from_world) return {};
   std::vector<Placed> placed;
   for (const ImageSlot image : images) {
-    const PosePrior& prior = state.Problem().images[image].prior;
-    const Vector3d centre = *level_from_world * state.Centre(image);
     placed.push_back({image,
-                      {.centre = {centre.x(), centre.y()},
-                       .position = {prior.position_in_enu->x(), prior.position_in_enu->y()},
-                       .sigma_m = prior.horizontal_sigma_m}});
+                      SeenFromAbove(*level_from_world * state.Centre(image),
+                                    state.Problem().images[image].prior)});
   }
   return placed;
 }
@@ -75,10 +71,7 @@ double ErrorAmong(std::span<const Placed> around, const Placed& of) {
   return FitPlanRobustly(stations).ErrorSigmas(of.plan);
 }
 
-double Saturated(double error) {
-  const double squared = error * error;
-  return squared / (1.0 + squared / kFarSquared);
-}
+double Squared(double x) { return x * x; }
 
 }  // namespace
 
@@ -98,7 +91,7 @@ double PositionMisfit::Beside(const PositionMisfit& other) const {
   const double scatter = std::min(scatter_, other.scatter_);
   double sum = 0.0;
   for (const auto& [image, error] : errors_) {
-    if (other.errors_.contains(image)) sum += Saturated(error / scatter);
+    if (other.errors_.contains(image)) sum += kLoss.Cost(Squared(error / scatter));
   }
   return sum;
 }
@@ -106,7 +99,7 @@ double PositionMisfit::Beside(const PositionMisfit& other) const {
 double PositionMisfit::MeanBeside(const PositionMisfit& other) const {
   const double scatter = std::min(scatter_, other.scatter_);
   double sum = 0.0;
-  for (const auto& [image, error] : errors_) sum += Saturated(error / scatter);
+  for (const auto& [image, error] : errors_) sum += kLoss.Cost(Squared(error / scatter));
   return errors_.empty() ? 0.0 : sum / static_cast<double>(errors_.size());
 }
 

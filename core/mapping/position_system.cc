@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/base/quantile.h"
+#include "core/robust/loss.h"
 
 namespace orbweave {
 namespace {
@@ -19,17 +20,12 @@ using Eigen::Vector3d;
 
 constexpr double kDirectionSigmaRad = std::numbers::pi / 180.0;
 constexpr double kLeastSigma_m = 0.1;
-constexpr double kFarSquared = 9.0;
+constexpr GemanMcClureLoss kLoss(3.0);
 constexpr int kFirstRounds = 10;
 constexpr int kReweightings = 30;
 constexpr double kTightening = 0.8;
 /// Origins of drives are somewhere.
 constexpr double kOriginWeight = 1e-6;
-
-double WeightOf(double error_squared) {
-  const double root = 1.0 + error_squared / kFarSquared;
-  return 1.0 / (root * root);
-}
 
 }  // namespace
 
@@ -99,7 +95,7 @@ void PositionSystem::AddPositions(double scatter, int round) {
 
 void PositionSystem::AddPlan(int row, const Vector3d& position, double sigma_m) {
   const double squared = (At(row) - position).head<2>().squaredNorm() / (sigma_m * sigma_m);
-  const double weight = WeightOf(squared) / (sigma_m * sigma_m);
+  const double weight = kLoss.Weight(squared) / (sigma_m * sigma_m);
   for (const int axis : {0, 1}) {
     left_.emplace_back(3 * row + axis, 3 * row + axis, weight);
     right_[3 * row + axis] += weight * position[axis];
@@ -108,7 +104,7 @@ void PositionSystem::AddPlan(int row, const Vector3d& position, double sigma_m) 
 
 void PositionSystem::AddHeight(int row, int origin, double height_m, double sigma_m) {
   const double error = (centres_(row, 2) + heights_[origin] - height_m) / sigma_m;
-  const double weight = WeightOf(error * error) / (sigma_m * sigma_m);
+  const double weight = kLoss.Weight(error * error) / (sigma_m * sigma_m);
   const int places[] = {3 * row + 2, static_cast<int>(3 * NumImages()) + origin};
   for (const int i : places) {
     right_[i] += weight * height_m;
@@ -127,13 +123,13 @@ void PositionSystem::AddSight(const Sight& sight, double slack_m) {
   const Matrix3d along = sight.direction * sight.direction.transpose();
   const double sigma_m = std::hypot(kLeastSigma_m, kDirectionSigmaRad * step.norm(), slack_m);
   const double across = (step - along_m * sight.direction).squaredNorm() / (sigma_m * sigma_m);
-  const double weight = sight.weight * WeightOf(across);
+  const double weight = sight.weight * kLoss.Weight(across);
   Matrix3d information = weight / (sigma_m * sigma_m) * (Matrix3d::Identity() - along);
   Vector3d value = Vector3d::Zero();
   if (sight.length_m > 0.0) {
     const double length_sigma_m = std::hypot(kStepShare * sight.length_m, slack_m);
     const double error = (along_m - sight.length_m) / length_sigma_m;
-    const double length_weight = weight * WeightOf(error * error);
+    const double length_weight = weight * kLoss.Weight(error * error);
     information += length_weight / (length_sigma_m * length_sigma_m) * along;
     value = sight.length_m * sight.direction;
   }

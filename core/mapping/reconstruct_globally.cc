@@ -5,7 +5,6 @@
 
 #include "core/mapping/check_against_pairs.h"
 #include "core/mapping/level_cameras.h"
-#include "core/mapping/mapping_schedule.h"
 #include "core/mapping/start_globally.h"
 
 namespace orbweave {
@@ -18,8 +17,7 @@ absl::StatusOr<GlobalModel> ReconstructGlobally(const ClusterProblem& problem,
                                                 RegistrationLog& log,
                                                 const StageContext& context) {
   GlobalModel model;
-  MappingState state(problem, graph);
-  if (ScheduleOf(options).relaxes_registration) state.SetLevelSigma(LevelSigma(problem, graph));
+  MappingState state = LevelState(problem, graph, options);
   const auto begin = start == GlobalStart::kPairs ? StartGlobally : StartOnPositions;
   ORBWEAVE_ASSIGN_OR_RETURN(const bool started, begin(state, available, options, context));
   if (!started) {

@@ -102,8 +102,7 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
     if (spent.IsSpent(pair)) continue;
     ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     ++tried;
-    MappingState state(problem, graph);
-    if (ScheduleOf(options).relaxes_registration) state.SetLevelSigma(LevelSigma(problem, graph));
+    MappingState state = LevelState(problem, graph, options);
     ORBWEAVE_ASSIGN_OR_RETURN(const bool started,
                               InitialiseFromPair(state, pair, options, context));
     if (!started) {

@@ -3,6 +3,8 @@
 
 #include "core/mapping/upright.h"
 
+#include <vector>
+
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
@@ -21,6 +23,14 @@ std::optional<Eigen::Quaterniond> UprightFromWorld(
     sum -= cam_from_world.conjugate() * Eigen::Vector3d::UnitY();
   if (sum.norm() < kMinUpright * static_cast<double>(cams_from_world.size())) return std::nullopt;
   return RotationBetween(sum, Eigen::Vector3d::UnitZ());
+}
+
+std::optional<Eigen::Quaterniond> UprightFromWorld(const MappingState& state,
+                                                   std::span<const ImageSlot> images) {
+  std::vector<Eigen::Quaterniond> cams_from_world;
+  for (const ImageSlot image : images)
+    cams_from_world.push_back(state.CamFromWorld(image).rotation);
+  return UprightFromWorld(cams_from_world);
 }
 
 }  // namespace orbweave

@@ -25,4 +25,25 @@ class CauchyLoss {
   double squared_scale_;
 };
 
+/// Geman and McClure's loss rho(s) = s / (1 + s / c^2) of a squared residual s (Statistical methods
+/// for tomographic image reconstruction, 1987): c^2 at most, so that what is far off hardly counts
+/// at all.
+class GemanMcClureLoss {
+ public:
+  /// `scale` c > 0 in units of the residual.
+  explicit constexpr GemanMcClureLoss(double scale) : squared_scale_(scale * scale) {}
+
+  [[nodiscard]] double Cost(double squared) const {
+    return squared / (1.0 + squared / squared_scale_);
+  }
+  /// rho'(s).
+  [[nodiscard]] double Weight(double squared) const {
+    const double root = 1.0 + squared / squared_scale_;
+    return 1.0 / (root * root);
+  }
+
+ private:
+  double squared_scale_;
+};
+
 }  // namespace orbweave
