@@ -44,12 +44,22 @@ void Planner::Run(const std::stop_token& stop) {
     if (to_plan) PlanNextStage(*to_plan, stop);
     if (to_save) SaveEnd(*to_save);
   }
-  const LooseEnds ends = [this] {
-    const std::lock_guard lock(mutex_);
-    return dispatcher_.TakeLooseEnds();
-  }();
-  Save(ends);
+  SaveAllEnds();
   pulse_.Rest();
+}
+
+void Planner::SaveAllEnds() {
+  std::unique_lock lock(mutex_);
+  const LooseEnds ends = dispatcher_.TakeLooseEnds();
+  std::optional<Digest> to_save = dispatcher_.jobs().ToSave();
+  lock.unlock();
+  Save(ends);
+  while (to_save) {
+    SaveEnd(*to_save);
+    lock.lock();
+    to_save = dispatcher_.jobs().ToSave();
+    lock.unlock();
+  }
 }
 
 void Planner::NoteMoment() {

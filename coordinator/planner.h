@@ -50,6 +50,8 @@ class Planner {
   /// With the lock.
   void NoteMoment();
   void Save(const LooseEnds& ends);
+  /// When the coordinator ends: it finds them ended when it is started again.
+  void SaveAllEnds();
   void SaveEnd(const Digest& job);
   void PlanNextStage(const Digest& id, const std::stop_token& stop);
   /// The stage, once the journal can be asked.
