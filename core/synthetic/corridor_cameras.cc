@@ -11,6 +11,7 @@
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
 #include "core/scene/local_frame.h"
+#include "core/synthetic/corridor_terrain.h"
 
 namespace orbweave {
 namespace {
@@ -28,16 +29,23 @@ Eigen::Quaterniond Mount(const CorridorOptions& options) {
          RotationFromVector({-kRadPerDeg * options.mount_pitch_deg, 0.0, 0.0});
 }
 
-/// cam_from_world of a panorama that looks along the street, up to a degree of sway.
-Eigen::Quaterniond LookAlong(const Eigen::Vector2d& direction, bool any_rotation, Random& random) {
+/// cam_from_world of a panorama that looks along the street, up or down its slope, up to a degree of
+/// sway.
+Eigen::Quaterniond LookAlong(const Eigen::Vector2d& direction,
+                             double slope,
+                             bool any_rotation,
+                             Random& random) {
   if (any_rotation) {
     Eigen::Quaterniond q(random.Normal(), random.Normal(), random.Normal(), random.Normal());
     return q.normalized();
   }
+  const Eigen::Vector3d right(direction.y(), -direction.x(), 0.0);
+  const Eigen::Vector3d forward =
+      Eigen::Vector3d(direction.x(), direction.y(), slope).normalized();
   Eigen::Matrix3d cam_from_world;
-  cam_from_world.row(0) = Eigen::Vector3d(direction.y(), -direction.x(), 0.0);  // right
-  cam_from_world.row(1) = -Eigen::Vector3d::UnitZ();                            // down
-  cam_from_world.row(2) = Eigen::Vector3d(direction.x(), direction.y(), 0.0);   // forward
+  cam_from_world.row(0) = right;
+  cam_from_world.row(1) = forward.cross(right);  // down
+  cam_from_world.row(2) = forward;
   const Eigen::Vector3d sway =
       Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()) * kSwayRad;
   return (RotationFromVector(sway) * Eigen::Quaterniond(cam_from_world)).normalized();
@@ -154,16 +162,22 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
   const EquirectangularCamera camera{options.width_px, options.width_px / 2};
   if (options.gnss_sigma_m > 0.0) corridor.manifest.origin = kOrigin;
   const Eigen::Quaterniond mount = Mount(options);
+  const CorridorTerrain terrain(options);
   GnssNoise noise(options.gnss_correlation_m);
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the carrier that moved last
   const bool is_timed = options.gnss_delay_s != 0.0 || options.speed_spread != 0.0;
   double time_s = 0.0;
   for (size_t i = 0; i < path.stations.size(); ++i) {
     const CorridorStation& station = path.stations[i];
-    const Eigen::Vector3d centre(
-        station.place.position.x(), station.place.position.y(), kCameraHeightM);
-    if (!station.standing)
-      attitude = mount * LookAlong(station.place.direction, options.random_rotations, random);
+    const Eigen::Vector2d& plan = station.place.position;
+    const Eigen::Vector3d centre(plan.x(), plan.y(), terrain.HeightAt(plan) + kCameraHeightM);
+    if (!station.standing) {
+      const Eigen::Vector2d& direction = station.place.direction;
+      attitude = mount * LookAlong(direction,
+                                   terrain.SlopeAt(plan, direction),
+                                   options.random_rotations,
+                                   random);
+    }
     Eigen::Quaterniond cam_from_world = attitude;
     if (station.standing) {
       const Eigen::Vector3d tremble(random.Normal(), random.Normal(), random.Normal());

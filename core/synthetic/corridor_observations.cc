@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
 #include "core/synthetic/corridor_points.h"
+#include "core/synthetic/corridor_terrain.h"
 
 namespace orbweave {
 namespace {
@@ -147,6 +148,7 @@ void MakePointsAndFeatures(const CorridorOptions& options,
                            Corridor& corridor) {
   Random random(static_cast<uint64_t>(options.seed) * 3 + 2);
   Pattern pattern(options, PointsPerCell(options, false));
+  const CorridorTerrain terrain(options);
   double owed = 0.0;
   for (uint32_t index = 0; index < path.cells.size(); ++index) {
     const CorridorCell& cell = path.cells[index];
@@ -157,9 +159,10 @@ void MakePointsAndFeatures(const CorridorOptions& options,
       const double along_m = source.Uniform(-0.5, 0.5) * options.spacing_m;
       StreetPoint point = MakeStreetPoint(cell, along_m, source);
       ChooseDrives(options, random, point);
+      const Eigen::Vector2d plan = point.position_in_world.head<2>();
+      point.position_in_world.z() += terrain.HeightAt(plan);
       corridor.points_in_world.push_back(point.position_in_world);
       corridor.appearance_of_point.push_back(pattern.HasNext() ? pattern.TakeAppearance() : id);
-      const Eigen::Vector2d plan = point.position_in_world.head<2>();
       for (const uint32_t image : cameras.Within(plan, point.farthest_m)) {
         const CorridorStation& station = path.stations[image];
         if (!point.IsSeenFrom(station, path.cells[station.cell])) continue;

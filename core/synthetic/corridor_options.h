@@ -38,6 +38,8 @@ struct CorridorOptions {
   double speed_spread = 0.0;
   double gnss_left_m = 0.0;
   double gnss_datum_m = 0.0;
+  double hill_grade = 0.0;
+  double hill_length_m = 400.0;
   double mount_roll_deg = 0.0;
   double mount_pitch_deg = 0.0;
   int drives = 1;
@@ -115,6 +117,15 @@ struct CorridorOptions {
           self.gnss_datum_m,
           "how much higher the heights of the second drive's positions are",
           Range{-1000, 1000});
+    visit("hill_grade",
+          self.hill_grade,
+          "how steep the street climbs and falls at the most, metres up per metre along it; carriers "
+          "lean with it",
+          Range{0, 0.5});
+    visit("hill_length_m",
+          self.hill_length_m,
+          "from one hill to the next",
+          Range{10, 100000});
     visit("mount_roll_deg",
           self.mount_roll_deg,
           "how far the cameras lean to the right of the direction of travel",

@@ -72,6 +72,39 @@ std::vector<Eigen::Vector3d> GnssErrors(const Corridor& corridor) {
   return errors;
 }
 
+TEST(CorridorHardships, CarriersClimbHillsAndLeanWithThem) {
+  const CorridorOptions options{
+      .panoramas = 200, .shape = CorridorShape::kGrid, .hill_grade = 0.15, .hill_length_m = 300.0};
+  const Corridor hilly = MakeCorridor(options);
+  const Corridor flat = MakeCorridor({.panoramas = 200, .shape = CorridorShape::kGrid});
+  double steepest = 0.0;
+  for (size_t i = 0; i + 1 < hilly.cams_from_world.size(); ++i) {
+    const Rigid3& cam = hilly.cams_from_world[i];
+    const Eigen::Vector3d centre = cam.Centre();
+    EXPECT_LT((centre - flat.cams_from_world[i].Centre()).head<2>().norm(), 1e-9);
+    const Eigen::Vector3d step = hilly.cams_from_world[i + 1].Centre() - centre;
+    const double slope = step.z() / step.head<2>().norm();
+    steepest = std::max(steepest, std::abs(slope));
+    const Eigen::Vector3d forward = cam.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+    EXPECT_NEAR(std::asin(forward.z()), std::atan(slope), 0.08) << i;  // sway, and a step
+  }
+  EXPECT_GT(steepest, 0.09);
+  EXPECT_LE(steepest, 0.15);
+  for (size_t i = 0; i < hilly.cams_from_world.size(); i += 20) {
+    ASSERT_EQ(hilly.point_of_feature[i], flat.point_of_feature[i]);
+    for (size_t f = 0; f < hilly.point_of_feature[i].size(); f += 50) {
+      const uint32_t point = hilly.point_of_feature[i][f];
+      const Features& features = hilly.features[i];
+      const Eigen::Vector3d seen =
+          (hilly.cams_from_world[i] * hilly.points_in_world[point]).normalized();
+      const Keypoint& keypoint = features.keypoints[f];
+      const Eigen::Vector3d ray =
+          features.camera.BearingFromPixel({keypoint.x_px, keypoint.y_px});
+      EXPECT_LT(AngleBetween(seen, ray), 5.0 * features.camera.AngleFromPixels(options.noise_px));
+    }
+  }
+}
+
 TEST(CorridorHardships, GnssJumpsOnceAndTogether) {
   const auto errors = GnssErrors(MakeCorridor(
       {.panoramas = 30, .gnss_sigma_m = 0.01, .gnss_jump_panoramas = 10, .gnss_jump_m = 100.0}));
