@@ -25,11 +25,12 @@ constexpr double kLeastSigma_rad = kRadiansPerDegree;
 /// Median of the length of two normal components, and two cameras.
 constexpr double kMedianOfLeans = 1.1774 * std::numbers::sqrt2;
 constexpr double kUprightCameras = 3.0;
+/// Streets climb by five in a hundred, and hills by more; ten panoramas in a row climb alike, so
+/// that each of them is worth a tenth of one.
+constexpr double kSlopeSigma_rad = 3.0 * kRadiansPerDegree;
+constexpr double kAlikeOnSlopes = 10.0;
 constexpr double kLossSigmas = 3.0;
 constexpr int kRounds = 5;
-constexpr size_t kFewestToJudge = 5;
-constexpr double kMaxLean_rad = 10.0 * kRadiansPerDegree;
-constexpr double kMaxSigmas = 5.0;
 
 }  // namespace
 
@@ -88,26 +89,19 @@ void AddLevelPriors(const MappingState& state,
   if (!state.LevelSigma()) return;
   const std::optional<LevelFrame> frame = FindLevelFrame(state);
   if (!frame) return;
+  const double sigma_rad =
+      std::hypot(*state.LevelSigma(), kSlopeSigma_rad * std::sqrt(kAlikeOnSlopes));
   for (uint32_t pose = 0; pose < images.size(); ++pose) {
     const ImageSlot image = images[pose];
     const Vector3d up_in_cam = frame->UpInCam(state.Problem().images[image].drive);
     const double lean =
         AngleBetween(state.CamFromWorld(image).rotation * frame->up_in_world, up_in_cam);
-    const double far = lean / (kLossSigmas * *state.LevelSigma());
+    const double far = lean / (kLossSigmas * sigma_rad);
     problem.direction_priors.push_back({.pose = pose,
                                         .direction_in_world = frame->up_in_world,
                                         .direction_in_cam = up_in_cam,
-                                        .sigma_rad = *state.LevelSigma() * std::hypot(1.0, far)});
+                                        .sigma_rad = sigma_rad * std::hypot(1.0, far)});
   }
-}
-
-bool LeansFar(const MappingState& state, ImageSlot image, const Rigid3& cam_from_world) {
-  if (!state.LevelSigma() || state.Registered().size() < kFewestToJudge) return false;
-  const std::optional<LevelFrame> frame = FindLevelFrame(state);
-  if (!frame) return false;
-  const Vector3d up_in_cam = frame->UpInCam(state.Problem().images[image].drive);
-  return AngleBetween(cam_from_world.rotation * frame->up_in_world, up_in_cam) >
-         std::max(kMaxLean_rad, kMaxSigmas * *state.LevelSigma());
 }
 
 }  // namespace orbweave

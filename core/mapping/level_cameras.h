@@ -42,21 +42,15 @@ struct LevelFrame {
 /// nullopt: cameras do not agree which way up is (UprightFromWorld).
 [[nodiscard]] std::optional<LevelFrame> FindLevelFrame(const MappingState& state);
 
-/// Holds images level, give or take state.LevelSigma(): the pitch of a pair whose facades have
-/// neither ground nor roof is good to a degree or two, always to the same side, and a street of a
-/// hundred panoramas that is held by its pairs alone came out leaning by 36 degrees at its end,
-/// 80 m above the ground. Cameras that lean by more, as on a hill, count for less
-/// (Cauchy, three sigmas). `images`: poses of the problem, from the first on. Nothing where the
-/// state has no sigma.
+/// Holds images level, give or take state.LevelSigma() and the slopes of streets: the pitch of a
+/// pair whose facades have neither ground nor roof is good to a degree or two, and what each has
+/// wrong adds up along a street. Hills are not to be flattened: a slope of five in a hundred is
+/// nothing out of the way, ten panoramas in a row climb alike, and what leans by more counts for
+/// less (Cauchy, three sigmas). Held to a degree or two each, streets that climbed by 15 in a
+/// hundred came out flatter by a twentieth; not held at all, panoramas with few matches went
+/// astray. `images`: poses of the problem, from the first on. Nothing where the state has no sigma.
 void AddLevelPriors(const MappingState& state,
                     std::span<const ImageSlot> images,
                     BundleProblem& problem);
-
-/// Whether an image with that pose would lean as cameras on a carrier do not, on no slope: by more
-/// than ten degrees and five of state.LevelSigma(), against five registered images or more. What
-/// few matches put askew carries everything along that is registered by it.
-[[nodiscard]] bool LeansFar(const MappingState& state,
-                            ImageSlot image,
-                            const Rigid3& cam_from_world);
 
 }  // namespace orbweave

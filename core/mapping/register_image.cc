@@ -12,7 +12,6 @@
 #include "core/base/random.h"
 #include "core/estimators/estimate_absolute_pose.h"
 #include "core/mapping/judge_by_gnss.h"
-#include "core/mapping/level_cameras.h"
 #include "core/mapping/pair_witness.h"
 #include "core/mapping/pose_from_pairs.h"
 #include "core/mapping/pose_of_most_places.h"
@@ -76,10 +75,6 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
     if (limits.heeds_pairs &&
         IsGrosslyContradicted(state, image, cam_from_world, correspondences, max_error_rad)) {
       attempt.waits = true;
-      return false;
-    }
-    if (LeansFar(state, image, cam_from_world)) {
-      attempt.obstacle = RegistrationObstacle::kLean;
       return false;
     }
     state.Register(image, cam_from_world);

@@ -24,7 +24,6 @@ enum class RegistrationObstacle {
   kNone,
   kPairs,   ///< strong pairs contradict where points put it, and do not hold it by themselves
   kLength,  ///< its points do not tell how far it is from the others (IsLengthTold)
-  kLean,    ///< it would lean as no other does (LeansFar)
 };
 
 struct RegistrationAttempt {
@@ -44,7 +43,6 @@ struct RegistrationAttempt {
 /// more of them agree with it; if too few do, the image waits. A pose that GNSS contradicts
 /// (JudgeByGnss) gives way to one that it and some places of the image support; without such a one
 /// the image waits, unless its own position alone may be wrong and limits.waits_for_gnss is false.
-/// None is registered that would lean far where cameras are level (LeansFar).
 /// Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
                                                                 ImageSlot image,

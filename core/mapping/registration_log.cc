@@ -29,10 +29,6 @@ std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) 
     return std::to_string(record.best_inliers) +
            " points agree, but do not tell how far it is from the others";
   }
-  if (record.obstacle == RegistrationObstacle::kLean) {
-    return std::to_string(record.best_inliers) +
-           " points agree, but have it lean by more than ten degrees among upright panoramas";
-  }
   if (record.best_inliers < record.needed_inliers) {
     return std::to_string(record.best_inliers) + " of " + std::to_string(record.needed_inliers) +
            " needed points agree";

@@ -29,8 +29,8 @@ Eigen::Quaterniond Mount(const CorridorOptions& options) {
          RotationFromVector({-kRadPerDeg * options.mount_pitch_deg, 0.0, 0.0});
 }
 
-/// cam_from_world of a panorama that looks along the street, up or down its slope, up to a degree of
-/// sway.
+/// cam_from_world of a panorama that looks along the street, up or down its slope, up to a degree
+/// of sway.
 Eigen::Quaterniond LookAlong(const Eigen::Vector2d& direction,
                              double slope,
                              bool any_rotation,
@@ -40,8 +40,7 @@ Eigen::Quaterniond LookAlong(const Eigen::Vector2d& direction,
     return q.normalized();
   }
   const Eigen::Vector3d right(direction.y(), -direction.x(), 0.0);
-  const Eigen::Vector3d forward =
-      Eigen::Vector3d(direction.x(), direction.y(), slope).normalized();
+  const Eigen::Vector3d forward = Eigen::Vector3d(direction.x(), direction.y(), slope).normalized();
   Eigen::Matrix3d cam_from_world;
   cam_from_world.row(0) = right;
   cam_from_world.row(1) = forward.cross(right);  // down
@@ -162,7 +161,7 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
   const EquirectangularCamera camera{options.width_px, options.width_px / 2};
   if (options.gnss_sigma_m > 0.0) corridor.manifest.origin = kOrigin;
   const Eigen::Quaterniond mount = Mount(options);
-  const CorridorTerrain terrain(options);
+  const CorridorTerrain terrain(options, path);
   GnssNoise noise(options.gnss_correlation_m);
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the carrier that moved last
   const bool is_timed = options.gnss_delay_s != 0.0 || options.speed_spread != 0.0;
@@ -173,10 +172,9 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
     const Eigen::Vector3d centre(plan.x(), plan.y(), terrain.HeightAt(plan) + kCameraHeightM);
     if (!station.standing) {
       const Eigen::Vector2d& direction = station.place.direction;
-      attitude = mount * LookAlong(direction,
-                                   terrain.SlopeAt(plan, direction),
-                                   options.random_rotations,
-                                   random);
+      attitude =
+          mount *
+          LookAlong(direction, terrain.SlopeAt(plan, direction), options.random_rotations, random);
     }
     Eigen::Quaterniond cam_from_world = attitude;
     if (station.standing) {

@@ -148,7 +148,7 @@ void MakePointsAndFeatures(const CorridorOptions& options,
                            Corridor& corridor) {
   Random random(static_cast<uint64_t>(options.seed) * 3 + 2);
   Pattern pattern(options, PointsPerCell(options, false));
-  const CorridorTerrain terrain(options);
+  const CorridorTerrain terrain(options, path);
   double owed = 0.0;
   for (uint32_t index = 0; index < path.cells.size(); ++index) {
     const CorridorCell& cell = path.cells[index];

@@ -117,15 +117,13 @@ struct CorridorOptions {
           self.gnss_datum_m,
           "how much higher the heights of the second drive's positions are",
           Range{-1000, 1000});
-    visit("hill_grade",
-          self.hill_grade,
-          "how steep the street climbs and falls at the most, metres up per metre along it; carriers "
-          "lean with it",
-          Range{0, 0.5});
-    visit("hill_length_m",
-          self.hill_length_m,
-          "from one hill to the next",
-          Range{10, 100000});
+    visit(
+        "hill_grade",
+        self.hill_grade,
+        "how steep the street climbs and falls at the most, metres up per metre along it; carriers "
+        "lean with it",
+        Range{0, 0.5});
+    visit("hill_length_m", self.hill_length_m, "from one hill to the next", Range{10, 100000});
     visit("mount_roll_deg",
           self.mount_roll_deg,
           "how far the cameras lean to the right of the direction of travel",

@@ -113,6 +113,21 @@ TEST(HardCases, GnssJumpsAreNamedAndDoNotBendTheModel) {
   EXPECT_LT(ErrorsOf(corridor, result.worlds[0].reconstruction).unaligned_rmse_m, 2.0);
 }
 
+TEST(HardCases, HillsStayAsSteepAsTheyAre) {
+  CorridorOptions options{.panoramas = 100, .spacing_m = 10.0, .features_per_panorama = kFeatures};
+  const Corridor flat = MakeCorridor(options);
+  options.hill_grade = 0.2;
+  const Corridor hilly = MakeCorridor(options);
+  const Orientated on_hills = Orientate(hilly);
+  ASSERT_EQ(on_hills.worlds.size(), 1U);
+  const Reconstruction& model = on_hills.worlds[0].reconstruction;
+  EXPECT_EQ(model.images.size(), 100U);
+  const Orientated on_the_flat = Orientate(flat);
+  ASSERT_EQ(on_the_flat.worlds.size(), 1U);
+  EXPECT_LT(ErrorsOf(hilly, model).position_rmse_m,
+            1.3 * ErrorsOf(flat, on_the_flat.worlds[0].reconstruction).position_rmse_m);
+}
+
 TEST(HardCases, TwoDrivesOnDifferentDays) {
   const Corridor corridor = MakeCorridor(
       {.panoramas = 80, .features_per_panorama = kFeatures, .gnss_bias_m = 3.0, .drives = 2});

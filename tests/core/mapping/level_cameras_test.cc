@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/core/mapping/true_state.h"
@@ -68,8 +69,9 @@ TEST(AddLevelPriors, PullsBackWhatLeans) {
   const double lean_rad = AngleBetween(state.CamFromWorld(0).rotation * first.direction_in_world,
                                        first.direction_in_cam);
   EXPECT_NEAR(lean_rad, 6.0 * kRadPerDeg, 0.5 * kRadPerDeg);
-  EXPECT_GT(first.sigma_rad, 2.0 * kRadPerDeg) << "what leans far counts for less";
-  EXPECT_NEAR(problem.direction_priors[20].sigma_rad, kRadPerDeg, 0.01 * kRadPerDeg);
+  const double upright_rad = problem.direction_priors[20].sigma_rad;
+  EXPECT_NEAR(upright_rad, std::hypot(1.0, std::sqrt(90.0)) * kRadPerDeg, 0.01 * kRadPerDeg);
+  EXPECT_GT(first.sigma_rad, 1.01 * upright_rad) << "what leans far counts for less";
 }
 
 TEST(AddLevelPriors, AddsNothingWithoutSigma) {
@@ -96,25 +98,6 @@ TEST(AddLevelPriors, LearnsHowTheMountOfADriveLeans) {
   EXPECT_LT(AngleBetween(frame->up_in_world, -Vector3d::UnitY()), 1.0 * kRadPerDeg);
   const Vector3d leaning = mount * -Vector3d::UnitY();
   EXPECT_LT(AngleBetween(frame->up_in_cam.at(0), leaning), 2.5 * kRadPerDeg);
-}
-
-TEST(LeansFar, OnlyWhatNoCarrierDoes) {
-  const StreetFixture street({.centres = StraightWalk(20, 3.0)});
-  MappingState state = street.StateWith(FirstImages(19));
-  const auto leaning = [&](double lean_deg) {
-    const Rigid3& truth = street.world.cams_from_world[19];
-    const Eigen::Quaterniond lean = RotationFromVector({0.0, 0.0, lean_deg * kRadPerDeg});
-    return Rigid3::FromCentre(lean * truth.rotation, truth.Centre());
-  };
-  EXPECT_FALSE(LeansFar(state, 19, leaning(30.0))) << "nobody said that cameras are level";
-  state.SetLevelSigma(kRadPerDeg);
-  EXPECT_FALSE(LeansFar(state, 19, leaning(8.0)));
-  EXPECT_TRUE(LeansFar(state, 19, leaning(12.0)));
-  state.SetLevelSigma(3.0 * kRadPerDeg);
-  EXPECT_FALSE(LeansFar(state, 19, leaning(12.0)));
-  MappingState few = street.StateWith(FirstImages(4));
-  few.SetLevelSigma(kRadPerDeg);
-  EXPECT_FALSE(LeansFar(few, 19, leaning(30.0)));
 }
 
 }  // namespace

@@ -98,8 +98,7 @@ TEST(CorridorHardships, CarriersClimbHillsAndLeanWithThem) {
       const Eigen::Vector3d seen =
           (hilly.cams_from_world[i] * hilly.points_in_world[point]).normalized();
       const Keypoint& keypoint = features.keypoints[f];
-      const Eigen::Vector3d ray =
-          features.camera.BearingFromPixel({keypoint.x_px, keypoint.y_px});
+      const Eigen::Vector3d ray = features.camera.BearingFromPixel({keypoint.x_px, keypoint.y_px});
       EXPECT_LT(AngleBetween(seen, ray), 5.0 * features.camera.AngleFromPixels(options.noise_px));
     }
   }
