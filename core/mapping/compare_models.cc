@@ -80,8 +80,9 @@ bool IsLiked(const Opinion& one, const Opinion& other) {
   }
   if (one.worth > kMoreBorneOut * other.worth) return true;
   if (kMoreBorneOut * one.worth < other.worth) return false;
-  const double beyond = one.misfit.Beside(other.misfit) - other.misfit.Beside(one.misfit);
-  return beyond < 0.0 && beyond + one.rays.Misfit() - other.rays.Misfit() < 0.0 &&
+  return one.misfit.Tells() && other.misfit.Tells() &&
+         one.misfit.Beside(other.misfit) + one.rays.Misfit() <
+             other.misfit.Beside(one.misfit) + other.rays.Misfit() &&
          one.rays.evidence >= kHardlyLess * other.rays.evidence;
 }
 

@@ -35,9 +35,9 @@ namespace orbweave {
                                  const MappingOptions& options);
 
 /// Whether GNSS has the one rather than the other of two models. Of about the same images, to a
-/// twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, its images
-/// lie closer to their positions (PositionMisfit), by more than rays speak against it, which count
-/// as a squared misfit of 1.5 for every place where they contradict its lengths
+/// twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, and
+/// positions and rays together like it better: the squared misfit of its positions
+/// (PositionMisfit), with 1.5 more for every place where rays contradict its lengths
 /// (FindLengthFaults), less twenty times the logarithm of EvidenceFor; and not clearly less speaks
 /// for it (four fifths of EvidenceFor), so that two positions that are wrong decide nothing. Of
 /// more images it bears out as large a share of it, to a twentieth, and these are not much further

@@ -90,9 +90,8 @@ CrossCheck CheckLeans(const std::map<ImageId, RegisteredImage>& images,
   check.sentence = absl::StrFormat(
       "%d of %d panoramas lean by more than %.0f deg where most lean by less than %.1f, most of "
       "all %s, by %.0f: the model climbs or lies askew there, unless the street is as steep or the "
-      "camera was held otherwise; heights and attitudes about there are not to be trusted; give "
-      "pitch and roll, or "
-      "heights, of the panoramas",
+      "camera was held otherwise; heights and attitudes about there are not to be trusted; "
+      "positions with exact heights, and their accuracy, hold it",
       off,
       leans.size(),
       check.limit,
