@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/geometry/rotation.h"
+#include "core/merging/moves_along.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -38,12 +39,18 @@ DriveAttitudes AttitudesOf(const Reconstruction& reconstruction,
   const bool is_stated = static_cast<double>(attitudes.num_stating_both) >=
                          kMinStatedShare * static_cast<double>(images.size());
   double sigma_deg = 0.0;
-  for (const ImageId id : images) {
+  std::vector<Eigen::Vector3d> centres;
+  for (const ImageId id : images)
+    centres.push_back(reconstruction.images.at(id).cam_from_world.Centre());
+  const std::vector<MoveAlong> moves = MovesAlong(centres);
+  for (size_t i = 0; i < images.size(); ++i) {
+    const ImageId id = images[i];
     const Eigen::Matrix3d R =
         reconstruction.images.at(id).cam_from_world.rotation.toRotationMatrix();
     const PosePrior& prior = manifest.At(id).prior;
     if (is_stated && !StatesTilt(prior)) continue;
     attitudes.images.push_back(id);
+    attitudes.travel.push_back(moves[i].moved.stableNormalized());
     attitudes.level_from_world.push_back(is_stated ? LevelFromCamera(prior) * R : R);
     sigma_deg = std::max(sigma_deg, prior.tilt_sigma_deg);
   }

@@ -22,6 +22,7 @@ struct DriveAttitudes {
   uint32_t drive = 0;
   std::vector<ImageId> images{};
   std::vector<Eigen::Matrix3d> level_from_world{};  ///< of each of them
+  std::vector<Eigen::Vector3d> travel{};  ///< unit, in the world; zero where it does not move
   /// Standard deviation of what is taken off, the largest of all; absent where nothing is.
   std::optional<double> stated_sigma_rad{};
   size_t num_registered = 0;

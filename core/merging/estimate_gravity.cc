@@ -18,7 +18,8 @@
 namespace orbweave {
 namespace {
 
-// What a drive can know of down in its cameras: roads slope and bank by some per cent, for long.
+// What a drive can know of down in its cameras: roads slope and bank by some per cent, for long; by
+// more where that shows in what its cameras scatter.
 constexpr double kRoadSigma_rad = 0.02;
 // Of the ground as a whole: carriers stand at right angles to it, and hillsides slope by as much as
 // towns are built on.
@@ -32,38 +33,56 @@ double MountSigma_rad(const DriveAttitudes& drive) {
   return drive.stated_sigma_rad.value_or(kMountSigma_rad);
 }
 
-// A drive's part of the cost with d_k eliminated: constant - |S g + u y|^2 / (W + u).
+// A drive's part of the cost with d_k eliminated:
+//   g^T Q g - |S g + u y|^2_M^-1,   M = W + u I.
 struct DriveTerm {
-  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  // sum of w_i R_i
-  double W = 0.0;                               // sum of w_i
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();  // sum of R_i^T W_i R_i
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  // sum of W_i R_i
+  Eigen::Matrix3d W = Eigen::Matrix3d::Zero();  // sum of W_i
   double u = 1.0;
 
-  [[nodiscard]] Eigen::Vector3d DownInMount(const Eigen::Vector3d& down) const {
-    return (S * down + u * Eigen::Vector3d::UnitY()) / (W + u);
+  [[nodiscard]] Eigen::Matrix3d InverseM() const {
+    return (W + u * Eigen::Matrix3d::Identity()).inverse();
   }
-  // Of that, where down is known to `down_sigma_rad`.
-  [[nodiscard]] double MountSigma_rad(double down_sigma_rad) const {
-    return std::hypot(1.0 / std::sqrt(W + u), W / (W + u) * down_sigma_rad);
+  [[nodiscard]] Eigen::Vector3d DownInMount(const Eigen::Vector3d& down) const {
+    return InverseM() * (S * down + u * Eigen::Vector3d::UnitY());
+  }
+  // Of that, in the direction known worst, where down is known to `down_sigma_rad`.
+  [[nodiscard]] double MountSigma_rad(const Eigen::Vector3d& in_mount,
+                                      double down_sigma_rad) const {
+    const Eigen::Matrix<double, 3, 2> basis = TangentBasis(in_mount.normalized());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(basis.transpose() * W * basis);
+    const double least = std::max(solver.eigenvalues()[0], 0.0);
+    const double most = std::max(solver.eigenvalues()[1], 0.0);
+    return std::hypot(1.0 / std::sqrt(least + u), most / (most + u) * down_sigma_rad);
   }
 };
 
 double CostOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
   double cost = 0.0;
-  for (const DriveTerm& term : terms)
-    cost -= term.DownInMount(down).squaredNorm() * (term.W + term.u);
+  for (const DriveTerm& term : terms) {
+    const Eigen::Vector3d b = term.S * down + term.u * Eigen::Vector3d::UnitY();
+    cost += down.dot(term.Q * down) - b.dot(term.InverseM() * b);
+  }
   return cost;
+}
+
+// Minus half the derivative of the cost.
+Eigen::Vector3d AscentOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
+  Eigen::Vector3d ascent = Eigen::Vector3d::Zero();
+  for (const DriveTerm& term : terms)
+    ascent += term.S.transpose() * term.DownInMount(down) - term.Q * down;
+  return ascent;
 }
 
 // Half the second derivative on the sphere: information about `down` in its tangent plane.
 Eigen::Matrix2d InformationOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
   const Eigen::Matrix<double, 3, 2> basis = TangentBasis(down);
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  double radial = 0.0;
-  for (const DriveTerm& term : terms) {
-    hessian -= term.S.transpose() * term.S / (term.W + term.u);
-    radial += down.dot(term.S.transpose() * term.DownInMount(down));
-  }
-  return basis.transpose() * hessian * basis + radial * Eigen::Matrix2d::Identity();
+  for (const DriveTerm& term : terms)
+    hessian += term.Q - term.S.transpose() * term.InverseM() * term.S;
+  return basis.transpose() * hessian * basis +
+         down.dot(AscentOf(terms, down)) * Eigen::Matrix2d::Identity();
 }
 
 double SigmaOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
@@ -84,15 +103,11 @@ Eigen::Vector3d Minimise(const std::vector<DriveTerm>& terms, Eigen::Vector3d do
   double cost = CostOf(terms, down);
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::Matrix<double, 3, 2> basis = TangentBasis(down);
-    Eigen::Vector3d ascent = Eigen::Vector3d::Zero();
     double weight = 0.0;
-    for (const DriveTerm& term : terms) {
-      ascent += term.S.transpose() * term.DownInMount(down);
-      weight += term.W;
-    }
+    for (const DriveTerm& term : terms) weight += term.W.trace() / 3.0;
     const Eigen::Matrix2d A =
         InformationOf(terms, down) + damping * weight * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d move = A.ldlt().solve(basis.transpose() * ascent);
+    const Eigen::Vector2d move = A.ldlt().solve(basis.transpose() * AscentOf(terms, down));
     const Eigen::Vector3d candidate = (down + basis * move).normalized();
     const double candidate_cost = CostOf(terms, candidate);
     if (candidate.allFinite() && candidate_cost <= cost) {
@@ -129,7 +144,8 @@ class Estimate {
     gravity.mount_share = MountShare(terms_, down_);
     for (size_t k = 0; k < drives_.size(); ++k) {
       gravity.down_in_mount[drives_[k].drive] = in_mount_[k].normalized();
-      gravity.mount_sigma_rad[drives_[k].drive] = terms_[k].MountSigma_rad(gravity.sigma_rad);
+      gravity.mount_sigma_rad[drives_[k].drive] =
+          terms_[k].MountSigma_rad(in_mount_[k], gravity.sigma_rad);
     }
     return gravity;
   }
@@ -152,28 +168,70 @@ class Estimate {
     return stated.empty() ? sigma_rad : std::min(sigma_rad, SigmaOf(stated, down_));
   }
 
-  // Cauchy's weights at the scatter of all, no drive heavier than its slopes allow.
+  // Cauchy's weights at the scatter of all, along the way and across it, no drive heavier than its
+  // slopes allow.
   void Reweigh() {
-    std::vector<double> errors;
+    std::vector<double> along;
+    std::vector<double> across;
     for (size_t k = 0; k < drives_.size(); ++k) {
-      for (const Eigen::Matrix3d& R : drives_[k].level_from_world)
-        errors.push_back((R * down_ - in_mount_[k]).norm());
-    }
-    const double scatter = std::max(Quantile(std::move(errors), 0.5), kLeastScatter_rad);
-    for (size_t k = 0; k < drives_.size(); ++k) {
-      DriveTerm& term = terms_[k];
-      term.S.setZero();
-      term.W = 0.0;
-      for (const Eigen::Matrix3d& R : drives_[k].level_from_world) {
-        const double error = (R * down_ - in_mount_[k]).norm();
-        const double weight = 1.0 / (scatter * scatter + error * error);
-        term.S += weight * R;
-        term.W += weight;
+      for (size_t i = 0; i < drives_[k].images.size(); ++i) {
+        const Leaning leaning = LeaningOf(k, i);
+        along.push_back(leaning.along);
+        across.push_back(leaning.across);
       }
-      const double scale = std::min(1.0, 1.0 / (kRoadSigma_rad * kRoadSigma_rad * term.W));
-      term.S *= scale;
-      term.W *= scale;
     }
+    const double scatter_along = std::max(Quantile(std::move(along), 0.5), kLeastScatter_rad);
+    const double scatter_across = std::max(Quantile(std::move(across), 0.5), kLeastScatter_rad);
+    for (size_t k = 0; k < drives_.size(); ++k) Reweigh(k, scatter_along, scatter_across);
+  }
+
+  void Reweigh(size_t k, double scatter_along, double scatter_across) {
+    const auto most = [](double scatter) {
+      return std::pow(std::max(kRoadSigma_rad, scatter), -2);
+    };
+    const auto weight = [](double error, double scatter) {
+      return 1.0 / (scatter * scatter + error * error);
+    };
+    double sum_along = 0.0;
+    double sum_across = 0.0;
+    for (size_t i = 0; i < drives_[k].images.size(); ++i) {
+      const Leaning leaning = LeaningOf(k, i);
+      sum_along += weight(leaning.along, scatter_along);
+      sum_across += weight(leaning.across, scatter_across);
+    }
+    const double share_along = std::min(1.0, most(scatter_along) / sum_along);
+    const double share_across = std::min(1.0, most(scatter_across) / sum_across);
+    DriveTerm& term = terms_[k];
+    term = {.u = term.u};
+    for (size_t i = 0; i < drives_[k].images.size(); ++i) {
+      const Leaning leaning = LeaningOf(k, i);
+      const double w_along = share_along * weight(leaning.along, scatter_along);
+      const double w_across = share_across * weight(leaning.across, scatter_across);
+      const Eigen::Matrix3d W = w_along * leaning.along_way +
+                                w_across * (Eigen::Matrix3d::Identity() - leaning.along_way);
+      const Eigen::Matrix3d& R = drives_[k].level_from_world[i];
+      term.Q += R.transpose() * W * R;
+      term.S += W * R;
+      term.W += W;
+    }
+  }
+
+  // R_i g - d_k of an image along the way of its carrier, where slopes are, and across it; all is
+  // along it where the carrier stands.
+  struct Leaning {
+    Eigen::Matrix3d along_way = Eigen::Matrix3d::Identity();  // in the camera: what of a vector is
+    double along = 0.0;
+    double across = 0.0;
+  };
+  [[nodiscard]] Leaning LeaningOf(size_t k, size_t i) const {
+    const Eigen::Matrix3d& R = drives_[k].level_from_world[i];
+    const Eigen::Vector3d error = R * down_ - in_mount_[k];
+    const Eigen::Vector3d way = R * drives_[k].travel[i];
+    Leaning leaning;
+    if (!way.isZero(0.0)) leaning.along_way = way * way.transpose();
+    leaning.along = (leaning.along_way * error).norm();
+    leaning.across = (error - leaning.along_way * error).norm();
+    return leaning;
   }
 
   // Cauchy's weights of the mounts: one that leans more than most pulls less than those that do

@@ -45,13 +45,16 @@ struct Gravity {
 /// The carrier of a drive keeps upright but for slopes, its mount leans by an unknown but constant
 /// rotation: so down, seen from the cameras of a drive, is one direction d_k, wherever they look,
 /// and the one direction g of the world that stays where the cameras turn is down. Minimises
-///   sum_i rho(|R_i g - d_k|^2) + sum_k rho'(|d_k - y|^2),   |g| = 1,
-/// over g and all d_k; rho is Cauchy's at the scatter found, rho' at kMountSigma_rad: most mounts
-/// stand upright, some lean far. In a street without turns the second term decides ("cameras are
-/// upright"), with its sigma. Slopes keep a drive from knowing d_k to better than a degree, and
-/// ground that slopes as a whole keeps all of them from knowing g to better than three. Where
-/// enough of a drive's panoramas state pitch and roll (DriveAttitudes), R_i is that from the world
-/// into a level camera, and d_k is within their tilt_sigma_deg.
+///   sum_i e_i^T W_i e_i + sum_k rho'(|d_k - y|^2),   e_i = R_i g - d_k,   |g| = 1,
+/// over g and all d_k. W_i weighs what leans along the way, as slopes make it, and what leans
+/// across it by themselves: Cauchy's weights at the scatter found of each. On hills what leans
+/// across tells g where the street turns, and what leans along it next to nothing. rho' is Cauchy's
+/// at kMountSigma_rad: most mounts stand upright, some lean far. In a street without turns the
+/// second term decides ("cameras are upright"), with its sigma. Slopes keep a drive from knowing
+/// d_k to better than a degree, or than they scatter, and ground that slopes as a whole keeps all
+/// of them from knowing g to better than three. Where enough of a drive's panoramas state pitch and
+/// roll (DriveAttitudes), R_i is that from the world into a level camera, and d_k is within their
+/// tilt_sigma_deg.
 ///
 /// nullopt where panoramas are not upright on average (FindGravity) or there are none.
 [[nodiscard]] std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,

@@ -7,14 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/quantile.h"
+#include "core/merging/moves_along.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
-
-// A carrier that went less than this share of its usual way between neighbours stands.
-constexpr double kStandingShare = 0.3;
 
 bool HasTimes(const GnssDrive& drive, const ImageManifest& manifest) {
   const auto time = [&](const DrivenFix& fix) {
@@ -33,31 +30,20 @@ void MeasureWays(GnssDrive& drive) {
   }
 }
 
-double MedianStep(const GnssDrive& drive) {
-  std::vector<double> steps;
-  for (size_t i = 1; i < drive.fixes.size(); ++i)
-    steps.push_back(drive.fixes[i].way - drive.fixes[i - 1].way);
-  return Quantile(std::move(steps), 0.5);
-}
-
-// From the fix before to the fix after, which halves what a tremble adds.
 void MeasureTravel(const ImageManifest& manifest, GnssDrive& drive) {
-  const double least = kStandingShare * MedianStep(drive);
-  for (size_t i = 0; i < drive.fixes.size(); ++i) {
-    const size_t first = i > 0 ? i - 1 : i;
-    const size_t last = std::min(i + 1, drive.fixes.size() - 1);
-    const DrivenFix& before = drive.fixes[first];
-    const DrivenFix& after = drive.fixes[last];
-    const Eigen::Vector3d moved = after.centre_in_world - before.centre_in_world;
-    const double steps = static_cast<double>(last - first);
-    if (steps == 0.0 || moved.norm() <= steps * least) continue;
+  std::vector<Eigen::Vector3d> centres;
+  for (const DrivenFix& fix : drive.fixes) centres.push_back(fix.centre_in_world);
+  const std::vector<MoveAlong> moves = MovesAlong(centres);
+  for (size_t i = 0; i < moves.size(); ++i) {
+    const MoveAlong& move = moves[i];
+    if (move.moved.isZero(0.0)) continue;
     if (!drive.has_times) {
-      drive.fixes[i].travel = moved.normalized();
+      drive.fixes[i].travel = move.moved.normalized();
       continue;
     }
-    const double seconds =
-        *manifest.At(after.image).capture_time_s - *manifest.At(before.image).capture_time_s;
-    if (seconds > 0.0) drive.fixes[i].travel = moved / seconds;
+    const double seconds = *manifest.At(drive.fixes[move.last].image).capture_time_s -
+                           *manifest.At(drive.fixes[move.first].image).capture_time_s;
+    if (seconds > 0.0) drive.fixes[i].travel = move.moved / seconds;
   }
 }
 

@@ -174,6 +174,19 @@ TEST(RealGnss, ErrorsThatNeighboursShareDoNotLayANarrowStreetOnItsSide) {
   }
 }
 
+TEST(RealGnss, ErrorsThatNeighboursShareDoNotLayHillsOnTheirSide) {
+  for (const int seed : {1, 2, 8}) {
+    const Outcome outcome = OutcomeOf({.panoramas = 120,
+                                       .spacing_m = 5.0,
+                                       .gnss_sigma_m = 4.0,
+                                       .gnss_correlation_m = 150.0,
+                                       .hill_grade = 0.15,
+                                       .seed = seed});
+    EXPECT_LT(outcome.rotation_deg, 5.0) << seed;
+    EXPECT_LT(outcome.rotation_deg, 2.0 * outcome.rotation_sigma_deg) << seed;
+  }
+}
+
 TEST(RealGnss, AClockThatIsLateIsTakenOff) {
   double sum = 0.0;
   double count = 0.0;

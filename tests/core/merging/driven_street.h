@@ -27,6 +27,8 @@ struct DriveOptions {
   double sigma_m = 0.0;     ///< of GNSS, per axis
   Eigen::Quaterniond mount = Eigen::Quaterniond::Identity();  ///< from an upright camera
   double sway_rad = 0.0;
+  double slope_rad = 0.0;   ///< of the steepest hill, up and down
+  int hill_panoramas = 40;  ///< from one hill to the next
 };
 
 /// Adds a drive that starts at the origin; its number is that of the drives before.
@@ -37,10 +39,13 @@ inline void AddDrive(const DriveOptions& options, Random& random, DrivenStreet& 
   for (int i = 0; i < options.panoramas; ++i) {
     const double way = (static_cast<double>(i) / options.panoramas - 0.5) / options.turn_share;
     const double heading = 0.3 + options.turn_rad * std::clamp(way + 0.5, 0.0, 1.0);
-    const Eigen::Vector3d forward(std::cos(heading), std::sin(heading), 0.0);
+    const double slope = options.slope_rad * std::sin(2.0 * EIGEN_PI * i / options.hill_panoramas);
+    const Eigen::Vector3d right(std::sin(heading), -std::cos(heading), 0.0);
+    const Eigen::Vector3d forward(
+        std::cos(slope) * std::cos(heading), std::cos(slope) * std::sin(heading), std::sin(slope));
     Eigen::Matrix3d upright;  // cam_from_world
-    upright.row(0) = Eigen::Vector3d(forward.y(), -forward.x(), 0.0);
-    upright.row(1) = -Eigen::Vector3d::UnitZ();
+    upright.row(0) = right;
+    upright.row(1) = forward.cross(right);
     upright.row(2) = forward;
     const Eigen::Vector3d sway(random.Normal(), random.Normal(), random.Normal());
     const Eigen::Vector3d noise(random.Normal(), random.Normal(), random.Normal());

@@ -80,6 +80,22 @@ TEST(EstimateGravity, KnowsEveryDrivesMount) {
   EXPECT_LT(AngleBetween(gravity->down_in_mount.at(1), Eigen::Vector3d::UnitY()), 0.03);
 }
 
+TEST(EstimateGravity, IsNotMisledByHillsInAStreetThatTurns) {
+  for (uint64_t seed = 6; seed < 12; ++seed) {
+    const DrivenStreet street = Drive({.panoramas = 90,
+                                       .turn_rad = 1.2,
+                                       .turn_share = 1.0,
+                                       .sway_rad = 0.015,
+                                       .slope_rad = 0.15,
+                                       .hill_panoramas = 50 + 10 * static_cast<int>(seed)},
+                                      seed);
+    const std::optional<Gravity> gravity = EstimateGravity(street.model, street.manifest);
+    ASSERT_TRUE(gravity.has_value());
+    EXPECT_LT(AngleBetween(gravity->down_in_world, kDown), 0.05) << seed;
+    EXPECT_LT(gravity->sigma_rad, 0.12);
+  }
+}
+
 TEST(EstimateGravity, IsSilentAboutNothing) { EXPECT_FALSE(EstimateGravity({}, {}).has_value()); }
 
 }  // namespace
