@@ -27,9 +27,11 @@ remarks() {
   [ "$outliers" = 0 ] || echo -n "GNSS outliers named: $outliers; "
   seams=$(sed -n '/^ "seams": \[/,/^ \]/p' "$file" | grep -c '"used": false' || true)
   [ "$seams" = 0 ] || echo -n "seams switched off: $seams; "
+  [ "${#warnings}" -le 110 ] || warnings="${warnings:0:107} ..."
   [ -z "$warnings" ] || echo -n "$warnings; "
   verdict=$(sed -n '/^ "verdict": {/,/^ }/p' "$file")
-  reason=$(sed -n '/"reasons": \[/,/\]/s/^   "\(.*\)",*$/\1/p' <<<"$verdict" | head -1)
+  reason=$(sed -n '/"reasons": \[$/,/\]/s/^   "\(.*\)",*$/\1/p' <<<"$verdict" | head -1)
+  [ "${#reason}" -le 110 ] || reason="${reason:0:107} ..."
   echo -n "$(sed -n 's/^  "level": "\(.*\)",*$/\1/p' <<<"$verdict")${reason:+: $reason}; "
 }
 
@@ -71,6 +73,8 @@ row "mount leans 12 degrees sideways, straight street" "${n[@]}" --shape straigh
 row "mount leans 12 degrees sideways, U-turn" "${n[@]}" --shape uturn --mount-roll-deg 12
 row "mount leans 10 degrees backwards, straight street" "${n[@]}" --shape straight --mount-pitch-deg 10
 row "GNSS errors of 5 m, alike over 150 m" --panoramas $((4 * panoramas)) --gnss-sigma-m 5 --gnss-correlation-m 150
+row "hills of 20 %, 10 m steps" --panoramas $((2 * panoramas)) --spacing-m 10 --hill-grade 0.2
+row "hills of 15 %, GNSS errors of 4 m, alike over 150 m" --panoramas $((2 * panoramas)) --spacing-m 5 --hill-grade 0.15 --gnss-sigma-m 4 --gnss-correlation-m 150
 row "GNSS clock 0.8 s late" --panoramas $((2 * panoramas)) --gnss-delay-s 0.8
 row "GNSS clock 0.4 s late at 4 to 16 m/s, straight street" --panoramas $((2 * panoramas)) --shape straight --gnss-delay-s 0.4 --speed-spread 0.6
 row "antenna 3 m to the left, U-turn" "${n[@]}" --shape uturn --gnss-left-m 3
