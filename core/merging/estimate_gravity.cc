@@ -122,6 +122,46 @@ Eigen::Vector3d Minimise(const std::vector<DriveTerm>& terms, Eigen::Vector3d do
   return down;
 }
 
+// How what cameras lean scatters in one direction: in all, and from one to the next.
+class Scatter {
+ public:
+  void Add(double lean, bool follows) {
+    if (follows) steps_.push_back(std::abs(lean - last_));
+    leans_.push_back(std::abs(lean));
+    last_ = lean;
+  }
+  [[nodiscard]] const std::vector<double>& Leans() const { return leans_; }
+  [[nodiscard]] const std::vector<double>& Steps() const { return steps_; }
+
+ private:
+  std::vector<double> leans_{};
+  std::vector<double> steps_{};
+  double last_ = 0.0;
+};
+
+// What that makes of one camera's word, and of all of a drive.
+class Spread {
+ public:
+  explicit Spread(const Scatter& scatter)
+      : median_rad_(std::max(Quantile(scatter.Leans(), 0.5), kLeastScatter_rad)) {
+    if (scatter.Steps().empty()) return;
+    const double step_rad = Quantile(scatter.Steps(), 0.5);
+    const double alike = median_rad_ * median_rad_ - 0.5 * step_rad * step_rad;
+    slope_rad_ = std::sqrt(std::max(alike, 0.0));
+  }
+
+  [[nodiscard]] double Weight(double lean) const {
+    return 1.0 / (median_rad_ * median_rad_ + lean * lean);
+  }
+  [[nodiscard]] double MostOfADrive() const {
+    return std::pow(std::max(kRoadSigma_rad, slope_rad_), -2);
+  }
+
+ private:
+  double median_rad_;
+  double slope_rad_ = 0.0;  // what neighbours share: it does not average out
+};
+
 class Estimate {
  public:
   Estimate(const std::vector<DriveAttitudes>& drives, const Eigen::Vector3d& start)
@@ -171,42 +211,34 @@ class Estimate {
   // Cauchy's weights at the scatter of all, along the way and across it, no drive heavier than its
   // slopes allow.
   void Reweigh() {
-    std::vector<double> along;
-    std::vector<double> across;
+    Scatter along;
+    Scatter across;
     for (size_t k = 0; k < drives_.size(); ++k) {
       for (size_t i = 0; i < drives_[k].images.size(); ++i) {
         const Leaning leaning = LeaningOf(k, i);
-        along.push_back(leaning.along);
-        across.push_back(leaning.across);
+        along.Add(leaning.along, i > 0);
+        across.Add(leaning.across, i > 0);
       }
     }
-    const double scatter_along = std::max(Quantile(std::move(along), 0.5), kLeastScatter_rad);
-    const double scatter_across = std::max(Quantile(std::move(across), 0.5), kLeastScatter_rad);
-    for (size_t k = 0; k < drives_.size(); ++k) Reweigh(k, scatter_along, scatter_across);
+    for (size_t k = 0; k < drives_.size(); ++k) Reweigh(k, Spread(along), Spread(across));
   }
 
-  void Reweigh(size_t k, double scatter_along, double scatter_across) {
-    const auto most = [](double scatter) {
-      return std::pow(std::max(kRoadSigma_rad, scatter), -2);
-    };
-    const auto weight = [](double error, double scatter) {
-      return 1.0 / (scatter * scatter + error * error);
-    };
+  void Reweigh(size_t k, const Spread& of_along, const Spread& of_across) {
     double sum_along = 0.0;
     double sum_across = 0.0;
     for (size_t i = 0; i < drives_[k].images.size(); ++i) {
       const Leaning leaning = LeaningOf(k, i);
-      sum_along += weight(leaning.along, scatter_along);
-      sum_across += weight(leaning.across, scatter_across);
+      sum_along += of_along.Weight(leaning.along);
+      sum_across += of_across.Weight(leaning.across);
     }
-    const double share_along = std::min(1.0, most(scatter_along) / sum_along);
-    const double share_across = std::min(1.0, most(scatter_across) / sum_across);
+    const double share_along = std::min(1.0, of_along.MostOfADrive() / sum_along);
+    const double share_across = std::min(1.0, of_across.MostOfADrive() / sum_across);
     DriveTerm& term = terms_[k];
     term = {.u = term.u};
     for (size_t i = 0; i < drives_[k].images.size(); ++i) {
       const Leaning leaning = LeaningOf(k, i);
-      const double w_along = share_along * weight(leaning.along, scatter_along);
-      const double w_across = share_across * weight(leaning.across, scatter_across);
+      const double w_along = share_along * of_along.Weight(leaning.along);
+      const double w_across = share_across * of_across.Weight(leaning.across);
       const Eigen::Matrix3d W = w_along * leaning.along_way +
                                 w_across * (Eigen::Matrix3d::Identity() - leaning.along_way);
       const Eigen::Matrix3d& R = drives_[k].level_from_world[i];
@@ -227,11 +259,10 @@ class Estimate {
     const Eigen::Matrix3d& R = drives_[k].level_from_world[i];
     const Eigen::Vector3d error = R * down_ - in_mount_[k];
     const Eigen::Vector3d way = R * drives_[k].travel[i];
-    Leaning leaning;
-    if (!way.isZero(0.0)) leaning.along_way = way * way.transpose();
-    leaning.along = (leaning.along_way * error).norm();
-    leaning.across = (error - leaning.along_way * error).norm();
-    return leaning;
+    if (way.isZero(0.0)) return {.along = error.norm()};
+    return {.along_way = way * way.transpose(),
+            .along = error.dot(way),
+            .across = error.dot(in_mount_[k].cross(way).normalized())};
   }
 
   // Cauchy's weights of the mounts: one that leans more than most pulls less than those that do
