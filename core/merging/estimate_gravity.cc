@@ -25,6 +25,10 @@ constexpr double kRoadSigma_rad = 0.02;
 // towns are built on.
 constexpr double kGroundSigma_rad = 0.05;
 constexpr double kLeastScatter_rad = 1e-3;
+// A mount that leans on flat ground explains nearly all that neighbours lean alike, hills under an
+// upright one leave most of it; less than half may be either.
+constexpr double kExplainedShare = 0.15;
+constexpr double kEitherShare = 0.5;
 constexpr int kRounds = 20;
 constexpr int kSteps = 30;
 
@@ -147,38 +151,49 @@ class Spread {
     if (scatter.Steps().empty()) return;
     const double step_rad = Quantile(scatter.Steps(), 0.5);
     const double alike = median_rad_ * median_rad_ - 0.5 * step_rad * step_rad;
-    slope_rad_ = std::sqrt(std::max(alike, 0.0));
+    alike_rad_ = std::sqrt(std::max(alike, 0.0));
   }
 
   [[nodiscard]] double Weight(double lean) const {
     return 1.0 / (median_rad_ * median_rad_ + lean * lean);
   }
-  [[nodiscard]] double MostOfADrive() const {
-    return std::pow(std::max(kRoadSigma_rad, slope_rad_), -2);
-  }
+  /// What neighbours lean alike: it does not average out.
+  [[nodiscard]] double Alike_rad() const { return alike_rad_; }
 
  private:
   double median_rad_;
-  double slope_rad_ = 0.0;  // what neighbours share: it does not average out
+  double alike_rad_ = 0.0;
 };
 
 class Estimate {
  public:
-  Estimate(const std::vector<DriveAttitudes>& drives, const Eigen::Vector3d& start)
-      : drives_(drives), down_(start) {
+  // `on_hills`: what neighbours lean alike are slopes.
+  Estimate(const std::vector<DriveAttitudes>& drives, const Eigen::Vector3d& start, bool on_hills)
+      : drives_(drives), on_hills_(on_hills), down_(start) {
     for (const DriveAttitudes& drive : drives) {
       terms_.push_back({.u = 1.0 / std::pow(MountSigma_rad(drive), 2)});
       in_mount_.push_back(MeanDown(drive));
     }
   }
 
-  Gravity Run() {
+  void Run() {
     for (int round = 0; round < kRounds; ++round) {
       Reweigh();
       down_ = Minimise(terms_, down_);
       for (size_t k = 0; k < terms_.size(); ++k) in_mount_[k] = terms_[k].DownInMount(down_);
       Forgive();
     }
+  }
+
+  [[nodiscard]] const Eigen::Vector3d& Down() const { return down_; }
+
+  // What is left that neighbours lean alike.
+  [[nodiscard]] double Alike_rad() const {
+    const auto [along, across] = Spreads();
+    return std::hypot(along.Alike_rad(), across.Alike_rad());
+  }
+
+  [[nodiscard]] Gravity Found() const {
     Gravity gravity{.down_in_world = down_};
     gravity.sigma_rad = Sigma_rad();
     gravity.mount_share = MountShare(terms_, down_);
@@ -208,9 +223,13 @@ class Estimate {
     return stated.empty() ? sigma_rad : std::min(sigma_rad, SigmaOf(stated, down_));
   }
 
-  // Cauchy's weights at the scatter of all, along the way and across it, no drive heavier than its
-  // slopes allow.
+  // Cauchy's weights at the scatter of all, along the way and across it.
   void Reweigh() {
+    const auto [along, across] = Spreads();
+    for (size_t k = 0; k < drives_.size(); ++k) Reweigh(k, along, across);
+  }
+
+  [[nodiscard]] std::pair<Spread, Spread> Spreads() const {
     Scatter along;
     Scatter across;
     for (size_t k = 0; k < drives_.size(); ++k) {
@@ -220,7 +239,12 @@ class Estimate {
         across.Add(leaning.across, i > 0);
       }
     }
-    for (size_t k = 0; k < drives_.size(); ++k) Reweigh(k, Spread(along), Spread(across));
+    return {Spread(along), Spread(across)};
+  }
+
+  // No drive weighs more than its slopes allow.
+  [[nodiscard]] double MostOfADrive(const Spread& spread) const {
+    return std::pow(std::max(kRoadSigma_rad, on_hills_ ? spread.Alike_rad() : 0.0), -2);
   }
 
   void Reweigh(size_t k, const Spread& of_along, const Spread& of_across) {
@@ -231,8 +255,8 @@ class Estimate {
       sum_along += of_along.Weight(leaning.along);
       sum_across += of_across.Weight(leaning.across);
     }
-    const double share_along = std::min(1.0, of_along.MostOfADrive() / sum_along);
-    const double share_across = std::min(1.0, of_across.MostOfADrive() / sum_across);
+    const double share_along = std::min(1.0, MostOfADrive(of_along) / sum_along);
+    const double share_across = std::min(1.0, MostOfADrive(of_across) / sum_across);
     DriveTerm& term = terms_[k];
     term = {.u = term.u};
     for (size_t i = 0; i < drives_[k].images.size(); ++i) {
@@ -275,10 +299,24 @@ class Estimate {
   }
 
   const std::vector<DriveAttitudes>& drives_;
+  bool on_hills_;
   Eigen::Vector3d down_;
   std::vector<DriveTerm> terms_{};
   std::vector<Eigen::Vector3d> in_mount_{};
 };
+
+// What leans with turns is a mount on flat ground or hills under an upright one. Where it may be
+// either, the sigma has half of what lies between.
+Gravity Choose(const Estimate& flat, const Estimate& hilly) {
+  const double left = flat.Alike_rad() / hilly.Alike_rad();
+  Gravity gravity = left < kExplainedShare ? flat.Found() : hilly.Found();
+  if (!(left < kEitherShare)) return gravity;
+  const double apart_rad = AngleBetween(flat.Down(), hilly.Down());
+  gravity.sigma_rad = std::hypot(gravity.sigma_rad, 0.5 * apart_rad);
+  for (auto& [drive, sigma_rad] : gravity.mount_sigma_rad)
+    sigma_rad = std::hypot(sigma_rad, 0.5 * apart_rad);
+  return gravity;
+}
 
 }  // namespace
 
@@ -293,7 +331,11 @@ std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,
   }
   const std::optional<Eigen::Vector3d> start = FindGravity(level);
   if (!start) return std::nullopt;
-  return Estimate(drives, *start).Run();
+  Estimate flat(drives, *start, false);
+  Estimate hilly(drives, *start, true);
+  flat.Run();
+  hilly.Run();
+  return Choose(flat, hilly);
 }
 
 }  // namespace orbweave

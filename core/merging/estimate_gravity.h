@@ -52,9 +52,11 @@ struct Gravity {
 /// at kMountSigma_rad: most mounts stand upright, some lean far. In a street without turns the
 /// second term decides ("cameras are upright"), with its sigma. Slopes keep a drive from knowing
 /// d_k to better than a degree, or than what neighbours lean alike, and ground that slopes as a
-/// whole keeps all of them from knowing g to better than three. Where enough of a drive's panoramas
-/// state pitch and roll (DriveAttitudes), R_i is that from the world into a level camera, and d_k
-/// is within their tilt_sigma_deg.
+/// whole keeps all of them from knowing g to better than three. Slopes that come with turns look
+/// like a mount that leans: both are tried, a mount is taken where it leaves next to nothing that
+/// neighbours lean alike, and where it may be either the sigma has half of what lies between. Where
+/// enough of a drive's panoramas state pitch and roll (DriveAttitudes), R_i is that from the world
+/// into a level camera, and d_k is within their tilt_sigma_deg.
 ///
 /// nullopt where panoramas are not upright on average (FindGravity) or there are none.
 [[nodiscard]] std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,
