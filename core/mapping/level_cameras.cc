@@ -54,11 +54,6 @@ MappingState LevelState(const ClusterProblem& problem,
   return state;
 }
 
-Eigen::Vector3d LevelFrame::UpInCam(uint32_t drive) const {
-  const auto up = up_in_cam.find(drive);
-  return up == up_in_cam.end() ? Vector3d(-Vector3d::UnitY()) : up->second;
-}
-
 std::optional<LevelFrame> FindLevelFrame(const MappingState& state) {
   const auto upright = UprightFromWorld(state, state.Registered());
   if (!upright) return std::nullopt;
@@ -93,7 +88,7 @@ void AddLevelPriors(const MappingState& state,
       std::hypot(*state.LevelSigma(), kSlopeSigma_rad * std::sqrt(kAlikeOnSlopes));
   for (uint32_t pose = 0; pose < images.size(); ++pose) {
     const ImageSlot image = images[pose];
-    const Vector3d up_in_cam = frame->UpInCam(state.Problem().images[image].drive);
+    const Vector3d& up_in_cam = frame->up_in_cam.at(state.Problem().images[image].drive);
     const double lean =
         AngleBetween(state.CamFromWorld(image).rotation * frame->up_in_world, up_in_cam);
     const double far = lean / (kLossSigmas * sigma_rad);

@@ -33,10 +33,7 @@ namespace orbweave {
 /// stood upright.
 struct LevelFrame {
   Eigen::Vector3d up_in_world = Eigen::Vector3d::UnitZ();
-  std::map<uint32_t, Eigen::Vector3d> up_in_cam{};
-
-  /// That of a drive; upright where none of its cameras is registered.
-  [[nodiscard]] Eigen::Vector3d UpInCam(uint32_t drive) const;
+  std::map<uint32_t, Eigen::Vector3d> up_in_cam{};  ///< of drives with registered images
 };
 
 /// nullopt: cameras do not agree which way up is (UprightFromWorld).
@@ -48,7 +45,8 @@ struct LevelFrame {
 /// nothing out of the way, ten panoramas in a row climb alike, and what leans by more counts for
 /// less (Cauchy, three sigmas). Held to a degree or two each, streets that climbed by 15 in a
 /// hundred came out flatter by a twentieth; not held at all, panoramas with few matches went
-/// astray. `images`: poses of the problem, from the first on. Nothing where the state has no sigma.
+/// astray. `images`: registered, poses of the problem from the first on. Nothing where the state
+/// has no sigma.
 void AddLevelPriors(const MappingState& state,
                     std::span<const ImageSlot> images,
                     BundleProblem& problem);
