@@ -253,9 +253,15 @@ TEST_F(WorkerLoopTest, GivesARunningTaskBackWhenStopped) {
 TEST_F(WorkerLoopTest, FinishesWhatRunsWithinTheGrace) {
   const auto coordinator = OpenCoordinator(folder_.Path(), clock_);
   const Digest job = Submit(*coordinator, "1 2 3 4 5 6 7 8 9 10", "toy.pause=true\n");
-  RunningWorker leaver(*coordinator, ToyStages(), "leaver", 1, 20.0);
-  ASSERT_TRUE(
-      WaitUntil([&] { return coordinator->GetJob(job)->stages[1].tasks_running == 1; }, 20.0));
+  // That a task is leased is not enough: its lease may still be on its way, and goes back then.
+  std::atomic<bool> has_begun{false};
+  auto stages = ToyStages();
+  stages["square"] = [&](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+    has_begun = true;
+    return testing::Square(spec, blobs, context);
+  };
+  RunningWorker leaver(*coordinator, stages, "leaver", 1, 20.0);
+  ASSERT_TRUE(WaitUntil([&] { return has_begun.load(); }, 20.0));
   EXPECT_TRUE(leaver.Stop().ok());
   const StageStatus left = coordinator->GetJob(job)->stages[1];
   EXPECT_GT(left.tasks_done, 0U) << "what ran";
