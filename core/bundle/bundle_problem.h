@@ -23,13 +23,15 @@ struct BundleObservation {
 /// Robust prior on a camera centre: |diag(1/sigma) (C + bias[group] - position)|^2 under a Cauchy
 /// loss of loss_sigmas: 1 hardly heeds positions that are off; with several of them positions pull
 /// back a street that has drifted off by as many sigmas. Cameras of one drive share a bias group;
-/// no group, no bias.
+/// no group, no bias. A height that nobody knows says nothing of how good others are
+/// (PositionVarianceFactors).
 struct PositionPrior {
   uint32_t pose = 0;
   Eigen::Vector3d position_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
   double loss_sigmas = 1.0;
   std::optional<uint32_t> bias_group{};
+  bool is_height_known = true;
 };
 
 /// Prior on a rotation: R direction_in_world should be direction_in_cam, both unit; the angle

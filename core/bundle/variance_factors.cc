@@ -39,15 +39,18 @@ Eigen::Vector3d PositionVarianceFactors(const BundleProblem& problem, const Bund
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();  // of psi
   Eigen::Vector3d slopes = Eigen::Vector3d::Zero();   // psi'
   Eigen::Vector3d squared_slopes = Eigen::Vector3d::Zero();
+  Eigen::Vector3d counts = Eigen::Vector3d::Zero();
   for (const PositionPrior& prior : problem.position_priors) {
     const Eigen::Vector3d r2 = WhitenedResidual(prior, state).cwiseAbs2();
     const double scale2 = prior.loss_sigmas * prior.loss_sigmas;
     const double weight = 1.0 / (1.0 + r2.sum() / scale2);
-    squares += weight * weight * r2;
     const Eigen::Vector3d slope =
         Eigen::Vector3d::Constant(weight) - 2.0 / scale2 * weight * weight * r2;
-    slopes += slope;
-    squared_slopes += slope.cwiseAbs2();
+    const Eigen::Vector3d counted(1.0, 1.0, prior.is_height_known ? 1.0 : 0.0);
+    squares += weight * weight * counted.cwiseProduct(r2);
+    slopes += counted.cwiseProduct(slope);
+    squared_slopes += counted.cwiseProduct(slope.cwiseAbs2());
+    counts += counted;
   }
   const auto n = static_cast<double>(problem.position_priors.size());
   const double unknowns = 7.0 + 3.0 * static_cast<double>(state.biases.size());
@@ -55,13 +58,14 @@ Eigen::Vector3d PositionVarianceFactors(const BundleProblem& problem, const Bund
   if (redundancy < 1.0) return Eigen::Vector3d::Ones();
   for (Eigen::Vector3d* sum : {&squares, &slopes, &squared_slopes}) {
     sum->head<2>().setConstant(0.5 * ((*sum)[0] + (*sum)[1]));
-    *sum /= n;
+    *sum = sum->cwiseQuotient(counts.cwiseMax(1.0));
   }
   const Eigen::Vector3d squared_mean = slopes.cwiseMax(kMinSlope).cwiseAbs2();
   const Eigen::Vector3d spread = squared_slopes.cwiseQuotient(squared_mean).array() - 1.0;
   const Eigen::Vector3d K = Eigen::Vector3d::Ones() + unknowns / (3.0 * n) * spread.cwiseMax(0.0);
-  const Eigen::Vector3d factors =
+  Eigen::Vector3d factors =
       3.0 * n / redundancy * K.cwiseAbs2().cwiseProduct(squares.cwiseQuotient(squared_mean));
+  if (counts.z() == 0.0) factors.z() = 1.0;
   return factors.cwiseMax(kMinFactor);
 }
 

@@ -134,7 +134,7 @@ void ReadQuality(const GnssCells& raw, GnssRow& row, Doubts& doubts) {
     row.accuracy_m = BelievedSigma(raw, kAccuracy, IsPlausibleSigma, doubts);
   }
   if (FiniteNumber(raw.cells[kVerticalAccuracy]).value_or(0.0) > kLargestSigma_m) {
-    row.vertical_accuracy_m = kLargestSigma_m;
+    row.vertical_accuracy_m = kUnknownHeightSigma_m;
   } else {
     row.vertical_accuracy_m = BelievedSigma(raw, kVerticalAccuracy, IsPlausibleSigma, doubts);
   }

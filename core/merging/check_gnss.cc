@@ -26,17 +26,16 @@ constexpr double kMaxLean_rad = 5.0 / kDeg;
 constexpr double kSharper = 2.0;  // planes there than upright
 
 CrossCheck CheckCorrelation(const GlobalProblem& problem, const GnssVariance& variance) {
-  const CorrelatedNoise& worst = variance.horizontal.inflation >= variance.vertical.inflation
-                                     ? variance.horizontal
-                                     : variance.vertical;
+  const PositionNoise& noise = variance.noise;
+  const double inflation = std::max(noise.horizontal.inflation, noise.vertical.inflation);
   const auto count = static_cast<double>(problem.bundle.position_priors.size());
   char text[200];
   std::snprintf(text,
                 sizeof(text),
                 "%.0f GNSS positions are worth %.1f independent ones; sigmas allow for it",
                 count,
-                std::max(count / worst.inflation, 1.0));
-  return {.name = "gnss_correlation", .value = worst.inflation, .unit = "count", .sentence = text};
+                std::max(count / inflation, 1.0));
+  return {.name = "gnss_correlation", .value = inflation, .unit = "count", .sentence = text};
 }
 
 // The way of a model that runs straight, and how well anything but attitudes holds its roll.

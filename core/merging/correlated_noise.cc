@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/base/quantile.h"
@@ -89,7 +90,7 @@ class Whitening {
 };
 
 // X^T V X of a process of unit variance without its white part.
-Eigen::MatrixXd CorrelatedSquares(std::span<const NoiseRun> runs, double length) {
+Eigen::MatrixXd CorrelatedSquares(const std::vector<NoiseRun>& runs, double length) {
   const Eigen::Index p = runs.front().design.cols();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
   for (const NoiseRun& run : runs) {
@@ -104,14 +105,14 @@ Eigen::MatrixXd CorrelatedSquares(std::span<const NoiseRun> runs, double length)
   return sum;
 }
 
-Eigen::MatrixXd Squares(std::span<const NoiseRun> runs) {
+Eigen::MatrixXd Squares(const std::vector<NoiseRun>& runs) {
   const Eigen::Index p = runs.front().design.cols();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
   for (const NoiseRun& run : runs) sum.noalias() += run.design.transpose() * run.design;
   return sum;
 }
 
-std::vector<double> LengthsToTry(std::span<const NoiseRun> runs) {
+std::vector<double> LengthsToTry(const std::vector<NoiseRun>& runs) {
   std::vector<double> steps;
   double longest = 0.0;
   for (const NoiseRun& run : runs) {
@@ -127,88 +128,156 @@ std::vector<double> LengthsToTry(std::span<const NoiseRun> runs) {
   return lengths;
 }
 
-Evidence EvidenceOf(std::span<const NoiseRun> runs,
-                    const Eigen::VectorXd& information,
-                    const Hypothesis& hypothesis) {
-  Whitening whitening(information.size());
-  for (const NoiseRun& run : runs) whitening.Add(run, hypothesis);
-  return whitening.Finish(information);
+Evidence EvidenceOf(const NoiseAxis& axis, const Hypothesis& hypothesis) {
+  Whitening whitening(axis.information.size());
+  for (const NoiseRun& run : axis.runs) whitening.Add(run, hypothesis);
+  return whitening.Finish(axis.information);
 }
 
-// Hypotheses, their likelihood and what they make of the variances of the unknowns.
-class Posterior {
+Eigen::Index CountOf(const NoiseAxis& axis) {
+  Eigen::Index count = 0;
+  for (const NoiseRun& run : axis.runs) count += run.residuals.size();
+  return count;
+}
+
+// An axis that says something, and what hypotheses make of the variances of its unknowns.
+class ToldAxis {
  public:
-  void Add(const Hypothesis& hypothesis, double log_weight, Eigen::VectorXd variances) {
-    if (entries_.empty() || log_weight > entries_[likeliest_].log_weight)
-      likeliest_ = entries_.size();
-    entries_.push_back({hypothesis, log_weight, std::move(variances)});
+  ToldAxis(const NoiseAxis& axis, const Evidence& white)
+      : axis_(&axis), white_(white), squares_(Squares(axis.runs)) {
+    Eigen::MatrixXd A = squares_;
+    A.diagonal() += axis.information;
+    inverse_ = A.ldlt().solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+    independent_ = VariancesOf(squares_);
   }
 
-  // `claimed`: the variances of the unknowns if noise were white; `weights`: the unknowns' parts in
-  // what the model predicts.
-  [[nodiscard]] CorrelatedNoise Finish(const Eigen::VectorXd& claimed,
-                                       const Eigen::VectorXd& weights) const {
-    const Entry& best = entries_[likeliest_];
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(claimed.size());
-    double total = 0.0;
-    for (const Entry& entry : entries_) {
-      const double weight = std::exp(entry.log_weight - best.log_weight);
-      mean += weight * entry.variances.cwiseMax(kLeastVariance).array().log().matrix();
-      total += weight;
-    }
-    CorrelatedNoise noise{.share = best.hypothesis.share, .length = best.hypothesis.length};
-    noise.inflations = (mean / total).array().exp().matrix().cwiseQuotient(claimed).cwiseMax(1.0);
-    const Eigen::VectorXd parts = claimed.cwiseProduct(weights);
+  [[nodiscard]] const NoiseAxis& Axis() const { return *axis_; }
+
+  /// Of the unknowns, of a process of unit variance without its white part.
+  [[nodiscard]] Eigen::VectorXd Correlated(double length) const {
+    return VariancesOf(CorrelatedSquares(axis_->runs, length));
+  }
+
+  /// What a hypothesis makes of the unknowns; `correlated`: Correlated(its length).
+  [[nodiscard]] Eigen::VectorXd Variances(const Hypothesis& hypothesis,
+                                          double variance,
+                                          const Eigen::VectorXd& correlated) const {
+    return variance * ((1.0 - hypothesis.share) * independent_ + hypothesis.share * correlated);
+  }
+
+  /// `log_variances`: their mean over the hypotheses; `best`: the likeliest.
+  [[nodiscard]] CorrelatedNoise Finish(const Eigen::VectorXd& log_variances,
+                                       const Hypothesis& best) const {
+    const Eigen::VectorXd claimed = white_.variance * independent_.cwiseMax(kLeastVariance);
+    CorrelatedNoise noise{.share = best.share, .length = best.length};
+    noise.inflations = log_variances.array().exp().matrix().cwiseQuotient(claimed).cwiseMax(1.0);
+    const Eigen::VectorXd parts = claimed.cwiseProduct(squares_.diagonal());
     noise.inflation = noise.inflations.dot(parts) / parts.sum();
     return noise;
   }
 
  private:
+  [[nodiscard]] Eigen::VectorXd VariancesOf(const Eigen::MatrixXd& X_V_X) const {
+    return (inverse_ * X_V_X * inverse_).diagonal();
+  }
+
+  const NoiseAxis* axis_;
+  Evidence white_;
+  Eigen::MatrixXd squares_;
+  Eigen::MatrixXd inverse_;
+  Eigen::VectorXd independent_;
+};
+
+// Hypotheses, their likelihood and what they make of the unknowns of each axis.
+class Posterior {
+ public:
+  explicit Posterior(const std::vector<ToldAxis>& axes) : axes_(axes) {}
+
+  /// `correlated`: per axis, ToldAxis::Correlated. Hypotheses that an axis cannot have are none.
+  void Add(const Hypothesis& hypothesis,
+           double log_prior,
+           const std::vector<Eigen::VectorXd>& correlated) {
+    Entry entry{.hypothesis = hypothesis, .log_prior = log_prior};
+    for (size_t a = 0; a < axes_.size(); ++a) {
+      const Evidence evidence = EvidenceOf(axes_[a].Axis(), hypothesis);
+      if (!(evidence.variance > 0.0)) return;
+      entry.log_likelihoods.push_back(evidence.log_likelihood);
+      entry.variances.push_back(axes_[a].Variances(hypothesis, evidence.variance, correlated[a]));
+    }
+    entries_.push_back(std::move(entry));
+  }
+
+  /// Of an axis, where all axes say how errors hang together, or it alone: whichever claims less.
+  [[nodiscard]] CorrelatedNoise Finish(size_t axis) const {
+    CorrelatedNoise together = Mean(axis, [](const Entry& entry) {
+      return std::accumulate(
+          entry.log_likelihoods.begin(), entry.log_likelihoods.end(), entry.log_prior);
+    });
+    CorrelatedNoise alone = Mean(axis, [axis](const Entry& entry) {
+      return entry.log_prior + entry.log_likelihoods[axis];
+    });
+    return together.inflation < alone.inflation ? alone : together;
+  }
+
+ private:
   struct Entry {
     Hypothesis hypothesis{};
-    double log_weight = 0.0;
-    Eigen::VectorXd variances{};
+    double log_prior = 0.0;
+    std::vector<double> log_likelihoods{};     ///< per axis
+    std::vector<Eigen::VectorXd> variances{};  ///< per axis
   };
+
+  template <typename LogWeight>
+  [[nodiscard]] CorrelatedNoise Mean(size_t axis, LogWeight log_weight) const {
+    const auto best = std::ranges::max_element(entries_, {}, log_weight);
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(best->variances[axis].size());
+    double total = 0.0;
+    for (const Entry& entry : entries_) {
+      const double weight = std::exp(log_weight(entry) - log_weight(*best));
+      mean += weight * entry.variances[axis].cwiseMax(kLeastVariance).array().log().matrix();
+      total += weight;
+    }
+    return axes_[axis].Finish(mean / total, best->hypothesis);
+  }
+
+  const std::vector<ToldAxis>& axes_;
   std::vector<Entry> entries_;
-  size_t likeliest_ = 0;
 };
+
+std::vector<Eigen::VectorXd> CorrelatedOf(const std::vector<ToldAxis>& axes, double length) {
+  std::vector<Eigen::VectorXd> correlated;
+  for (const ToldAxis& axis : axes) correlated.push_back(axis.Correlated(length));
+  return correlated;
+}
 
 }  // namespace
 
-CorrelatedNoise EstimateCorrelatedNoise(std::span<const NoiseRun> runs,
-                                        const Eigen::VectorXd& information) {
-  const Eigen::Index p = information.size();
-  CorrelatedNoise nothing{.inflations = Eigen::VectorXd::Ones(p)};
-  Eigen::Index count = 0;
-  for (const NoiseRun& run : runs) count += run.residuals.size();
-  const std::vector<double> lengths = LengthsToTry(runs);
-  const Evidence white = count < p + 3 ? Evidence{} : EvidenceOf(runs, information, {});
-  if (white.variance <= kLeastVariance || lengths.empty()) return nothing;
-
-  const Eigen::MatrixXd squares = Squares(runs);
-  Eigen::MatrixXd A = squares;
-  A.diagonal() += information;
-  const Eigen::MatrixXd inverse = A.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
-  const auto variances = [&](const Eigen::MatrixXd& X_V_X) {
-    return Eigen::VectorXd((inverse * X_V_X * inverse).diagonal());
-  };
-  const Eigen::VectorXd independent = variances(squares);
-  Posterior posterior;
-  // As likely at first as all others together.
-  const double others = static_cast<double>(lengths.size() * kShares.size());
-  posterior.Add({}, white.log_likelihood + std::log(others), white.variance * independent);
-  for (const double length : lengths) {
-    const Eigen::VectorXd correlated = variances(CorrelatedSquares(runs, length));
-    for (const double share : kShares) {
-      const Evidence evidence = EvidenceOf(runs, information, {share, length});
-      if (!(evidence.variance > 0.0)) continue;
-      posterior.Add({share, length},
-                    evidence.log_likelihood,
-                    evidence.variance * ((1.0 - share) * independent + share * correlated));
-    }
+std::vector<CorrelatedNoise> EstimateCorrelatedNoise(const std::vector<NoiseAxis>& axes) {
+  std::vector<CorrelatedNoise> noises;
+  std::vector<ToldAxis> told;
+  std::vector<size_t> axis_of_told;
+  for (const NoiseAxis& axis : axes) {
+    const Eigen::Index p = axis.information.size();
+    noises.push_back({.inflations = Eigen::VectorXd::Ones(p)});
+    if (CountOf(axis) < p + 3) continue;
+    const Evidence white = EvidenceOf(axis, {});
+    if (white.variance <= kLeastVariance) continue;
+    told.emplace_back(axis, white);
+    axis_of_told.push_back(noises.size() - 1);
   }
-  return posterior.Finish(white.variance * independent.cwiseMax(kLeastVariance),
-                          squares.diagonal());
+  if (told.empty()) return noises;
+  const std::vector<double> lengths = LengthsToTry(told.front().Axis().runs);
+  if (lengths.empty()) return noises;
+  Posterior posterior(told);
+  // As likely at first as all others together.
+  const auto others = static_cast<double>(lengths.size() * kShares.size());
+  posterior.Add({}, std::log(others), CorrelatedOf(told, lengths.front()));
+  for (const double length : lengths) {
+    const std::vector<Eigen::VectorXd> correlated = CorrelatedOf(told, length);
+    for (const double share : kShares) posterior.Add({share, length}, 0.0, correlated);
+  }
+  for (size_t a = 0; a < told.size(); ++a) noises[axis_of_told[a]] = posterior.Finish(a);
+  return noises;
 }
 
 }  // namespace orbweave

@@ -142,7 +142,8 @@ class Regression {
     const double redundancy = std::max(2.0 * static_cast<double>(m - kNumUnknowns / 2), 1.0);
     const double variance = squares / redundancy;
     const Eigen::VectorXd information = std::max(variance, 1e-12) * prior_;
-    const CorrelatedNoise noise = EstimateCorrelatedNoise(runs, information);
+    const CorrelatedNoise noise =
+        EstimateCorrelatedNoise({{.runs = std::move(runs), .information = information}}).front();
     A.diagonal() += information;
     const Eigen::MatrixXd covariance =
         variance * A.ldlt().solve(Eigen::MatrixXd::Identity(kNumUnknowns, kNumUnknowns));
@@ -247,7 +248,7 @@ void FindAlongTheWay(const GnssDrive& drive,
   if (is_beside) checks.push_back(LeverCheck(drive, errors.left_m, sigmas[kLeft]));
 }
 
-// Median of GNSS minus model, without what is known of the way, per axis.
+// Median of GNSS minus model, without what is known of the way, per axis; along z of known heights.
 Eigen::Vector3d MedianOffset(const GnssDrive& drive,
                              const DriveErrors& errors,
                              const Sim3& enu_from_world) {
@@ -255,7 +256,8 @@ Eigen::Vector3d MedianOffset(const GnssDrive& drive,
   for (const DrivenFix& fix : drive.fixes) {
     const Eigen::Vector3d residual = fix.position_in_enu - ErrorAt(errors, fix, enu_from_world) -
                                      enu_from_world * fix.centre_in_world;
-    for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(residual[axis]);
+    for (int axis = 0; axis < (IsHeightKnown(fix.vertical_sigma_m) ? 3 : 2); ++axis)
+      axes[axis].push_back(residual[axis]);
   }
   return {Quantile(std::move(axes[0]), 0.5),
           Quantile(std::move(axes[1]), 0.5),
@@ -267,11 +269,13 @@ struct Offset {
   size_t drive = 0;  // position in the list
   Eigen::Vector3d value_m = Eigen::Vector3d::Zero();
   size_t num_fixes = 0;
+  bool is_height_known = true;  // of any fix
 };
 
 bool IsSameDatum(const Offset& a, const Offset& b) {
-  return (a.value_m - b.value_m).head<2>().norm() <= kSameDatum_m &&
-         std::abs(a.value_m.z() - b.value_m.z()) <= kSameDatum_m;
+  const bool is_same_height = !a.is_height_known || !b.is_height_known ||
+                              std::abs(a.value_m.z() - b.value_m.z()) <= kSameDatum_m;
+  return (a.value_m - b.value_m).head<2>().norm() <= kSameDatum_m && is_same_height;
 }
 
 // The largest set of drives that agree with one of them: most drives, then most fixes, then first.
@@ -328,23 +332,31 @@ void FindDatum(std::span<const GnssDrive> drives,
   std::vector<Offset> offsets;
   for (size_t i = 0; i < drives.size(); ++i) {
     if (drives[i].fixes.size() < kMinOffsetFixes) continue;
-    offsets.push_back(
-        {i, MedianOffset(drives[i], errors[i], enu_from_world), drives[i].fixes.size()});
+    offsets.push_back({.drive = i,
+                       .value_m = MedianOffset(drives[i], errors[i], enu_from_world),
+                       .num_fixes = drives[i].fixes.size(),
+                       .is_height_known = std::ranges::any_of(
+                           drives[i].fixes, IsHeightKnown, &DrivenFix::vertical_sigma_m)});
   }
   const std::vector<size_t> party = LargestParty(offsets);
   if (party.size() == offsets.size()) return;
   Eigen::Vector3d datum_m = Eigen::Vector3d::Zero();
   std::vector<size_t> members;
+  double num_heights = 0.0;
   for (const size_t i : party) {
-    datum_m += offsets[i].value_m / static_cast<double>(party.size());
+    datum_m += offsets[i].value_m;
+    num_heights += offsets[i].is_height_known ? 1.0 : 0.0;
     members.push_back(offsets[i].drive);
   }
+  datum_m.head<2>() /= static_cast<double>(party.size());
+  datum_m.z() /= std::max(num_heights, 1.0);
   std::vector<size_t> others;
   Eigen::Vector3d apart_m = Eigen::Vector3d::Zero();
   for (const Offset& offset : offsets) {
     if (std::ranges::binary_search(members, offset.drive)) continue;
     others.push_back(offset.drive);
     errors[offset.drive].offset_m = offset.value_m - datum_m;
+    if (!offset.is_height_known || num_heights == 0.0) errors[offset.drive].offset_m.z() = 0.0;
     if (errors[offset.drive].offset_m.norm() > apart_m.norm())
       apart_m = errors[offset.drive].offset_m;
   }

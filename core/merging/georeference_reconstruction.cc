@@ -35,15 +35,15 @@ constexpr int kErrorRounds = 4;
 // A model further from GNSS than this many times its noise is not noise's doing.
 constexpr double kContradiction = 8.0;
 
-// Camera centres and what GNSS says of them, less what is known to be wrong of it; sigma is that of
-// one axis, for weights.
+// Camera centres and what GNSS says of them, less what is known to be wrong of it.
 struct Positions {
   std::vector<Eigen::Vector3d> in_world{};
   std::vector<Eigen::Vector3d> in_enu{};
-  std::vector<double> sigma_m{};
+  std::vector<Eigen::Vector3d> sigma_m{};
   std::vector<uint32_t> drive{};
 
   [[nodiscard]] size_t size() const { return in_world.size(); }
+  [[nodiscard]] bool KnowsHeight(size_t i) const { return IsHeightKnown(sigma_m[i].z()); }
 };
 
 Positions Collect(const std::vector<GnssDrive>& drives) {
@@ -52,7 +52,8 @@ Positions Collect(const std::vector<GnssDrive>& drives) {
     for (const DrivenFix& fix : drive.fixes) {
       positions.in_world.push_back(fix.centre_in_world);
       positions.in_enu.push_back(fix.position_in_enu);
-      positions.sigma_m.push_back(fix.horizontal_sigma_m);
+      positions.sigma_m.emplace_back(
+          fix.horizontal_sigma_m, fix.horizontal_sigma_m, fix.vertical_sigma_m);
       positions.drive.push_back(drive.drive);
     }
   }
@@ -95,17 +96,27 @@ double TruncatedCost(const Positions& positions, const Sim3& enu_from_world) {
   double cost = 0.0;
   for (size_t i = 0; i < positions.size(); ++i) {
     const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
-    const double squared_sigma = positions.sigma_m[i] * positions.sigma_m[i];
-    cost += std::min(9.0, residual.head<2>().squaredNorm() / squared_sigma);
+    cost +=
+        std::min(9.0, residual.cwiseQuotient(positions.sigma_m[i]).head<2>().squaredNorm());
   }
   return cost;
 }
 
+// Of known heights; where none is, of those that stand in for them.
 double MedianHeightError(const Positions& positions, const Sim3& enu_from_world) {
-  std::vector<double> errors;
-  for (size_t i = 0; i < positions.size(); ++i)
-    errors.push_back((enu_from_world * positions.in_world[i] - positions.in_enu[i]).z());
-  return Quantile(std::move(errors), 0.5);
+  std::vector<double> known;
+  std::vector<double> unknown;
+  for (size_t i = 0; i < positions.size(); ++i) {
+    (positions.KnowsHeight(i) ? known : unknown)
+        .push_back((enu_from_world * positions.in_world[i] - positions.in_enu[i]).z());
+  }
+  return Quantile(known.empty() ? std::move(unknown) : std::move(known), 0.5);
+}
+
+double MedianSigma_m(const Positions& positions) {
+  std::vector<double> sigmas_m;
+  for (const Eigen::Vector3d& sigma_m : positions.sigma_m) sigmas_m.push_back(sigma_m.x());
+  return Quantile(std::move(sigmas_m), 0.5);
 }
 
 absl::StatusOr<std::optional<Sim3>> EstimateUpright(const Positions& upright,
@@ -161,7 +172,7 @@ absl::StatusOr<std::optional<Sim3>> Estimate(const Positions& positions,
                                              const std::optional<Gravity>& gravity,
                                              const StageContext& context) {
   if (!gravity) {
-    const double max_error_m = 3.0 * Quantile(positions.sigma_m, 0.5);
+    const double max_error_m = 3.0 * MedianSigma_m(positions);
     ORBWEAVE_ASSIGN_OR_RETURN(
         const std::optional<RobustSimilarity> robust,
         EstimateSimilarity(positions.in_world, positions.in_enu, max_error_m, context));
@@ -196,13 +207,15 @@ std::vector<Eigen::Vector3d> Residuals(const Positions& positions, const Sim3& e
   return residuals;
 }
 
-void MeasureScatter(const std::vector<Eigen::Vector3d>& residuals, Georeference& result) {
+void MeasureScatter(const Positions& positions,
+                    const std::vector<Eigen::Vector3d>& residuals,
+                    Georeference& result) {
   std::vector<double> horizontal;
   std::vector<double> vertical;
-  for (const Eigen::Vector3d& residual : residuals) {
-    horizontal.push_back(std::abs(residual.x()));
-    horizontal.push_back(std::abs(residual.y()));
-    vertical.push_back(std::abs(residual.z()));
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    horizontal.push_back(std::abs(residuals[i].x()));
+    horizontal.push_back(std::abs(residuals[i].y()));
+    if (positions.KnowsHeight(i)) vertical.push_back(std::abs(residuals[i].z()));
   }
   // The fit has taken seven of the 3n degrees of freedom.
   const auto n = static_cast<double>(residuals.size());
@@ -229,7 +242,7 @@ std::string Metres(double value_m) {
 // Measures the scatter and drops the similarity when GNSS cannot carry its scale.
 void Judge(const Positions& positions, Georeference& result) {
   const std::vector<Eigen::Vector3d> residuals = Residuals(positions, *result.enu_from_world);
-  MeasureScatter(residuals, result);
+  MeasureScatter(positions, residuals, result);
   const double extent_m = result.enu_from_world->scale * SpreadOf(positions.in_world).rms;
   const double scatter_m = result.horizontal_scatter_m;
   result.scale_uncertainty =

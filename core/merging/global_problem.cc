@@ -16,6 +16,8 @@ namespace {
 
 // Of the bias of a drive that is in another datum than others.
 constexpr double kUnknownBias_m = 100.0;
+// Of the height of the frame's origin, where nobody knows it.
+constexpr double kHeightOfOrigin_m = 100.0;
 
 // Drives of the images that have a position, numbered from 0 in order of their number.
 std::map<uint32_t, uint32_t> GroupsOfDrives(const GlobalProblem& problem,
@@ -52,6 +54,13 @@ bool IsInAnotherDatum(const Georeference& georeference, uint32_t drive) {
   return errors != georeference.drive_errors.end() && !errors->offset_m.isZero();
 }
 
+// Where nobody knows a height, one in the middle of the model holds it at that of the origin: more
+// of them would lay hills flat.
+void HoldUnknownHeights(std::vector<PositionPrior>& priors) {
+  if (priors.empty() || std::ranges::any_of(priors, &PositionPrior::is_height_known)) return;
+  priors[priors.size() / 2].sigma_m.z() = kHeightOfOrigin_m;
+}
+
 void AddPositions(const Reconstruction& reconstruction,
                   const ImageManifest& manifest,
                   const Georeference& georeference,
@@ -76,8 +85,10 @@ void AddPositions(const Reconstruction& reconstruction,
     prior.pose = pose;
     prior.position_in_world = positions.at(image.id);
     prior.sigma_m = {horizontal_m, horizontal_m, vertical_m};
+    prior.is_height_known = IsHeightKnown(image.prior.vertical_sigma_m);
     if (has_biases) prior.bias_group = groups.at(image.drive);
   }
+  HoldUnknownHeights(problem.bundle.position_priors);
 }
 
 // The world stands as `gravity` says, give or take its sigma: every image sees down where it is now

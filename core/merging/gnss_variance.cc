@@ -50,7 +50,11 @@ Runs CollectRuns(const GlobalProblem& problem,
       if (prior.bias_group) residual += state.biases[*prior.bias_group];
       residual = residual.cwiseQuotient(prior.sigma_m);
       if (residual.cwiseQuotient(factors.cwiseSqrt()).norm() > kOutlierSigmas) continue;
-      run.push_back({centre - middle, residual, prior.sigma_m, way_m});
+      run.push_back({.at = centre - middle,
+                     .residual = residual,
+                     .sigma_m = prior.sigma_m,
+                     .way_m = way_m,
+                     .is_height_known = prior.is_height_known});
       squares += (centre - middle).squaredNorm();
     }
     if (!run.empty()) result.runs.push_back(std::move(run));
@@ -63,18 +67,22 @@ Runs CollectRuns(const GlobalProblem& problem,
 }
 
 NoiseRun AxisOf(const MeasuredRun& run, int axis) {
-  const auto m = static_cast<Eigen::Index>(run.size());
+  const auto takes_part = [axis](const MeasuredFix& measured) {
+    return axis != 2 || measured.is_height_known;
+  };
+  const Eigen::Index m = std::ranges::count_if(run, takes_part);
   NoiseRun noise{.design = Eigen::MatrixXd::Zero(m, axis == 2 ? 3 : 4),
                  .residuals = Eigen::VectorXd(m)};
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const MeasuredFix& measured = run[static_cast<size_t>(i)];
+  Eigen::Index i = 0;
+  for (const MeasuredFix& measured : run) {
+    if (!takes_part(measured)) continue;
     const Eigen::Vector3d& at = measured.at;
     noise.places.push_back(measured.way_m);
     noise.residuals[i] = measured.residual[axis];
     if (axis == 0) noise.design.row(i) << 1.0, 0.0, -at.y(), at.x();  // shift, turn, scale
     if (axis == 1) noise.design.row(i) << 0.0, 1.0, at.x(), at.y();
     if (axis == 2) noise.design.row(i) << 1.0, at.y(), -at.x();  // shift, tilt
-    noise.design.row(i) /= measured.sigma_m[axis];
+    noise.design.row(i++) /= measured.sigma_m[axis];
   }
   return noise;
 }
@@ -89,11 +97,17 @@ double GravityInformation(const GlobalProblem& problem, double extent_m) {
 
 }  // namespace
 
-CorrelatedNoise EstimateHeightNoise(const std::vector<MeasuredRun>& runs, double tilt_information) {
-  std::vector<NoiseRun> vertical;
-  for (const MeasuredRun& run : runs) vertical.push_back(AxisOf(run, 2));
-  return EstimateCorrelatedNoise(vertical,
-                                 Eigen::Vector3d(0.0, tilt_information, tilt_information));
+PositionNoise EstimatePositionNoise(const std::vector<MeasuredRun>& runs, double tilt_information) {
+  std::vector<NoiseAxis> axes(2);
+  axes[0].information = Eigen::VectorXd::Zero(4);
+  axes[1].information = Eigen::Vector3d(0.0, tilt_information, tilt_information);
+  for (const MeasuredRun& run : runs) {
+    axes[0].runs.push_back(AxisOf(run, 0));
+    axes[0].runs.push_back(AxisOf(run, 1));
+    axes[1].runs.push_back(AxisOf(run, 2));
+  }
+  const std::vector<CorrelatedNoise> noise = EstimateCorrelatedNoise(axes);
+  return {.horizontal = noise[0], .vertical = noise[1]};
 }
 
 GnssVariance EstimateGnssVariance(const GlobalProblem& problem,
@@ -107,16 +121,10 @@ GnssVariance EstimateGnssVariance(const GlobalProblem& problem,
   const Runs runs = CollectRuns(problem, state, variance.factors, manifest);
   if (runs.runs.empty()) return variance;
 
-  std::vector<NoiseRun> horizontal;
-  for (const MeasuredRun& run : runs.runs) {
-    horizontal.push_back(AxisOf(run, 0));
-    horizontal.push_back(AxisOf(run, 1));
-  }
-  variance.horizontal = EstimateCorrelatedNoise(horizontal, Eigen::VectorXd::Zero(4));
   const double tilt = variance.factors.z() * GravityInformation(problem, runs.extent_m);
-  variance.vertical = EstimateHeightNoise(runs.runs, tilt);
-  variance.factors.head<2>() *= variance.horizontal.inflation;
-  variance.factors.z() *= variance.vertical.inflation;
+  variance.noise = EstimatePositionNoise(runs.runs, tilt);
+  variance.factors.head<2>() *= variance.noise.horizontal.inflation;
+  variance.factors.z() *= variance.noise.vertical.inflation;
   return variance;
 }
 

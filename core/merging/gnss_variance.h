@@ -17,13 +17,20 @@ struct MeasuredFix {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();  ///< over sigma
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
   double way_m = 0.0;
+  bool is_height_known = true;
 };
 using MeasuredRun = std::vector<MeasuredFix>;
 
-/// How errors of heights hang together (EstimateCorrelatedNoise), with shift and tilt as unknowns.
+/// How errors of positions hang together (EstimateCorrelatedNoise), those of heights with those
+/// along the ground.
+struct PositionNoise {
+  CorrelatedNoise horizontal{};  ///< with shift, turn and scale as unknowns
+  CorrelatedNoise vertical{};    ///< with shift and tilt
+};
+
 /// `tilt_information`: what is known of the tilt besides, 1 / rad^2 over the squared extent in
 /// metres, times the variance of the residuals.
-[[nodiscard]] CorrelatedNoise EstimateHeightNoise(const std::vector<MeasuredRun>& runs,
+[[nodiscard]] PositionNoise EstimatePositionNoise(const std::vector<MeasuredRun>& runs,
                                                   double tilt_information);
 
 /// How far GNSS is to be believed about a whole adjusted model.
@@ -31,15 +38,14 @@ struct GnssVariance {
   /// Per world axis, x and y equal: by what claimed variances are to be multiplied
   /// (PositionVarianceFactors), times the inflation below.
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  CorrelatedNoise horizontal{};  ///< lengths in metres along the sequence
-  CorrelatedNoise vertical{};
+  PositionNoise noise{};  ///< lengths in metres along the sequence
 };
 
 /// Errors of positions in a row are alike: satellites and houses stay the same for a hundred
 /// metres. A frame fitted to n of them is as good as from n / inflation independent ones. Residuals
-/// along the sequence of each drive (outliers left out) say by how much (EstimateCorrelatedNoise),
-/// with shift, turn and scale as unknowns horizontally, shift and tilt vertically. `problem` holds
-/// the adjusted poses and the priors (AddGnss). Ones without priors. Linear in the images.
+/// along the sequence of each drive (outliers left out) say by how much (EstimatePositionNoise).
+/// `problem` holds the adjusted poses and the priors (AddGnss). Ones without priors. Linear in the
+/// images.
 [[nodiscard]] GnssVariance EstimateGnssVariance(const GlobalProblem& problem,
                                                 const std::vector<Eigen::Vector3d>& biases_m,
                                                 const ImageManifest& manifest);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kSigmaOfMad = 1.4826;
 constexpr double kDamping = 1e-9;         // holds the roll about a straight line
-constexpr double kOutlierSigmas = 2.576;  // 99 % of a normal variable
+constexpr double kOutlierSigmas = 3.37;  // 99 % of three normal variables
 
 // What gravity knows of the tilt, 1 / rad^2.
 double GravityInformation(const std::optional<Gravity>& gravity, const Sim3& enu_from_world) {
@@ -38,6 +39,7 @@ void TakeOffPlane(std::vector<MeasuredRun>& runs) {
   };
   for (const MeasuredRun& run : runs) {
     for (const MeasuredFix& fix : run) {
+      if (!fix.is_height_known) continue;
       A += row(fix) * row(fix).transpose();
       b += row(fix) * fix.residual.z();
     }
@@ -49,6 +51,20 @@ void TakeOffPlane(std::vector<MeasuredRun>& runs) {
   }
 }
 
+// Robust standard deviation of the residuals per axis, x and y equal.
+Eigen::Vector3d ScatterOf(const std::vector<MeasuredRun>& runs) {
+  std::array<std::vector<double>, 2> off;  // horizontally, vertically
+  for (const MeasuredRun& run : runs) {
+    for (const MeasuredFix& fix : run) {
+      off[0].push_back(std::abs(fix.residual.x()));
+      off[0].push_back(std::abs(fix.residual.y()));
+      if (fix.is_height_known) off[1].push_back(std::abs(fix.residual.z()));
+    }
+  }
+  const double horizontal = kSigmaOfMad * Quantile(std::move(off[0]), 0.5);
+  return {horizontal, horizontal, kSigmaOfMad * Quantile(std::move(off[1]), 0.5)};
+}
+
 }  // namespace
 
 double HeightInflation(std::span<const GnssDrive> drives,
@@ -57,27 +73,29 @@ double HeightInflation(std::span<const GnssDrive> drives,
                        const Sim3& enu_from_world) {
   const auto n = static_cast<double>(positions_in_enu.size());
   std::vector<MeasuredRun> runs;
-  std::vector<double> heights_off;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   size_t i = 0;
   for (const GnssDrive& drive : drives) {
     MeasuredRun& run = runs.emplace_back();
     for (const DrivenFix& fix : drive.fixes) {
       const Eigen::Vector3d at = enu_from_world * fix.centre_in_world;
+      const Eigen::Vector3d sigma_m(
+          fix.horizontal_sigma_m, fix.horizontal_sigma_m, fix.vertical_sigma_m);
       run.push_back({.at = at,
-                     .residual = (at - positions_in_enu[i++]) / fix.vertical_sigma_m,
-                     .sigma_m = Eigen::Vector3d::Constant(fix.vertical_sigma_m),
-                     .way_m = enu_from_world.scale * fix.way});
-      heights_off.push_back(std::abs(run.back().residual.z()));
+                     .residual = (at - positions_in_enu[i++]).cwiseQuotient(sigma_m),
+                     .sigma_m = sigma_m,
+                     .way_m = enu_from_world.scale * fix.way,
+                     .is_height_known = IsHeightKnown(fix.vertical_sigma_m)});
       middle += at / n;
     }
   }
-  const double scatter = kSigmaOfMad * Quantile(std::move(heights_off), 0.5);
+  const Eigen::Vector3d scatter = ScatterOf(runs);
+  if (!(scatter.minCoeff() > 0.0)) return 1.0;  // exact, or no height is known
   double squared_extent_m2 = 0.0;
   for (MeasuredRun& run : runs) {
     for (MeasuredFix& fix : run) squared_extent_m2 += (fix.at - middle).squaredNorm() / n;
     std::erase_if(run, [&](const MeasuredFix& fix) {
-      return std::abs(fix.residual.z()) > kOutlierSigmas * scatter;
+      return fix.residual.cwiseQuotient(scatter).norm() > kOutlierSigmas;
     });
   }
   if (!(squared_extent_m2 > 0.0)) return 1.0;
@@ -86,9 +104,10 @@ double HeightInflation(std::span<const GnssDrive> drives,
   }
   std::erase_if(runs, [](const MeasuredRun& run) { return run.empty(); });
   TakeOffPlane(runs);
-  const double information = scatter * scatter * GravityInformation(gravity, enu_from_world);
-  const double inflation = EstimateHeightNoise(runs, information / squared_extent_m2).inflation;
-  return std::max(1.0, std::min(n, inflation));
+  const double information =
+      scatter.z() * scatter.z() * GravityInformation(gravity, enu_from_world);
+  const PositionNoise noise = EstimatePositionNoise(runs, information / squared_extent_m2);
+  return std::max(1.0, std::min(n, noise.vertical.inflation));
 }
 
 }  // namespace orbweave

@@ -28,6 +28,7 @@ GnssReport JudgeGnss(const GlobalProblem& problem,
     Eigen::Vector3d residual =
         problem.bundle.cams_from_world[prior.pose].Centre() - prior.position_in_world;
     if (prior.bias_group) residual += biases_m[*prior.bias_group];
+    if (!prior.is_height_known) residual.z() = 0.0;
     distances_m.push_back(residual.norm());
     ++report.num_priors;
     if (residual.cwiseQuotient(prior.sigma_m).norm() > kOutlierSigmas) {

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kSteps = 30;
 constexpr double kConverged = 1e-12;  // of shift over extent, angles and log scale
-// Median squared length of three normal variables.
-constexpr double kMedianChi2 = 2.366;
+// Median squared length of two normal variables.
+constexpr double kMedianChi2 = 1.386;
 // Of what is known best: holds what nothing tells.
 constexpr double kDamping = 1e-12;
 
@@ -30,9 +30,10 @@ struct NormalEquations {
   Eigen::Matrix<double, 7, 7> A = Eigen::Matrix<double, 7, 7>::Zero();
   Step b = Step::Zero();
 
-  void Add(const Rows& J, const Eigen::Vector3d& residual, double weight) {
-    A.noalias() += weight * J.transpose() * J;
-    b.noalias() -= weight * J.transpose() * residual;
+  void Add(const Rows& J, const Eigen::Vector3d& residual, const Eigen::Vector3d& weights) {
+    const Eigen::Matrix<double, 7, 3> weighted = J.transpose() * weights.asDiagonal();
+    A.noalias() += weighted * J;
+    b.noalias() -= weighted * residual;
   }
 };
 
@@ -56,19 +57,30 @@ Placed Place(const PositionPairs& pairs, const Sim3& enu_from_world) {
   return placed;
 }
 
+// 1 / sigma per axis; 0 of unknown heights.
+Eigen::Vector3d Exactness(const Eigen::Vector3d& sigma_m) {
+  Eigen::Vector3d exactness = sigma_m.cwiseInverse();
+  if (!IsHeightKnown(sigma_m.z())) exactness.z() = 0.0;
+  return exactness;
+}
+
 void AddPositions(const PositionPairs& pairs, const Placed& placed, NormalEquations& equations) {
-  std::vector<double> squares;
-  for (size_t i = 0; i < pairs.in_enu.size(); ++i)
-    squares.push_back((placed.in_enu[i] - pairs.in_enu[i]).squaredNorm());
-  const double squared_scatter = Quantile(squares, 0.5) / kMedianChi2;
-  for (size_t i = 0; i < squares.size(); ++i) {
-    const double squared_sigma = pairs.sigma_m[i] * pairs.sigma_m[i];
+  std::vector<Eigen::Vector3d> whitened;
+  std::vector<double> horizontal;
+  for (size_t i = 0; i < pairs.in_enu.size(); ++i) {
+    whitened.emplace_back(
+        Exactness(pairs.sigma_m[i]).cwiseProduct(placed.in_enu[i] - pairs.in_enu[i]));
+    horizontal.push_back(whitened.back().head<2>().squaredNorm());
+  }
+  const double scatter = std::max(1.0, Quantile(std::move(horizontal), 0.5) / kMedianChi2);
+  for (size_t i = 0; i < whitened.size(); ++i) {
     const Eigen::Vector3d from_middle = placed.in_enu[i] - placed.middle;
     Rows J;
     J << placed.extent_m * Eigen::Matrix3d::Identity(), -SkewSymmetric(from_middle), from_middle;
-    equations.Add(J,
-                  placed.in_enu[i] - pairs.in_enu[i],
-                  1.0 / (std::max(squared_sigma, squared_scatter) + squares[i]));
+    equations.Add(
+        J,
+        placed.in_enu[i] - pairs.in_enu[i],
+        Exactness(pairs.sigma_m[i]).cwiseAbs2() / (scatter + whitened[i].squaredNorm()));
   }
 }
 
@@ -80,7 +92,9 @@ void AddGravity(const Gravity& gravity,
   const double sigma_rad = gravity.SigmaAt(AngleBetween(down, -Eigen::Vector3d::UnitZ()));
   Rows J = Rows::Zero();
   J.middleCols<3>(3) = -SkewSymmetric(down);
-  equations.Add(J, down + Eigen::Vector3d::UnitZ(), inflation / (sigma_rad * sigma_rad));
+  equations.Add(J,
+                down + Eigen::Vector3d::UnitZ(),
+                Eigen::Vector3d::Constant(inflation / (sigma_rad * sigma_rad)));
 }
 
 Sim3 Moved(const Sim3& enu_from_world, const Placed& placed, const Step& step) {

@@ -252,7 +252,9 @@ double StatedDistance(const std::vector<const PosePrior*>& priors) {
   std::vector<double> distances_m;
   for (const PosePrior* prior : priors) {
     distances_m.push_back(
-        std::hypot(prior->horizontal_sigma_m, prior->horizontal_sigma_m, prior->vertical_sigma_m));
+        std::hypot(prior->horizontal_sigma_m,
+                   prior->horizontal_sigma_m,
+                   IsHeightKnown(prior->vertical_sigma_m) ? prior->vertical_sigma_m : 0.0));
   }
   return Quantile(std::move(distances_m), 0.5);
 }

@@ -20,6 +20,12 @@ struct GeodeticPosition {
   double altitude_m = 0.0;
 };
 
+/// Stands for the standard deviation of a height that nobody knows: no measurement of anything.
+inline constexpr double kUnknownHeightSigma_m = 1e5;
+[[nodiscard]] inline bool IsHeightKnown(double vertical_sigma_m) {
+  return vertical_sigma_m < kUnknownHeightSigma_m;
+}
+
 /// What is known of a camera before looking at pixels. All of it may be wrong: priors are robust
 /// terms, never constraints.
 struct PosePrior {
@@ -27,7 +33,8 @@ struct PosePrior {
   /// Camera centre in the job's local frame (east, north, up; metres), present when `geodetic` is.
   /// A database without latitude and longitude may give it directly.
   std::optional<Eigen::Vector3d> position_in_enu{};
-  /// Stated or assumed standard deviation of the position.
+  /// Stated or assumed standard deviation of the position. Of a height that nobody knows it is
+  /// kUnknownHeightSigma_m, and the height that of the frame's origin.
   double horizontal_sigma_m = 5.0;
   double vertical_sigma_m = 10.0;
   /// Direction of the image centre, clockwise from north; pitch up positive; roll clockwise

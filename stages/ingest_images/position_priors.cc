@@ -8,8 +8,6 @@
 namespace orbweave {
 namespace {
 
-constexpr double kUnknownAltitudeSigmaM = 100.0;
-
 /// Standard deviations of an image's position (horizontal, vertical), before what is not known of
 /// its altitude: as stated, else by the fix type, else the job's default.
 Eigen::Vector2d SigmaOf(const IngestCandidate& candidate, const IngestOptions& options) {
@@ -74,7 +72,7 @@ PosePrior PriorOf(const IngestCandidate& candidate, bool local, const IngestOpti
   }
   if (prior.geodetic && !altitude_known) {
     prior.geodetic->altitude_m = std::numeric_limits<double>::quiet_NaN();
-    prior.vertical_sigma_m = std::max(prior.vertical_sigma_m, kUnknownAltitudeSigmaM);
+    prior.vertical_sigma_m = kUnknownHeightSigma_m;
   }
   SetDirection(candidate, options, prior);
   return prior;

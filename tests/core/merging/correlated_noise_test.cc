@@ -42,6 +42,12 @@ Fitted FitLine(int count, double length, Random& random) {
   return fitted;
 }
 
+CorrelatedNoise NoiseOf(const NoiseRun& run) {
+  return EstimateCorrelatedNoise(
+             {{.runs = {run}, .information = Eigen::VectorXd::Zero(run.design.cols())}})
+      .front();
+}
+
 struct Tally {
   double ratio = 0.0;      // squared error over variance, mean
   double inflation = 0.0;  // mean
@@ -54,7 +60,7 @@ Tally TallyOf(int count, double length) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const Fitted fitted = FitLine(count, length, random);
     const CorrelatedNoise noise =
-        EstimateCorrelatedNoise(std::span(&fitted.run, 1), Eigen::VectorXd::Zero(2));
+        NoiseOf(fitted.run);
     tally.ratio +=
         fitted.error * fitted.error / (fitted.claimed_variance * noise.inflations[0]) / kTrials;
     tally.inflation += noise.inflation / kTrials;
@@ -82,7 +88,7 @@ TEST(EstimateCorrelatedNoise, FindsHowFarErrorsHangTogether) {
   Random random(3);
   const Fitted fitted = FitLine(3000, 30.0, random);
   const CorrelatedNoise noise =
-      EstimateCorrelatedNoise(std::span(&fitted.run, 1), Eigen::VectorXd::Zero(2));
+      NoiseOf(fitted.run);
   EXPECT_GT(noise.share, 0.8);
   EXPECT_GT(noise.length, 15.0);
   EXPECT_LT(noise.length, 60.0);
@@ -91,10 +97,9 @@ TEST(EstimateCorrelatedNoise, FindsHowFarErrorsHangTogether) {
 TEST(EstimateCorrelatedNoise, DoesNotDependOnUnits) {
   Random random(4);
   Fitted fitted = FitLine(100, 30.0, random);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(2);
-  const CorrelatedNoise before = EstimateCorrelatedNoise(std::span(&fitted.run, 1), none);
+  const CorrelatedNoise before = NoiseOf(fitted.run);
   for (double& place : fitted.run.places) place *= 1000.0;
-  const CorrelatedNoise after = EstimateCorrelatedNoise(std::span(&fitted.run, 1), none);
+  const CorrelatedNoise after = NoiseOf(fitted.run);
   EXPECT_NEAR(after.inflation, before.inflation, 1e-6 * before.inflation);
   EXPECT_NEAR(after.length, 1000.0 * before.length, 1e-6 * after.length);
 }
@@ -102,11 +107,35 @@ TEST(EstimateCorrelatedNoise, DoesNotDependOnUnits) {
 TEST(EstimateCorrelatedNoise, IsSilentAboutTooFewAndAboutExactMeasurements) {
   Random random(5);
   const Fitted few = FitLine(4, 0.0, random);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(2);
-  EXPECT_EQ(EstimateCorrelatedNoise(std::span(&few.run, 1), none).inflation, 1.0);
+  EXPECT_EQ(NoiseOf(few.run).inflation, 1.0);
   Fitted exact = FitLine(50, 0.0, random);
   exact.run.residuals.setZero();
-  EXPECT_EQ(EstimateCorrelatedNoise(std::span(&exact.run, 1), none).inflation, 1.0);
+  EXPECT_EQ(NoiseOf(exact.run).inflation, 1.0);
+}
+
+// Along a way no longer than errors hang together an axis by itself may look independent.
+TEST(EstimateCorrelatedNoise, AnAxisClaimsWhatAnotherTellsOfIt) {
+  Random random(6);
+  NoiseAxis telling{.information = Eigen::VectorXd::Zero(2)};
+  for (int run = 0; run < 4; ++run) telling.runs.push_back(FitLine(300, 60.0, random).run);
+  NoiseAxis silent{.information = Eigen::VectorXd::Zero(2)};
+  silent.runs.push_back(FitLine(60, 0.0, random).run);
+  const double alone = EstimateCorrelatedNoise({silent}).front().inflation;
+  const std::vector<CorrelatedNoise> both = EstimateCorrelatedNoise({telling, silent});
+  EXPECT_LT(alone, 2.0);
+  EXPECT_GT(both[1].inflation, 5.0);
+  EXPECT_GE(both[0].inflation, EstimateCorrelatedNoise({telling}).front().inflation);
+}
+
+TEST(EstimateCorrelatedNoise, AnAxisThatIsExactSaysNothingOfAnother) {
+  Random random(8);
+  NoiseAxis axis{.information = Eigen::VectorXd::Zero(2)};
+  axis.runs.push_back(FitLine(100, 30.0, random).run);
+  NoiseAxis exact = axis;
+  exact.runs.front().residuals.setZero();
+  const double alone = EstimateCorrelatedNoise({axis}).front().inflation;
+  EXPECT_EQ(EstimateCorrelatedNoise({exact, axis})[1].inflation, alone);
+  EXPECT_EQ(EstimateCorrelatedNoise({axis, exact})[1].inflation, 1.0);
 }
 
 }  // namespace

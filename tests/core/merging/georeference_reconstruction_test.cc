@@ -41,6 +41,8 @@ GnssWorld MakeGnssWorld(const std::vector<Eigen::Vector3d>& centres,
     const double y = random.Normal();
     image.prior.position_in_enu =
         centres[i] + sigma_m * Eigen::Vector3d(x, y, 2.0 * random.Normal());
+    image.prior.horizontal_sigma_m = std::max(sigma_m, 1.0);
+    image.prior.vertical_sigma_m = 2.0 * image.prior.horizontal_sigma_m;
   }
   return world;
 }

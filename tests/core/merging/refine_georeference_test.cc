@@ -23,7 +23,7 @@ const Eigen::Vector3d kDown = -Eigen::Vector3d::UnitZ();
 struct Pairs {
   std::vector<Eigen::Vector3d> in_world{};
   std::vector<Eigen::Vector3d> in_enu{};
-  std::vector<double> sigma_m{};
+  std::vector<Eigen::Vector3d> sigma_m{};
 
   [[nodiscard]] Sim3 Refine(const std::optional<Gravity>& gravity,
                             double inflation,
@@ -40,7 +40,7 @@ Pairs Town(const Sim3& enu_from_world, Random& random) {
     const double y = random.Uniform(-100.0, 100.0);
     pairs.in_enu.emplace_back(x, y, random.Uniform(-2.0, 2.0));
     pairs.in_world.push_back(enu_from_world.Inverse() * pairs.in_enu.back());
-    pairs.sigma_m.push_back(2.0);
+    pairs.sigma_m.emplace_back(2.0, 2.0, 2.0);
   }
   return pairs;
 }
@@ -91,7 +91,7 @@ TEST(RefineGeoreference, StandsAStreetUprightAboutItsAxis) {
   for (int i = 0; i < 40; ++i) {
     pairs.in_world.emplace_back(3.0 * i, 0.0, 0.0);
     pairs.in_enu.emplace_back(3.0 * i, 0.0, 0.0);
-    pairs.sigma_m.push_back(2.0);
+    pairs.sigma_m.emplace_back(2.0, 2.0, 2.0);
   }
   const Sim3 rolled{1.0, RotationFromVector({0.4, 0.0, 0.0}), Eigen::Vector3d::Zero()};
   const Sim3 upright = pairs.Refine(Gravity{}, 1.0, rolled);
