@@ -79,6 +79,8 @@ row "GNSS clock 0.8 s late" --panoramas $((2 * panoramas)) --gnss-delay-s 0.8
 row "GNSS clock 0.4 s late at 4 to 16 m/s, straight street" --panoramas $((2 * panoramas)) --shape straight --gnss-delay-s 0.4 --speed-spread 0.6
 row "antenna 3 m to the left, U-turn" "${n[@]}" --shape uturn --gnss-left-m 3
 row "second day 47 m higher" --panoramas $((2 * panoramas)) --drives 2 --gnss-datum-m 47
+row "hills of 15 %, positions without heights" --panoramas $((2 * panoramas)) --spacing-m 5 --hill-grade 0.15 --gnss-heights false
+row "GNSS reports every sixth panorama" --panoramas $((2 * panoramas)) --gnss-held-panoramas 6
 row "roof of 100 features" "${n[@]}" --roof-features 100
 row "roof of 400 features" "${n[@]}" --roof-features 400
 row "lenses 4 cm off the centre" "${n[@]}" --lens-offset-m 0.04

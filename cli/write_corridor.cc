@@ -21,11 +21,13 @@ std::string GnssCsv(const ImageManifest& manifest) {
     if (!image.prior.geodetic) continue;
     absl::StrAppendFormat(
         &csv,
-        "%s,%.9f,%.9f,%.4f,%.3f,%d,%s\n",
+        "%s,%.9f,%.9f,%s,%.3f,%d,%s\n",
         image.name,
         image.prior.geodetic->latitude_deg,
         image.prior.geodetic->longitude_deg,
-        image.prior.geodetic->altitude_m,
+        IsHeightKnown(image.prior.vertical_sigma_m)
+            ? absl::StrFormat("%.4f", image.prior.geodetic->altitude_m)
+            : "",
         image.prior.horizontal_sigma_m,
         image.drive,
         image.capture_time_s ? absl::StrFormat("%.3f", *image.capture_time_s) : "");

@@ -59,7 +59,7 @@ std::vector<double> LengthsOf(const MappingState& state,
   ForEachRay(depths, [&](std::span<const RayDepth> ray) {
     const RayDepth& first = ray.front();
     if (graph.image_of_node[first.node] != approach.from || first.pair != 0) return;
-    if (const std::optional<double> told = ToldLogLength(ray, first, known))
+    if (const std::optional<double> told = LengthsOnRay(ray, known).ToldByOthers(first))
       lengths.push_back(*told);
   });
   return lengths;

@@ -21,8 +21,9 @@ class RayCounts {
 
   /// `depths`: of one ray.
   void Add(std::span<const RayDepth> depths) {
+    const LengthsOnRay ray(depths, asked_.log_lengths);
     for (const RayDepth& depth : depths) {
-      const std::optional<double> told = ToldLogLength(depths, depth, asked_.log_lengths);
+      const std::optional<double> told = ray.ToldByOthers(depth);
       if (!told) continue;
       counts_[SideOf(depth)].Add(*told, asked_.log_lengths[depth.pair], tolerance_);
     }

@@ -7,6 +7,7 @@
 #include <bitset>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "core/estimators/estimate_absolute_pose.h"
@@ -32,33 +33,51 @@ class PlaceCounter {
                const SceneCorrespondences& correspondences,
                double max_error_rad)
       : positions_(correspondences.positions), min_cos_(std::cos(max_error_rad)) {
+    std::vector<uint32_t> cells;
     for (const Vector3d& bearing : correspondences.bearings) {
       rays_.push_back(cam_from_world.conjugate() * bearing);
-      cells_.push_back(SphereCell(bearing, kSpreadCells));
+      cells.push_back(SphereCell(bearing, kSpreadCells));
+    }
+    by_place_.resize(rays_.size());
+    std::iota(by_place_.begin(), by_place_.end(), 0U);
+    std::ranges::stable_sort(by_place_, {}, [&](uint32_t i) { return cells[i]; });
+    for (uint32_t k = 0; k < by_place_.size(); ++k) {
+      const uint32_t cell = cells[by_place_[k]];
+      if (places_.empty() || places_.back().cell != cell)
+        places_.push_back({.cell = cell, .first = k});
+      places_.back().end = k + 1;
     }
   }
 
   [[nodiscard]] Places At(const Vector3d& centre) const {
     Places places;
-    for (size_t i = 0; i < rays_.size(); ++i) {
-      const Vector3d seen = positions_[i] - centre;
-      if (seen.dot(rays_[i]) >= min_cos_ * seen.norm()) places.set(cells_[i]);
+    for (const Place& place : places_) {
+      if (Agrees(place, centre)) places.set(place.cell);
     }
     return places;
   }
-  [[nodiscard]] size_t CountAt(const Vector3d& centre) const { return At(centre).count(); }
+  /// How many agree, where these are more than `fewer`; else some number that is not.
+  [[nodiscard]] size_t CountAt(const Vector3d& centre, size_t fewer = 0) const {
+    size_t count = 0;
+    for (size_t k = 0; k < places_.size(); ++k) {
+      if (count + (places_.size() - k) <= fewer) break;
+      count += Agrees(places_[k], centre) ? 1 : 0;
+    }
+    return count;
+  }
   /// Of those steps from `start` in `direction` whose lengths points tell, that of most places;
   /// `best` and `most` where none has more.
   void FindBest(const Vector3d& start,
                 const Vector3d& direction,
                 Vector3d& best,
                 size_t& most) const {
+    if (most == places_.size()) return;
     const size_t stride = std::max<size_t>(1, (rays_.size() + kMaxLengths - 1) / kMaxLengths);
     for (size_t i = 0; i < rays_.size(); i += stride) {
       const double s = BaselineLength(positions_[i] - start, direction, rays_[i]);
       if (s == 0.0) continue;
       const Vector3d centre = start + s * direction;
-      const size_t places = CountAt(centre);
+      const size_t places = CountAt(centre, most);
       if (places <= most) continue;
       most = places;
       best = centre;
@@ -66,10 +85,26 @@ class PlaceCounter {
   }
 
  private:
+  /// A cell that holds correspondences: by_place_[first, end).
+  struct Place {
+    uint32_t cell = 0;
+    uint32_t first = 0;
+    uint32_t end = 0;
+  };
+
+  [[nodiscard]] bool Agrees(const Place& place, const Vector3d& centre) const {
+    return std::any_of(
+        by_place_.begin() + place.first, by_place_.begin() + place.end, [&](uint32_t i) {
+          const Vector3d seen = positions_[i] - centre;
+          return seen.dot(rays_[i]) >= min_cos_ * seen.norm();
+        });
+  }
+
   std::span<const Vector3d> positions_;
   double min_cos_ = 1.0;
-  std::vector<Vector3d> rays_{};  ///< in the world
-  std::vector<uint32_t> cells_{};
+  std::vector<Vector3d> rays_{};      ///< in the world
+  std::vector<uint32_t> by_place_{};  ///< indices of correspondences
+  std::vector<Place> places_{};
 };
 
 Places PlacesOf(const Rigid3& pose,

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
-
-#include "core/base/quantile.h"
 
 namespace orbweave {
 namespace {
@@ -48,15 +45,21 @@ std::vector<RayDepth> MeasureRayDepths(const ClusterProblem& problem,
   return depths;
 }
 
-std::optional<double> ToldLogLength(std::span<const RayDepth> ray,
-                                    const RayDepth& asked,
-                                    std::span<const double> log_lengths) {
-  std::vector<double> told;
-  for (const RayDepth& other : ray) {
-    if (other.pair != asked.pair) told.push_back(log_lengths[other.pair] + other.log_depth);
-  }
-  if (told.empty()) return std::nullopt;
-  return Quantile(std::move(told), 0.5) - asked.log_depth;
+LengthsOnRay::LengthsOnRay(std::span<const RayDepth> ray, std::span<const double> log_lengths) {
+  reaches_.reserve(ray.size());
+  for (const RayDepth& depth : ray)
+    reaches_.push_back({log_lengths[depth.pair] + depth.log_depth, depth.pair});
+  std::ranges::sort(reaches_, {}, &Reach::log_distance);
+}
+
+std::optional<double> LengthsOnRay::ToldByOthers(const RayDepth& asked) const {
+  const auto of_others = [&](const Reach& reach) { return reach.pair != asked.pair; };
+  const auto count = std::ranges::count_if(reaches_, of_others);
+  if (count == 0) return std::nullopt;
+  auto median = std::ranges::find_if(reaches_, of_others);
+  for (auto before = (count - 1) / 2; before > 0; --before)
+    median = std::find_if(median + 1, reaches_.end(), of_others);
+  return median->log_distance - asked.log_depth;
 }
 
 }  // namespace orbweave

@@ -37,11 +37,22 @@ void ForEachRay(std::span<const RayDepth> depths, const Visit& visit) {
   }
 }
 
-/// How long the baseline of asked.pair is by the other pairs that share its ray, whose lengths are
-/// known: log s_p = log s_q + log d_q - log d_p, the median over all q. nullopt where none shares
-/// it. `ray`: the depths of that ray; `log_lengths`: per pair.
-[[nodiscard]] std::optional<double> ToldLogLength(std::span<const RayDepth> ray,
-                                                  const RayDepth& asked,
-                                                  std::span<const double> log_lengths);
+/// What the pairs that share one ray, whose lengths are known, say of each other's.
+class LengthsOnRay {
+ public:
+  /// `ray`: the depths of one ray; `log_lengths`: per pair.
+  LengthsOnRay(std::span<const RayDepth> ray, std::span<const double> log_lengths);
+
+  /// How long the baseline of asked.pair is by the other pairs of the ray: log s_p = log s_q +
+  /// log d_q - log d_p, the median over all q. nullopt where none shares it.
+  [[nodiscard]] std::optional<double> ToldByOthers(const RayDepth& asked) const;
+
+ private:
+  struct Reach {
+    double log_distance = 0.0;  ///< log s_q + log d_q
+    uint32_t pair = 0;
+  };
+  std::vector<Reach> reaches_{};  ///< ascending
+};
 
 }  // namespace orbweave

@@ -213,9 +213,8 @@ class Posterior {
       return std::accumulate(
           entry.log_likelihoods.begin(), entry.log_likelihoods.end(), entry.log_prior);
     });
-    CorrelatedNoise alone = Mean(axis, [axis](const Entry& entry) {
-      return entry.log_prior + entry.log_likelihoods[axis];
-    });
+    CorrelatedNoise alone = Mean(
+        axis, [axis](const Entry& entry) { return entry.log_prior + entry.log_likelihoods[axis]; });
     return together.inflation < alone.inflation ? alone : together;
   }
 

@@ -29,8 +29,8 @@ struct CorrelatedNoise {
 /// Measurements of one kind: their runs are of one model, and have one scale.
 struct NoiseAxis {
   std::vector<NoiseRun> runs{};
-  /// What is known of each unknown besides: 1 / sigma^2 in units of the residuals' variance, p; 0 is
-  /// allowed.
+  /// What is known of each unknown besides: 1 / sigma^2 in units of the residuals' variance, p; 0
+  /// is allowed.
   Eigen::VectorXd information{};
 };
 

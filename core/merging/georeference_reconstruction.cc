@@ -96,8 +96,7 @@ double TruncatedCost(const Positions& positions, const Sim3& enu_from_world) {
   double cost = 0.0;
   for (size_t i = 0; i < positions.size(); ++i) {
     const Eigen::Vector3d residual = enu_from_world * positions.in_world[i] - positions.in_enu[i];
-    cost +=
-        std::min(9.0, residual.cwiseQuotient(positions.sigma_m[i]).head<2>().squaredNorm());
+    cost += std::min(9.0, residual.cwiseQuotient(positions.sigma_m[i]).head<2>().squaredNorm());
   }
   return cost;
 }

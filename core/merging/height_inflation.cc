@@ -18,7 +18,7 @@ namespace orbweave {
 namespace {
 
 constexpr double kSigmaOfMad = 1.4826;
-constexpr double kDamping = 1e-9;         // holds the roll about a straight line
+constexpr double kDamping = 1e-9;        // holds the roll about a straight line
 constexpr double kOutlierSigmas = 3.37;  // 99 % of three normal variables
 
 // What gravity knows of the tilt, 1 / rad^2.

@@ -33,6 +33,7 @@ struct Node {
   double extent = 1.0;
   std::optional<Sim3> enu_from_node{};  // its own fit
   double sigma_m = 0.0;                 // of that fit, along an axis
+  bool knows_height = false;            // of any of its positions
 };
 
 std::vector<Node> MakeNodes(const ClusteredWorld& world) {
@@ -63,6 +64,13 @@ double TypicalSigma(const Reconstruction& images, const ImageManifest& manifest)
   return Quantile(std::move(sigmas), 0.5);
 }
 
+bool KnowsHeight(const Reconstruction& images, const ImageManifest& manifest) {
+  return std::ranges::any_of(images.images, [&](const auto& image) {
+    const PosePrior& prior = manifest.At(image.first).prior;
+    return prior.position_in_enu && IsHeightKnown(prior.vertical_sigma_m);
+  });
+}
+
 absl::Status FitNode(const ImageManifest& manifest,
                      GnssUse use,
                      const StageContext& context,
@@ -74,6 +82,7 @@ absl::Status FitNode(const ImageManifest& manifest,
                             GeoreferenceReconstruction(node.images, manifest, use, own));
   node.enu_from_node = fit.enu_from_world;
   node.sigma_m = std::max(fit.horizontal_scatter_m, TypicalSigma(node.images, manifest));
+  node.knows_height = KnowsHeight(node.images, manifest);
   return absl::OkStatus();
 }
 
@@ -110,6 +119,7 @@ SimilarityEdge EdgeToEarth(const Node& node, uint32_t number) {
   const double share = node.sigma_m / extent_m;
   Vector7d sigma = Vector7d::Constant(share);
   sigma.head<2>().setConstant(kMountSigma_rad);
+  if (!node.knows_height) sigma[6] = kUnknownHeightSigma_m / extent_m;
   return {.a = 0,
           .b = number,
           .measured = {.a_from_b = *node.enu_from_node, .length_in_a = extent_m},

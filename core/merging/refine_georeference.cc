@@ -77,10 +77,9 @@ void AddPositions(const PositionPairs& pairs, const Placed& placed, NormalEquati
     const Eigen::Vector3d from_middle = placed.in_enu[i] - placed.middle;
     Rows J;
     J << placed.extent_m * Eigen::Matrix3d::Identity(), -SkewSymmetric(from_middle), from_middle;
-    equations.Add(
-        J,
-        placed.in_enu[i] - pairs.in_enu[i],
-        Exactness(pairs.sigma_m[i]).cwiseAbs2() / (scatter + whitened[i].squaredNorm()));
+    equations.Add(J,
+                  placed.in_enu[i] - pairs.in_enu[i],
+                  Exactness(pairs.sigma_m[i]).cwiseAbs2() / (scatter + whitened[i].squaredNorm()));
   }
 }
 

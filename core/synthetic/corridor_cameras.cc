@@ -148,9 +148,19 @@ PosePrior MakePrior(const Eigen::Vector3d& biased_centre,
     position +=
         random.Uniform(20.0, 100.0) * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
   }
+  if (!options.gnss_heights) {
+    position.z() = 0.0;
+    prior.vertical_sigma_m = kUnknownHeightSigma_m;
+  }
   prior.geodetic = GeodeticFromEnu(position, kOrigin);
   prior.position_in_enu = position;
   return prior;
+}
+
+/// Whether the receiver still says of station i what it said of the one before.
+bool IsHeld(const CorridorOptions& options, const CorridorPath& path, size_t i) {
+  return i % static_cast<size_t>(options.gnss_held_panoramas) != 0 &&
+         path.stations[i].drive == path.stations[i - 1].drive;
 }
 
 }  // namespace
@@ -192,6 +202,7 @@ void MakeCameras(const CorridorOptions& options, const CorridorPath& path, Corri
       image.prior = MakePrior(
           measured + offsets.At(i, station.drive), noise.Next(station, random), options, random);
     }
+    if (IsHeld(options, path, i)) image.prior = corridor.manifest.images.back().prior;
     if (options.drives == 2 || is_timed) image.capture_time_s = kDayS * station.drive + time_s;
     const double speed = 0.5 * (SpeedAt(options, i) + SpeedAt(options, i + 1));
     time_s += is_timed ? options.spacing_m / speed : 1.0;

@@ -38,6 +38,8 @@ struct CorridorOptions {
   double speed_spread = 0.0;
   double gnss_left_m = 0.0;
   double gnss_datum_m = 0.0;
+  int gnss_held_panoramas = 1;
+  bool gnss_heights = true;
   double hill_grade = 0.0;
   double hill_length_m = 400.0;
   double mount_roll_deg = 0.0;
@@ -117,6 +119,12 @@ struct CorridorOptions {
           self.gnss_datum_m,
           "how much higher the heights of the second drive's positions are",
           Range{-1000, 1000});
+    visit("gnss_held_panoramas",
+          self.gnss_held_panoramas,
+          "so many panoramas in a row have one and the same position: the receiver reports less "
+          "often",
+          Range{1, 1000});
+    visit("gnss_heights", self.gnss_heights, "positions have heights");
     visit(
         "hill_grade",
         self.hill_grade,

@@ -13,7 +13,9 @@
 #include "core/io/natural_order.h"
 #include "stages/ingest_images/assign_drives.h"
 #include "stages/ingest_images/count_from_ellipsoid.h"
+#include "stages/ingest_images/drop_placeholder_heights.h"
 #include "stages/ingest_images/drop_shared_angles.h"
+#include "stages/ingest_images/drop_stale_positions.h"
 #include "stages/ingest_images/join_gnss_rows.h"
 #include "stages/ingest_images/place_in_local_frame.h"
 #include "stages/ingest_images/position_priors.h"
@@ -141,6 +143,22 @@ void WarnOfGaps(const std::vector<IngestCandidate>& candidates,
   }
 }
 
+/// Where no position has a height.
+void WarnOfUnknownHeights(ImageManifest& manifest) {
+  size_t count = 0;
+  for (const ImageRecord& image : manifest.images) {
+    if (!image.prior.position_in_enu) continue;
+    if (IsHeightKnown(image.prior.vertical_sigma_m)) return;
+    ++count;
+  }
+  if (count == 0) return;
+  manifest.warnings.push_back(
+      absl::StrCat("none of the ",
+                   count,
+                   " positions has a height: heights of the model are known but for a shift, and "
+                   "cameras alone tell how it tilts"));
+}
+
 }  // namespace
 
 absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
@@ -166,12 +184,15 @@ absl::StatusOr<ImageManifest> IngestImages(const ImageSources& sources,
     record.prior = PriorOf(candidate, local, options);
     context.Report(manifest.images.size(), candidates.size(), "images");
   }
+  DropPlaceholderHeights(candidates, manifest);
   ORBWEAVE_RETURN_IF_ERROR(
       CountFromEllipsoid(options.height, WithAltitudeOfEllipsoid(candidates), manifest));
   PlaceInLocalFrame(manifest);
   DropSharedAngles(candidates, manifest);
   SetCaptureTimes(candidates, manifest);
   AssignDrives(candidates, options.drive_gap_s, manifest);
+  DropStalePositions(manifest);
+  WarnOfUnknownHeights(manifest);
   WarnOfGaps(candidates, table, sources.gnss_name, manifest);
   return manifest;
 }

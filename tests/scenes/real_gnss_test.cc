@@ -187,6 +187,35 @@ TEST(RealGnss, ErrorsThatNeighboursShareDoNotLayHillsOnTheirSide) {
   }
 }
 
+TEST(RealGnss, PositionsWithoutHeightsDoNotLayHillsFlat) {
+  for (const int seed : {1, 2, 3}) {
+    const Outcome outcome = OutcomeOf({.panoramas = 120,
+                                       .spacing_m = 5.0,
+                                       .gnss_heights = false,
+                                       .hill_grade = 0.15,
+                                       .seed = seed});
+    EXPECT_LT(outcome.rotation_deg, 3.0) << seed;
+    EXPECT_LT(outcome.rotation_deg, 2.0 * outcome.rotation_sigma_deg) << seed;
+    EXPECT_LT(outcome.ratio.z(), 1.0) << "nobody knows how high it is";
+    EXPECT_GT(outcome.ratio.head<2>().sum(), 0.02) << seed;
+    EXPECT_LT(outcome.ratio.head<2>().sum(), 12.0) << seed;
+  }
+}
+
+// A receiver that is still finding its place: errors fade over sixty metres.
+TEST(RealGnss, PositionsThatBeginFarOffAreOwned) {
+  for (const int seed : {1, 2, 3}) {
+    Corridor corridor = CorridorOf({.panoramas = 150, .seed = seed});
+    for (size_t i = 0; i < corridor.manifest.images.size(); ++i) {
+      *corridor.manifest.images[i].prior.position_in_enu +=
+          30.0 * std::exp(-static_cast<double>(i) / 20.0) * Eigen::Vector3d(0.6, 0.8, 1.0);
+    }
+    const Outcome outcome = OutcomeOf(corridor);
+    EXPECT_LT(outcome.ratio.maxCoeff(), 9.0) << seed;
+    EXPECT_LT(outcome.rotation_deg, 2.0 * outcome.rotation_sigma_deg) << seed;
+  }
+}
+
 TEST(RealGnss, AClockThatIsLateIsTakenOff) {
   double sum = 0.0;
   double count = 0.0;

@@ -3,10 +3,14 @@
 
 #include "stages/ingest_images/ingest_images.h"
 
+#include <absl/strings/str_format.h>
+#include <absl/strings/str_replace.h>
+#include <absl/strings/str_split.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 #include "core/io/scan_image_folder.h"
 #include "core/scene/local_frame.h"
@@ -117,7 +121,7 @@ TEST(IngestImages, JoinsTheTableAndFillsTheLocalFrame) {
 
 TEST(IngestImages, UsesExifWhereTheTableIsSilent) {
   ImageSources sources = GoodSources(3);
-  sources.images[1].metadata.position = GeodeticPosition{47.61, -122.32, 0.0};
+  sources.images[1].metadata.position = GeodeticPosition{47.61, -122.3201, 0.0};
   sources.images[1].metadata.heading_deg = 12.0;
   sources.images[1].metadata.capture_time_s = 100.0;
   sources.gnss_name = "gnss.csv";
@@ -125,10 +129,9 @@ TEST(IngestImages, UsesExifWhereTheTableIsSilent) {
   const ImageManifest manifest = Ingest(sources);
   const PosePrior& prior = manifest.images[1].prior;
   ASSERT_TRUE(prior.position_in_enu);
-  EXPECT_NEAR(prior.position_in_enu->z(),
-              0.0,
-              1e-3);  // unknown altitude: that of the others, and a wide sigma
-  EXPECT_DOUBLE_EQ(prior.vertical_sigma_m, 100.0);
+  EXPECT_NEAR(prior.position_in_enu->z(), 0.0,
+              1e-3);  // unknown altitude: that of the others
+  EXPECT_FALSE(IsHeightKnown(prior.vertical_sigma_m));
   EXPECT_EQ(prior.heading_deg, 12.0);
   EXPECT_EQ(manifest.images[1].capture_time_s, 100.0);
 }
@@ -146,8 +149,11 @@ TEST(IngestImages, SeesATableSwappedAgainstExif) {
 
 TEST(IngestImages, DropsAPositionOnAnotherContinent) {
   ImageSources sources = GoodSources(5);
-  for (SourceImage& image : sources.images)
-    image.metadata.position = GeodeticPosition{48.85, 2.35, 35.0};
+  for (size_t i = 0; i < 5; ++i) {
+    const double along_deg = 1.2345e-5 * static_cast<double>(i);
+    sources.images[i].metadata.position = GeodeticPosition{48.85, 2.35 + along_deg, 35.0 + 0.1 * i};
+    sources.images[i].metadata.altitude_known = true;
+  }
   sources.images[3].metadata.position->longitude_deg = 92.35;
   const ImageManifest manifest = Ingest(sources);
   EXPECT_FALSE(manifest.images[3].prior.geodetic || manifest.images[3].prior.position_in_enu);
@@ -225,8 +231,8 @@ TEST(IngestImages, NamesImagesOfALabelledDriveThatNothingPlaces) {
   ImageSources sources = GoodSources(4);
   sources.gnss_name = "gnss.csv";
   sources.gnss_text =
-      "name,x,y,z,drive,time\nimg0.jpg,0,0,0,a,30\nimg1.jpg,1,0,0,a,\nimg2.jpg,2,0,0,a,10\n"
-      "img3.jpg,3,0,0,a,\n";
+      "name,x,y,z,drive,time\nimg0.jpg,0,0,1,a,30\nimg1.jpg,1,0,2,a,\nimg2.jpg,2,0,1,a,10\n"
+      "img3.jpg,3,0,2,a,\n";
   EXPECT_THAT(Ingest(sources).warnings, ElementsAre(HasSubstr(": img1.jpg, img3.jpg")));
 }
 
@@ -283,8 +289,9 @@ TEST(IngestImages, TakesAccuraciesAsStatedElseByFixTypeElseByOption) {
   sources.gnss_name = "gnss.csv";
   sources.gnss_text =
       "name,latitude,longitude,altitude,accuracy,vertical_accuracy,fix\n"
-      "img0.jpg,47,8,400,0.25,0.75,float\nimg1.jpg,47,8,400,,,fixed\nimg2.jpg,47,8,400,,7,1\n"
-      "img3.jpg,47,8,400,0.25,,\nimg4.jpg,47,8,400,0.01,,none\n";
+      "img0.jpg,47.1234561,8,400,0.25,0.75,float\nimg1.jpg,47.1234562,8,400,,,fixed\n"
+      "img2.jpg,47.1234563,8,400,,7,1\nimg3.jpg,47.1234564,8,400,0.25,,\n"
+      "img4.jpg,47.1234565,8,400,0.01,,none\n";
   const ImageManifest manifest = Ingest(sources);
   const auto expect_sigmas = [&](size_t i, double horizontal_m, double vertical_m) {
     EXPECT_TRUE(manifest.images[i].prior.position_in_enu) << i;
@@ -400,6 +407,119 @@ TEST(IngestImages, DoesNotTakeForMeasuredWhatEveryImageSays) {
   EXPECT_EQ(manifest.images[0].prior.heading_deg, 180.0);
 }
 
+/// A table of `count` images along a street that climbs, at 4 m steps.
+std::string StreetTable(size_t count, const char* columns = "name,latitude,longitude,altitude\n") {
+  std::string text = columns;
+  for (size_t i = 0; i < count; ++i) {
+    text += absl::StrFormat("img%d.jpg,%.7f,%.7f,%.1f\n",
+                            i,
+                            47.1234567 + 3.7e-5 * static_cast<double>(i),
+                            8.7654321,
+                            400.5 + 0.3 * static_cast<double>(i));
+  }
+  return text;
+}
+
+TEST(IngestImages, DoesNotTakeForAHeightWhatEveryPositionStates) {
+  ImageSources sources = GoodSources(6);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = StreetTable(6);
+  EXPECT_TRUE(IsHeightKnown(Ingest(sources).images[3].prior.vertical_sigma_m));
+  for (size_t i = 0; i < 6; ++i) {
+    const std::string height = absl::StrFormat(",%.1f\n", 400.5 + 0.3 * static_cast<double>(i));
+    absl::StrReplaceAll({{height, ",0\n"}}, &sources.gnss_text);
+  }
+  ImageManifest manifest = Ingest(sources);
+  for (const ImageRecord& image : manifest.images)
+    EXPECT_FALSE(IsHeightKnown(image.prior.vertical_sigma_m)) << image.name;
+  EXPECT_THAT(manifest.warnings,
+              ElementsAre(HasSubstr("6 positions state a height of exactly 0 m"),
+                          HasSubstr("none of the 6 positions has a height")));
+  // Local metres of a plan.
+  sources.gnss_text = "name,x,y,z\nimg0.jpg,0.1,0,2.5\nimg1.jpg,4.2,0,2.5\nimg2.jpg,8.1,0,2.5\n";
+  manifest = Ingest(sources);
+  EXPECT_FALSE(IsHeightKnown(manifest.images[1].prior.vertical_sigma_m));
+  EXPECT_EQ(manifest.images[1].prior.position_in_enu->x(), 4.2);
+  // Who states an accuracy means it.
+  sources.gnss_text =
+      "name,x,y,z,vertical_accuracy\nimg0.jpg,0.1,0,2.5,0.1\n"
+      "img1.jpg,4.2,0,2.5,0.1\nimg2.jpg,8.1,0,2.5,0.1\n";
+  EXPECT_EQ(Ingest(sources).images[1].prior.vertical_sigma_m, 0.1);
+}
+
+TEST(IngestImages, TakesNoughtForAHeightOnlyWhereOthersAreNearIt) {
+  ImageSources sources = GoodSources(6);
+  sources.gnss_name = "gnss.csv";
+  const auto known_with = [&](const char* heights) {
+    const std::vector<std::string> each = absl::StrSplit(heights, ' ');
+    sources.gnss_text = "name,latitude,longitude,altitude\n";
+    for (size_t i = 0; i < 6; ++i)
+      sources.gnss_text += absl::StrFormat("img%d.jpg,47.1234%d67,8.7654321,%s\n", i, i, each[i]);
+    std::string known;
+    for (const ImageRecord& image : Ingest(sources).images)
+      known += IsHeightKnown(image.prior.vertical_sigma_m) ? '1' : '0';
+    return known;
+  };
+  EXPECT_EQ(known_with("0 0 0 400.1 400.3 399.8"), "000111");
+  EXPECT_EQ(known_with("0 0 0 1 2 2"), "111111") << "beside the sea";
+  EXPECT_EQ(known_with("0 0 398 400.1 400.3 399.8"), "111111") << "too few to tell";
+}
+
+TEST(IngestImages, UsesTheFirstOfPositionsThatRepeat) {
+  ImageSources sources = GoodSources(9);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,latitude,longitude,altitude\n";
+  for (size_t i = 0; i < 9; ++i) {
+    sources.gnss_text += absl::StrFormat("img%d.jpg,47.1234%d67,8.7654321,%.1f\n",
+                                         i,
+                                         i / 3,
+                                         400.5 + 0.3 * static_cast<double>(i / 3));
+  }
+  ImageManifest manifest = Ingest(sources);
+  for (size_t i = 0; i < 9; ++i)
+    EXPECT_EQ(manifest.images[i].prior.position_in_enu.has_value(), i % 3 == 0) << i;
+  EXPECT_THAT(manifest.warnings,
+              ElementsAre(HasSubstr("6 positions repeat that of the image before")));
+}
+
+TEST(IngestImages, SharesPositionsThatAreOfOneTime) {
+  ImageSources sources = GoodSources(6);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text = "name,latitude,longitude,altitude,time\n";
+  for (size_t i = 0; i < 6; ++i) {  // two cameras on one car
+    sources.gnss_text += absl::StrFormat("img%d.jpg,47.1234%d67,8.7654321,%.1f,%d\n",
+                                         i,
+                                         i / 2,
+                                         400.5 + 0.3 * static_cast<double>(i / 2),
+                                         1700000000 + i / 2);
+  }
+  for (const ImageRecord& image : Ingest(sources).images)
+    EXPECT_TRUE(image.prior.position_in_enu) << image.name;
+}
+
+TEST(IngestImages, KnowsHowFarPositionsAreRounded) {
+  ImageSources sources = GoodSources(8);
+  sources.gnss_name = "gnss.csv";
+  const auto ingest_at = [&](double step_deg, const char* format) {
+    sources.gnss_text = "name,latitude,longitude,altitude,accuracy\n";
+    for (int i = 0; i < 8; ++i) {
+      const double latitude_deg = std::round((47.12345 + 6e-5 * i) / step_deg) * step_deg;
+      sources.gnss_text += absl::StrFormat("img%d.jpg,", i);
+      sources.gnss_text += absl::StrFormat(*absl::ParsedFormat<'f'>::New(format), latitude_deg);
+      sources.gnss_text += absl::StrFormat(",8.7654,%.1f,1\n", 400.5 + 0.3 * i);
+    }
+    return Ingest(sources);
+  };
+  for (const auto& [step_deg, format, step_m] :
+       {std::tuple(1e-4, "%.4f", 11.13), std::tuple(1e-5, "%.5f", 1.113)}) {
+    const ImageManifest manifest = ingest_at(step_deg, format);
+    for (const ImageRecord& image : manifest.images) {
+      ASSERT_TRUE(image.prior.position_in_enu) << image.name << " " << step_deg;
+      EXPECT_NEAR(image.prior.horizontal_sigma_m, std::hypot(1.0, step_m / std::sqrt(12.0)), 0.01);
+    }
+  }
+}
+
 TEST(IngestImages, FollowsTheTablesDrives) {
   ImageSources sources = GoodSources(4);
   sources.gnss_name = "gnss.csv";
@@ -449,7 +569,9 @@ TEST(IngestImages, TakesAFolderOfRealFiles) {
   const ImageManifest manifest = Ingest(sources);
   ASSERT_EQ(manifest.images.size(), 11U);
   EXPECT_EQ(manifest.images[0].name, "R0010210.JPG");
-  EXPECT_THAT(manifest.warnings, IsEmpty());
+  EXPECT_THAT(manifest.warnings,
+              ElementsAre(HasSubstr("11 positions state a height of exactly 60 m"),
+                          HasSubstr("none of the 11 positions has a height")));
   for (const ImageRecord& image : manifest.images) {
     ASSERT_TRUE(image.prior.position_in_enu) << image.name;
     EXPECT_LT(image.prior.position_in_enu->norm(), 200.0) << image.name;

@@ -56,6 +56,21 @@ TEST(EstimateVarianceFactors, FindsTheNoiseOfPositionsPerAxisInSpiteOfOutliers) 
   }
 }
 
+TEST(EstimateVarianceFactors, UnknownHeightsSayNothingOfKnownOnes) {
+  BundleProblem problem = MakeBundleWorld({.num_poses = 1500, .num_points = 0}).truth;
+  AddPositions(0.6, {1.2, 1.2, 0.6}, 0.0, problem);
+  for (uint32_t i = 0; i < 1500; i += 2) {
+    PositionPrior& prior = problem.position_priors[i];
+    prior.is_height_known = false;
+    prior.sigma_m.z() = 1e5;
+  }
+  const Eigen::Vector3d half = Estimate(problem).positions;
+  EXPECT_GT(half.z(), 0.9);
+  EXPECT_LT(half.z(), 1.6);
+  for (PositionPrior& prior : problem.position_priors) prior.is_height_known = false;
+  EXPECT_EQ(Estimate(problem).positions.z(), 1.0);
+}
+
 TEST(EstimateVarianceFactors, BelievesTheClaimsWhereNothingIsRedundant) {
   BundleProblem problem = MakeBundleWorld({.num_poses = 2, .num_points = 0}).truth;
   AddPositions(10.0, {1.0, 1.0, 1.0}, 0.0, problem);

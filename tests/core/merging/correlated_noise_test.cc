@@ -59,8 +59,7 @@ Tally TallyOf(int count, double length) {
   Tally tally;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Fitted fitted = FitLine(count, length, random);
-    const CorrelatedNoise noise =
-        NoiseOf(fitted.run);
+    const CorrelatedNoise noise = NoiseOf(fitted.run);
     tally.ratio +=
         fitted.error * fitted.error / (fitted.claimed_variance * noise.inflations[0]) / kTrials;
     tally.inflation += noise.inflation / kTrials;
@@ -87,8 +86,7 @@ TEST(EstimateCorrelatedNoise, ClaimsWhatCorrelatedErrorsDo) {
 TEST(EstimateCorrelatedNoise, FindsHowFarErrorsHangTogether) {
   Random random(3);
   const Fitted fitted = FitLine(3000, 30.0, random);
-  const CorrelatedNoise noise =
-      NoiseOf(fitted.run);
+  const CorrelatedNoise noise = NoiseOf(fitted.run);
   EXPECT_GT(noise.share, 0.8);
   EXPECT_GT(noise.length, 15.0);
   EXPECT_LT(noise.length, 60.0);

@@ -171,6 +171,29 @@ TEST(DeformWorld, TakesADriftedStreetToItsGnss) {
   EXPECT_LT(LargestStepError_m(street, bent), 0.1);
 }
 
+TEST(DeformWorld, LaysNoHillFlatWhereNobodyKnowsHeights) {
+  Street street = MakeStreet(kDrift, 1.5);
+  const auto raise = [](Rigid3& pose, double height_m) {
+    pose = Rigid3::FromCentre(pose.rotation, pose.Centre() + height_m * Eigen::Vector3d::UnitZ());
+  };
+  for (size_t i = 0; i < street.truth.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(street.truth.size());
+    const double height_m = 60.0 * std::sin(12.0 * share);
+    raise(street.truth[i], height_m);
+    raise(street.scene.images.at(ImageId(static_cast<uint32_t>(i))).cam_from_world, height_m);
+    street.manifest.images[i].prior.position_in_enu->z() = 0.0;
+    street.manifest.images[i].prior.vertical_sigma_m = kUnknownHeightSigma_m;
+  }
+  const Reconstruction bent = Bent(street);
+  ASSERT_EQ(bent.images.size(), street.truth.size());
+  const auto height_m = [](const Rigid3& pose) { return pose.Centre().z(); };
+  const double begin_m = height_m(bent.images.begin()->second.cam_from_world);
+  for (const auto& [id, image] : bent.images) {
+    const double true_height_m = height_m(street.truth[id.value]) - height_m(street.truth[0]);
+    EXPECT_NEAR(height_m(image.cam_from_world) - begin_m, true_height_m, 6.0) << id.value;
+  }
+}
+
 TEST(DeformWorld, BridgesATunnel) {
   Street street = MakeStreet(kDrift, 1.5);
   for (ImageRecord& image : street.manifest.images) {

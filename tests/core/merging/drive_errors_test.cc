@@ -190,6 +190,18 @@ TEST(FindDriveErrors, MovesTheOddDriveToTheDatumOfTheOthers) {
   }
 }
 
+TEST(FindDriveErrors, FindsNoDatumWhereHeightsAreUnknown) {
+  DrivenStreet street = ThreeDrives(1, 3);
+  for (ImageRecord& image : street.manifest.images) {
+    if (image.drive == 1) image.prior.vertical_sigma_m = kUnknownHeightSigma_m;
+  }
+  const Georeference georeference =
+      GeoreferenceReconstruction(street.model, street.manifest, GnssUse::kAuto, {}).value();
+  ASSERT_TRUE(georeference.enu_from_world.has_value());
+  EXPECT_LT(std::abs(georeference.enu_from_world->translation.z()), 1.0);
+  EXPECT_TRUE(georeference.drive_errors.empty());
+}
+
 TEST(FindDriveErrors, CannotTellWhichOfTwoDatumsIsRight) {
   const DrivenStreet street = ThreeDrives(1, 2);
   const Georeference georeference =

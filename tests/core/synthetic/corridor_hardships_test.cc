@@ -104,6 +104,29 @@ TEST(CorridorHardships, CarriersClimbHillsAndLeanWithThem) {
   }
 }
 
+TEST(CorridorHardships, GnssRepeatsWhatItSaid) {
+  const Corridor corridor = MakeCorridor({.panoramas = 20, .gnss_held_panoramas = 6, .drives = 2});
+  const std::vector<ImageRecord>& images = corridor.manifest.images;
+  for (size_t i = 1; i < images.size(); ++i) {
+    const bool is_held = i % 6 != 0 && images[i].drive == images[i - 1].drive;
+    EXPECT_EQ(*images[i].prior.position_in_enu == *images[i - 1].prior.position_in_enu, is_held)
+        << i;
+  }
+}
+
+TEST(CorridorHardships, PositionsMayHaveNoHeights) {
+  const Corridor with = MakeCorridor({.panoramas = 5, .hill_grade = 0.1});
+  const Corridor without = MakeCorridor({.panoramas = 5, .gnss_heights = false, .hill_grade = 0.1});
+  for (size_t i = 0; i < 5; ++i) {
+    const PosePrior& known = with.manifest.images[i].prior;
+    const PosePrior& unknown = without.manifest.images[i].prior;
+    EXPECT_TRUE(IsHeightKnown(known.vertical_sigma_m));
+    EXPECT_FALSE(IsHeightKnown(unknown.vertical_sigma_m));
+    EXPECT_EQ(unknown.position_in_enu->z(), 0.0);
+    EXPECT_EQ(unknown.position_in_enu->head<2>(), known.position_in_enu->head<2>());
+  }
+}
+
 TEST(CorridorHardships, GnssJumpsOnceAndTogether) {
   const auto errors = GnssErrors(MakeCorridor(
       {.panoramas = 30, .gnss_sigma_m = 0.01, .gnss_jump_panoramas = 10, .gnss_jump_m = 100.0}));
