@@ -23,9 +23,9 @@ namespace orbweave {
 /// GNSS carries the scale when its scatter leaves the scale uncertain by 10 % at most and is
 /// smaller than the extent of the centres (rms distance from their mean), and 70 % of the positions
 /// agree within three sigmas; a phone indoors fails. Drives of eight positions or more are judged
-/// without their bias. Where it does not, but runs smoothly along the sequence
-/// (MeasureGnssSmoothness) and far from the model, the reason and a bad check
-/// ("gnss_against_model") say that the model is contradicted. Loose images take no part. `use`
+/// without their bias. Where it does not, but would fit the upright model's likeness in a mirror,
+/// or runs smoothly along the sequence (MeasureGnssSmoothness) and far from the model, the reason
+/// and a bad check ("gnss_mirrored", "gnss_against_model") say so. Loose images take no part. `use`
 /// kOff: not attempted. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<Georeference> GeoreferenceReconstruction(
     const Reconstruction& reconstruction,

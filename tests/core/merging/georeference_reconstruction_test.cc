@@ -140,6 +140,24 @@ TEST(GeoreferenceReconstruction, RefusesAScaleFromAPhoneIndoors) {
   }
 }
 
+TEST(GeoreferenceReconstruction, TellsPicturesThatAreMirrored) {
+  for (const uint64_t seed : {1U, 2U, 3U}) {
+    Random random(seed);
+    std::vector<Eigen::Vector3d> bend = StraightStreet(60, 3.0);
+    for (size_t i = 30; i < bend.size(); ++i) bend[i].y() = bend[30].y();
+    GnssWorld world = MakeGnssWorld(bend, 1.0, random);
+    EXPECT_TRUE(Georeferenced(world).checks.empty()) << "nothing is wrong with it";
+    for (ImageRecord& image : world.manifest.images)  // as of a table that states north and east
+      std::swap(image.prior.position_in_enu->x(), image.prior.position_in_enu->y());
+    world.model = Transformed(SomeFrame(random), std::move(world.model));
+    const Georeference result = Georeferenced(world);
+    EXPECT_FALSE(result.enu_from_world);
+    ASSERT_EQ(result.checks.size(), 1U);
+    EXPECT_EQ(result.checks[0].name, "gnss_mirrored");
+    EXPECT_EQ(result.checks[0].level, CheckLevel::kBad);
+  }
+}
+
 TEST(GeoreferenceReconstruction, SaysWhyItCannot) {
   Random random(5);
   GnssWorld few = MakeGnssWorld(StraightStreet(3, 3.0), 1.0, random);
