@@ -12,6 +12,8 @@ namespace orbweave {
 namespace {
 
 constexpr double kMinFactor = 1e-4;
+// What is stated counts as so many residuals more: of a few, chance leaves next to nothing.
+constexpr double kStatedCounts = 4.0;
 // Mean psi' below which positions contradict each other so much that the formula loses its meaning.
 constexpr double kMinSlope = 0.05;
 
@@ -65,6 +67,14 @@ Eigen::Vector3d PositionVarianceFactors(const BundleProblem& problem, const Bund
   const Eigen::Vector3d K = Eigen::Vector3d::Ones() + unknowns / (3.0 * n) * spread.cwiseMax(0.0);
   Eigen::Vector3d factors =
       3.0 * n / redundancy * K.cwiseAbs2().cwiseProduct(squares.cwiseQuotient(squared_mean));
+  const auto num_biases = static_cast<double>(state.biases.size());
+  const Eigen::Vector3d told(2.0 * n - 4.0 - 2.0 * num_biases,
+                             2.0 * n - 4.0 - 2.0 * num_biases,
+                             counts.z() - 3.0 - num_biases);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double nu = std::max(told[axis], 0.0);
+    factors[axis] = (nu * factors[axis] + kStatedCounts) / (nu + kStatedCounts - 2.0);
+  }
   if (counts.z() == 0.0) factors.z() = 1.0;
   return factors.cwiseMax(kMinFactor);
 }

@@ -30,8 +30,10 @@ struct VarianceFactors {
 /// observations. Position priors, whose loss is Cauchy's, per axis with the whitened residual r:
 ///   f = K^2 E[psi^2] / E[psi']^2 * 3n / (3n - p),   K = 1 + p / 3n * Var[psi'] / E[psi']^2,
 /// psi = r / (1 + |r|^2 / loss_sigmas^2), p = 7 + 3 biases: the variance of an M-estimate (Huber
-/// 1981, 7.6), which outliers hardly change; along z over the n whose heights are known. Factors
-/// stay above 1e-4 (exact data), and are 1 where nothing is redundant.
+/// 1981, 7.6), which outliers hardly change; along z over the n whose heights are known. A
+/// factor of nu redundant residuals is then (nu f + 4) / (nu + 2): the mean of the variance where
+/// what is stated counts as four residuals (inverse chi-squared). Factors stay above 1e-4 (exact
+/// data), and are 1 where nothing is redundant.
 [[nodiscard]] VarianceFactors EstimateVarianceFactors(const BundleProblem& problem,
                                                       const BundleLayout& layout,
                                                       const BundleState& state,

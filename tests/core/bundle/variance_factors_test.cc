@@ -71,6 +71,16 @@ TEST(EstimateVarianceFactors, UnknownHeightsSayNothingOfKnownOnes) {
   EXPECT_EQ(Estimate(problem).positions.z(), 1.0);
 }
 
+// Residuals of four positions, seven unknowns taken off, may be next to nothing by chance.
+TEST(EstimateVarianceFactors, DoesNotTakeAFewForExactThatAgreeByChance) {
+  BundleProblem problem = MakeBundleWorld({.num_poses = 4, .num_points = 0}).truth;
+  AddPositions(0.0, {2.0, 2.0, 4.0}, 0.0, problem);
+  EXPECT_GT(Estimate(problem).positions.minCoeff(), 0.5);
+  BundleProblem many = MakeBundleWorld({.num_poses = 1500, .num_points = 0}).truth;
+  AddPositions(0.0, {2.0, 2.0, 4.0}, 0.0, many);
+  EXPECT_LT(Estimate(many).positions.maxCoeff(), 0.01);
+}
+
 TEST(EstimateVarianceFactors, BelievesTheClaimsWhereNothingIsRedundant) {
   BundleProblem problem = MakeBundleWorld({.num_poses = 2, .num_points = 0}).truth;
   AddPositions(10.0, {1.0, 1.0, 1.0}, 0.0, problem);
