@@ -6,17 +6,26 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/mapping/find_length_faults.h"
 #include "core/report/lengths_within_models.h"
+#include "core/report/model_of_images.h"
 
 namespace orbweave {
 namespace {
 
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
+/// Right steps of streets whose houses repeat have half of the usual share or more, but for some; a
+/// step that was seven hundredths off had two fifths of it.
+constexpr double kWeakShare = 0.5;
+constexpr size_t kFewestSteps = 8;
 
 bool AgreesLess(const PairLength& one, const PairLength& other) {
   return one.agreement.Share() < other.agreement.Share();
@@ -90,6 +99,57 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
   return text;
 }
 
+/// A step whose length fewer rays agree with than is usual in its model.
+struct WeakStep {
+  GapLength gap{};
+  double usual_share = 0.0;
+};
+
+/// The weakest of one model: `gaps` that tell enough.
+std::optional<WeakStep> WeakestOf(const std::vector<GapLength>& gaps) {
+  if (gaps.size() < kFewestSteps) return std::nullopt;
+  std::vector<double> shares;
+  for (const GapLength& gap : gaps) shares.push_back(gap.agreement.Share());
+  const GapLength& weakest = *std::ranges::min_element(
+      gaps, {}, [](const GapLength& gap) { return gap.agreement.Share(); });
+  const double usual = Quantile(std::move(shares), 0.5);
+  if (weakest.agreement.Share() >= kWeakShare * usual) return std::nullopt;
+  return WeakStep{weakest, usual};
+}
+
+/// In models that no GNSS holds: where one does, its sigmas hold what such a step may be off.
+std::optional<WeakStep> FindWeakStep(const JobResults& results,
+                                     const std::vector<GapLength>& gaps) {
+  const std::vector<int> model_of_image = ModelOfImages(results);
+  std::map<int, std::vector<GapLength>> of_model;
+  for (const GapLength& gap : gaps) {
+    const int model = model_of_image[gap.between.a.value];
+    if (model < 0 || results.models[static_cast<size_t>(model)].report.gnss.used) continue;
+    if (TellsEnough(gap.agreement, gap.pairs)) of_model[model].push_back(gap);
+  }
+  for (const auto& [model, steps] : of_model) {
+    if (std::optional<WeakStep> weak = WeakestOf(steps)) return weak;
+  }
+  return std::nullopt;
+}
+
+void DoubtWeakStep(const WeakStep& weak, const ImageManifest& manifest, CrossCheck& check) {
+  check.value = weak.gap.agreement.Share();
+  check.limit = kWeakShare * weak.usual_share;
+  check.level = CheckLevel::kDoubtful;
+  char text[512];
+  std::snprintf(text,
+                sizeof text,
+                "of the rays that tell how long steps are, only %d %% agree with the model between "
+                "%s and %s, where %d %% are usual in it, and no GNSS tells its length: it may be "
+                "off by some hundredths; give GNSS positions, or take panoramas closer together",
+                Percent(check.value),
+                manifest.At(weak.gap.between.a).name.c_str(),
+                manifest.At(weak.gap.between.b).name.c_str(),
+                Percent(weak.usual_share));
+  check.sentence = text;
+}
+
 }  // namespace
 
 CrossCheck CheckLengths(const JobResults& results) {
@@ -114,6 +174,8 @@ CrossCheck CheckLengths(const JobResults& results) {
                   "everywhere",
                   Percent(all.Share()));
     check.sentence = all.told > 0.0 ? text : "no rays tell how long steps are";
+    if (const std::optional<WeakStep> weak = FindWeakStep(results, gaps))
+      DoubtWeakStep(*weak, results.manifest, check);
     return check;
   }
   const LengthFault& worst = *std::ranges::min_element(

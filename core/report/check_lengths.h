@@ -16,7 +16,8 @@ namespace orbweave {
 /// stand askew, and an image all of whose ways are such. Pairs and ways within one model are asked;
 /// one of two clusters by the one that speaks for it less. Doubtful with a fault, bad where two
 /// images or more are at fault and one in fifty: a tear may be the pairs' that lead across it.
-/// Value: the smallest share of rays that agrees, where there is a fault.
+/// In a model that no GNSS holds, doubtful too where less than half as many rays agree with one
+/// step as is usual. Value: the smallest share of rays that agrees, where there is a fault.
 [[nodiscard]] CrossCheck CheckLengths(const JobResults& results);
 
 }  // namespace orbweave

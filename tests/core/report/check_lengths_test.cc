@@ -98,6 +98,7 @@ void ExpectDoubtWhicheverClusterSaysSo(JobResults results, const std::string& se
 
 TEST(CheckLengths, WhatGnssBearsOutIsNoFault) {
   JobResults results = Drive();
+  results.models[0].report.gnss.used = true;
   std::vector<GapLength>& gaps = results.clusters[0].gap_lengths;
   ContradictPairsOf(42, results);
   gaps[41].agreement.agreeing = 30.0;
@@ -110,6 +111,22 @@ TEST(CheckLengths, WhatGnssBearsOutIsNoFault) {
   EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood);
   gaps[42].matches = {.told = 582.0, .agreeing = 62.0};
   EXPECT_EQ(CheckLengths(results).level, CheckLevel::kDoubtful) << "sides that stand askew";
+}
+
+TEST(CheckLengths, AStepThatIsToldFarLessThanOthersIsDoubtfulWithoutGnss) {
+  JobResults results = Drive();
+  GapLength& gap = results.clusters[0].gap_lengths[20];
+  gap.agreement.agreeing = 0.36 * gap.agreement.told;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood);
+  gap.agreement.agreeing = 0.34 * gap.agreement.told;
+  const CrossCheck check = CheckLengths(results);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_NEAR(check.value, 0.34, 1e-12);
+  EXPECT_NEAR(check.limit, 0.35, 1e-12);
+  EXPECT_THAT(check.sentence,
+              HasSubstr("only 34 % agree with the model between 20.jpg and 21.jpg, where 70 %"));
+  results.models[0].report.gnss.used = true;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood) << "its sigmas hold it";
 }
 
 TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
