@@ -75,21 +75,19 @@ void SetSigma(const std::optional<std::array<double, 9>>& covariance,
       !((*covariance)[8] > 0.0))
     return;
   const double horizontal_m = std::sqrt(0.5 * ((*covariance)[0] + (*covariance)[4]));
-  const double stated_m = std::sqrt((*covariance)[8]);
-  const double vertical_m = stated_m > kLargestSigma_m ? kUnknownHeightSigma_m : stated_m;
+  const double vertical_m = std::sqrt((*covariance)[8]);
   if (horizontal_m > kLargestSigma_m) {
     image.prior.geodetic.reset();
     image.prior.position_in_enu.reset();
     problems["a position that is worse than 10 km"].push_back(image.name);
     return;
   }
-  if (!IsPlausibleSigma(horizontal_m) ||
-      (IsHeightKnown(vertical_m) && !IsPlausibleSigma(vertical_m))) {
+  if (!IsPlausibleSigma(horizontal_m) || !IsPlausibleSigma(std::min(vertical_m, kLargestSigma_m))) {
     problems["a covariance that cannot be"].push_back(image.name);
     return;
   }
   image.prior.horizontal_sigma_m = horizontal_m;
-  image.prior.vertical_sigma_m = vertical_m;
+  image.prior.vertical_sigma_m = vertical_m > kLargestSigma_m ? kUnknownHeightSigma_m : vertical_m;
   image.prior_sigma_known = true;
 }
 

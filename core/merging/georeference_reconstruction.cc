@@ -154,14 +154,20 @@ bool LeansTooFar(const Gravity& gravity, const Sim3& enu_from_world) {
          kMaxLean_rad;
 }
 
+// With the model turned about its origin.
+Positions Turned(const Eigen::Quaterniond& rotation, Positions positions) {
+  const Sim3 turn{1.0, rotation, Eigen::Vector3d::Zero()};
+  for (Eigen::Vector3d& point : positions.in_world) point = turn * point;
+  return positions;
+}
+
 // With down where gravity says.
 absl::StatusOr<std::optional<Sim3>> EstimateLevel(const Positions& positions,
                                                   const Gravity& gravity,
                                                   const StageContext& context) {
   const Sim3 upright_from_world{
       1.0, UprightFromDown(gravity.down_in_world), Eigen::Vector3d::Zero()};
-  Positions upright = positions;
-  for (Eigen::Vector3d& point : upright.in_world) point = upright_from_world * point;
+  const Positions upright = Turned(upright_from_world.rotation, positions);
   ORBWEAVE_ASSIGN_OR_RETURN(const std::optional<Sim3> start, EstimateUpright(upright, context));
   if (!start) return std::optional<Sim3>();
   return std::optional<Sim3>(*start * upright_from_world);
@@ -291,13 +297,12 @@ absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
 
 // Whether GNSS, which does not fit the model, fits its likeness in a mirror: nine of ten positions
 // within three sigmas, a metre at least, and altogether twice as well as the upright model.
-absl::StatusOr<bool> FitsMirrored(Positions upright,
+absl::StatusOr<bool> FitsMirrored(const Positions& positions,
                                   const Gravity& gravity,
                                   const StageContext& context) {
   constexpr double kMinShare = 0.9;
   constexpr double kFarBetter = 0.5;
-  for (Eigen::Vector3d& point : upright.in_world)
-    point = UprightFromDown(gravity.down_in_world) * point;
+  Positions upright = Turned(UprightFromDown(gravity.down_in_world), positions);
   for (Eigen::Vector3d& sigma_m : upright.sigma_m) sigma_m = sigma_m.cwiseMax(1.0);
   Positions mirrored = upright;
   for (Eigen::Vector3d& point : mirrored.in_world) point.x() = -point.x();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,25 +32,24 @@ bool IsMultiple(double value, double step) {
   return std::abs(steps - std::round(steps)) < kTolerance;
 }
 
-template <typename Visitor>
-void VisitCoordinates(const ImageManifest& manifest, bool geodetic, Visitor&& visit) {
+using Places = std::set<std::pair<double, double>>;
+
+/// Latitudes and longitudes, or local coordinates of images that have none.
+Places PlacesOf(const ImageManifest& manifest, bool geodetic) {
+  Places places;
   for (const ImageRecord& image : manifest.images) {
     const PosePrior& prior = image.prior;
     if (geodetic && prior.geodetic) {
-      visit(prior.geodetic->latitude_deg, prior.geodetic->longitude_deg);
+      places.emplace(prior.geodetic->latitude_deg, prior.geodetic->longitude_deg);
     } else if (!geodetic && !prior.geodetic && prior.position_in_enu) {
-      visit(prior.position_in_enu->x(), prior.position_in_enu->y());
+      places.emplace(prior.position_in_enu->x(), prior.position_in_enu->y());
     }
   }
+  return places;
 }
 
 /// The coarsest of `steps` that all coordinates are multiples of; 0: none, or too few places.
-template <size_t kCount>
-double StepOf(const ImageManifest& manifest,
-              bool geodetic,
-              const std::array<double, kCount>& steps) {
-  std::set<std::pair<double, double>> places;
-  VisitCoordinates(manifest, geodetic, [&](double a, double b) { places.emplace(a, b); });
+double StepOf(const Places& places, std::span<const double> steps) {
   if (places.size() < kFewest) return 0.0;
   for (const double step : steps) {
     const bool are_multiples = std::ranges::all_of(places, [step](const auto& place) {
@@ -62,8 +62,8 @@ double StepOf(const ImageManifest& manifest,
 
 /// To what length positions are rounded, metres; 0 where to less than one.
 double RoundedTo_m(const ImageManifest& manifest) {
-  return std::max(kMetresPerDegree * StepOf(manifest, true, kSteps_deg),
-                  StepOf(manifest, false, kSteps_m));
+  return std::max(kMetresPerDegree * StepOf(PlacesOf(manifest, true), kSteps_deg),
+                  StepOf(PlacesOf(manifest, false), kSteps_m));
 }
 
 bool IsRepeated(const ImageRecord& before, const ImageRecord& image) {
