@@ -272,7 +272,7 @@ struct PairView {
     if (geometry.kind != TwoViewKind::kPureRotation) return InliersOf(pairs, pose, max_error_rad);
     std::vector<uint32_t> inliers;
     for (uint32_t i = 0; i < pairs.Size(); ++i) {
-      if (AngleBetween(pose.rotation * pairs.A(i), pairs.B(i)) <= max_error_rad)
+      if (IsWithinAngle(pose.rotation * pairs.A(i), pairs.B(i), max_error_rad))
         inliers.push_back(i);
     }
     return inliers;

@@ -63,7 +63,7 @@ std::vector<uint32_t> WithoutSky(const BearingPairs& pairs,
   std::vector<uint32_t> kept;
   for (const uint32_t i : inliers) {
     const bool is_far = InverseDepth(pairs.A(i), pairs.B(i), b_from_a) < typical / kFarther ||
-                        AngleBetween(b_from_a.rotation * pairs.A(i), pairs.B(i)) <= max_error_rad;
+                        IsWithinAngle(b_from_a.rotation * pairs.A(i), pairs.B(i), max_error_rad);
     if (!is_far || !IsEitherHigh(pairs, i)) kept.push_back(i);
   }
   return kept;

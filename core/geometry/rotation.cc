@@ -51,4 +51,14 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+bool IsWithinAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double max_rad) {
+  const double cosine = a.dot(b);
+  const double squared_sine = a.cross(b).squaredNorm();
+  // An acute angle is no more than its tangent, which up to 0.9 is no more than 1.5 times as much.
+  const double in_tangents = max_rad * max_rad * cosine * cosine;
+  if (cosine > 0.0 && squared_sine <= in_tangents) return true;
+  if (cosine > 0.0 && max_rad < 0.9 && squared_sine > 2.25 * in_tangents) return false;
+  return std::atan2(std::sqrt(squared_sine), cosine) <= max_rad;
+}
+
 }  // namespace orbweave

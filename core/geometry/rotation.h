@@ -30,4 +30,8 @@ Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& bearing);
 /// Angle between two non-zero vectors in radians, accurate near 0 and pi.
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
+/// Whether AngleBetween(a, b) <= max_rad, at a fraction of its cost but for angles that are close
+/// to it. Not of vectors that are not numbers.
+bool IsWithinAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double max_rad);
+
 }  // namespace orbweave

@@ -10,8 +10,7 @@ bool CanJoin(const MappingState& state, PointIndex point, Node node, double max_
   const ImageSlot image = state.Graph().image_of_node[node];
   return state.PointOf(node) == kNoPoint && state.IsRegistered(image) &&
          !state.IsSeenBy(point, image) &&
-         NodeError(state, state.Point(point).position, node) <=
-             AngleFromPixels(state, node, max_error_px);
+         IsExplained(state, state.Point(point).position, node, max_error_px);
 }
 
 void CompleteTrack(MappingState& state, PointIndex point, double max_error_px) {

@@ -27,7 +27,7 @@ uint32_t DropTwoViewPoints(MappingState& state, double max_error_px, int enough)
     const MappedPoint& mapped = state.Point(point);
     if (mapped.nodes.size() != 2) continue;
     const bool is_exact = std::ranges::all_of(mapped.nodes, [&](Node node) {
-      return NodeError(state, mapped.position, node) <= AngleFromPixels(state, node, max_error_px);
+      return IsExplained(state, mapped.position, node, max_error_px);
     });
     const bool is_needed = std::ranges::any_of(mapped.nodes, [&](Node node) {
       return confirmed[state.Graph().image_of_node[node]] < enough;

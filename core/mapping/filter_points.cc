@@ -12,12 +12,9 @@ uint32_t RemoveWrongObservations(MappingState& state, PointIndex point, double m
   const std::vector<Node> nodes = state.Point(point).nodes;
   uint32_t removed = 0;
   for (const Node node : nodes) {
-    const double max_error_rad = AngleFromPixels(state, node, max_error_px);
-    // Written so that an error that is not a number goes too.
-    if (!(NodeError(state, state.Point(point).position, node) <= max_error_rad)) {
-      removed += state.RemoveObservation(point, node);
-      if (!state.Exists(point)) break;
-    }
+    if (IsExplained(state, state.Point(point).position, node, max_error_px)) continue;
+    removed += state.RemoveObservation(point, node);
+    if (!state.Exists(point)) break;
   }
   return removed;
 }

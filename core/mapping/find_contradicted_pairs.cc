@@ -53,8 +53,7 @@ PairEvidence EvidenceOfPoints(const MappingState& state,
                               double tolerance_px) {
   const CorrespondenceGraph& graph = state.Graph();
   const auto explains = [&](PointIndex point, Node node) {
-    return NodeError(state, state.Point(point).position, node) <=
-           AngleFromPixels(state, node, tolerance_px);
+    return IsExplained(state, state.Point(point).position, node, tolerance_px);
   };
   PairEvidence evidence;
   for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {

@@ -4,10 +4,10 @@
 #include "core/mapping/gap_votes.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
-#include "core/base/quantile.h"
 #include "core/mapping/matches_in_planes.h"
 #include "core/mapping/ray_depths.h"
 #include "core/mapping/registered_sequence.h"
@@ -21,6 +21,12 @@ struct Sight {
   uint32_t pair = 0;  ///< of those asked
   size_t other = 0;   ///< place of the other image
   double log_depth = 0.0;
+  double reach = 0.0;  ///< how far the ray reaches by it and by the model's length of the pair
+
+  /// Whether it leads across the gap behind a place.
+  [[nodiscard]] bool LeadsAcross(size_t gap, size_t here) const {
+    return (other <= gap) != (here <= gap);
+  }
 };
 
 class Collector {
@@ -36,13 +42,11 @@ class Collector {
   /// `depths`: of one ray.
   void Add(std::span<const RayDepth> depths) {
     const ImageSlot own = asked_.state.Graph().image_of_node[depths.front().node];
-    const std::vector<Sight> sights = SightsOf(own, depths);
     const size_t here = places_.PlaceOf(own);
-    for (const Sight& sight : sights) {
-      const auto [first, last] = std::minmax(here, sight.other);
-      if (last - first > kReachAlongLine) continue;
-      for (size_t gap = first; gap < last; ++gap) Ask(here, sight, gap, sights);
-    }
+    CollectSights(own, depths);
+    const size_t first = here - std::min(here, kReachAlongLine);
+    const size_t last = std::min(here + kReachAlongLine, places_.size() - 1);
+    for (size_t gap = first; gap < last; ++gap) Ask(here, gap);
   }
 
   /// Without those where a line ends.
@@ -68,33 +72,53 @@ class Collector {
   }
 
   /// Those with images of the same line.
-  [[nodiscard]] std::vector<Sight> SightsOf(ImageSlot own, std::span<const RayDepth> depths) const {
-    std::vector<Sight> sights;
+  void CollectSights(ImageSlot own, std::span<const RayDepth> depths) {
+    sights_.clear();
     for (const RayDepth& depth : depths) {
       const LinkedPair& pair = asked_.state.Graph().pairs[asked_.pairs[depth.pair]];
       const ImageSlot other = pair.a == own ? pair.b : pair.a;
-      if (places_.LineOf(other) == places_.LineOf(own))
-        sights.push_back({depth.pair, places_.PlaceOf(other), depth.log_depth});
+      if (places_.LineOf(other) != places_.LineOf(own)) continue;
+      sights_.push_back({.pair = depth.pair,
+                         .other = places_.PlaceOf(other),
+                         .log_depth = depth.log_depth,
+                         .reach = asked_.log_lengths[depth.pair] + depth.log_depth});
     }
-    return sights;
   }
 
-  /// What the pairs on this side of the gap say of one that leads across it.
-  void Ask(size_t here, const Sight& across, size_t gap, std::span<const Sight> sights) {
-    ++votes_[gap].asked;
-    std::vector<double> reaches;
-    for (const Sight& sight : sights) {
-      if ((sight.other <= gap) == (here <= gap))
-        reaches.push_back(asked_.log_lengths[sight.pair] + sight.log_depth);
+  /// What the pairs on this side of the gap say of those that lead across it.
+  void Ask(size_t here, size_t gap) {
+    across_.clear();
+    for (const Sight& sight : sights_) {
+      const size_t apart = std::max(here, sight.other) - std::min(here, sight.other);
+      if (apart <= kReachAlongLine && sight.LeadsAcross(gap, here)) across_.push_back(sight);
     }
-    if (reaches.empty()) return;
-    const double told = Quantile(std::move(reaches), 0.5) - across.log_depth;
-    (here <= gap ? votes_[gap].before : votes_[gap].behind).push_back({across.pair, told});
+    votes_[gap].asked += static_cast<uint32_t>(across_.size());
+    if (across_.empty()) return;
+    const std::optional<double> reach = ReachOnThisSide(here, gap);
+    if (!reach) return;
+    std::vector<LengthVote>& votes = here <= gap ? votes_[gap].before : votes_[gap].behind;
+    for (const Sight& sight : across_) votes.push_back({sight.pair, *reach - sight.log_depth});
+  }
+
+  /// The median; nullopt where no pair stays on this side.
+  [[nodiscard]] std::optional<double> ReachOnThisSide(size_t here, size_t gap) {
+    reaches_.clear();
+    for (const Sight& sight : sights_) {
+      if (!sight.LeadsAcross(gap, here)) reaches_.push_back(sight.reach);
+    }
+    if (reaches_.empty()) return std::nullopt;
+    const auto middle = reaches_.begin() + static_cast<std::ptrdiff_t>((reaches_.size() - 1) / 2);
+    std::ranges::nth_element(reaches_, middle);
+    return *middle;
   }
 
   const AskedRays& asked_;
   RegisteredSequence places_;
   std::vector<GapVotes> votes_;  ///< behind each place
+  // Of the ray at hand; kept for their memory.
+  std::vector<Sight> sights_{};
+  std::vector<Sight> across_{};
+  std::vector<double> reaches_{};
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "absl/container/inlined_vector.h"
 #include "core/bundle/bearing_error.h"
 #include "core/estimators/triangulate_rays.h"
+#include "core/geometry/rotation.h"
 
 namespace orbweave {
 
@@ -119,6 +120,16 @@ double NodeError(const MappingState& state, const Eigen::Vector3d& position, Nod
   const CorrespondenceGraph& graph = state.Graph();
   return BearingError(
       state.CamFromWorld(graph.image_of_node[node]), position, graph.bearing_of_node[node]);
+}
+
+bool IsExplained(const MappingState& state,
+                 const Eigen::Vector3d& position,
+                 Node node,
+                 double max_error_px) {
+  const CorrespondenceGraph& graph = state.Graph();
+  return IsWithinAngle(state.CamFromWorld(graph.image_of_node[node]) * position,
+                       graph.bearing_of_node[node],
+                       AngleFromPixels(state, node, max_error_px));
 }
 
 bool IsWellSeen(const MappingState& state,

@@ -119,6 +119,12 @@ class MappingState {
                                const Eigen::Vector3d& position,
                                Node node);
 
+/// Whether that is no more than `max_error_px` at the equator of the node's panorama.
+[[nodiscard]] bool IsExplained(const MappingState& state,
+                               const Eigen::Vector3d& position,
+                               Node node,
+                               double max_error_px);
+
 /// Whether some two of the nodes' cameras see `position` under an angle in
 /// [min_angle_rad, pi - min_angle_rad]: on a sphere a point between two cameras is as ill
 /// determined along their baseline as one far away. Nor may one of them be so much closer than the

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "core/mapping/filter_points.h"
 #include "core/mapping/merge_points.h"
@@ -46,29 +47,41 @@ class ObservedNodes {
   std::vector<Node> by_height_{};
 };
 
-/// Points seen by registered images that are matched with `image`, but not by `image`; ascending.
-std::vector<PointIndex> PointsNearby(const MappingState& state, ImageSlot image) {
-  const CorrespondenceGraph& graph = state.Graph();
-  std::vector<PointIndex> points;
-  for (const uint32_t p : graph.pairs_of_image[image]) {
-    const LinkedPair& pair = graph.pairs[p];
-    const ImageSlot other = pair.a == image ? pair.b : pair.a;
-    for (Node node = graph.first_node[other]; node < graph.first_node[other + 1]; ++node) {
-      if (state.PointOf(node) != kNoPoint) points.push_back(state.PointOf(node));
+/// Finds what an image may have missed; remembers of each point the last image that it was found
+/// for, so that it is listed once.
+class NearbyPoints {
+ public:
+  /// Points seen by registered images that are matched with `image`, but not by `image`; ascending.
+  [[nodiscard]] std::vector<PointIndex> Find(const MappingState& state, ImageSlot image) {
+    const CorrespondenceGraph& graph = state.Graph();
+    last_image_.resize(state.EndOfPoints(), graph.NumImages());
+    std::vector<PointIndex> points;
+    for (const uint32_t p : graph.pairs_of_image[image]) {
+      const LinkedPair& pair = graph.pairs[p];
+      const ImageSlot other = pair.a == image ? pair.b : pair.a;
+      for (Node node = graph.first_node[other]; node < graph.first_node[other + 1]; ++node) {
+        const PointIndex point = state.PointOf(node);
+        if (point == kNoPoint || std::exchange(last_image_[point], image) == image) continue;
+        if (!state.IsSeenBy(point, image)) points.push_back(point);
+      }
     }
+    std::ranges::sort(points);
+    return points;
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::erase_if(points, [&](PointIndex point) { return state.IsSeenBy(point, image); });
-  return points;
-}
 
-uint32_t MergeInImage(MappingState& state, ImageSlot image, double max_error_px) {
+ private:
+  std::vector<ImageSlot> last_image_{};  ///< per point; the number of images: none yet
+};
+
+uint32_t MergeInImage(MappingState& state,
+                      ImageSlot image,
+                      double max_error_px,
+                      NearbyPoints& nearby) {
   const Node any_node = state.Graph().first_node[image];
   const ObservedNodes observed(state, image, AngleFromPixels(state, any_node, max_error_px));
   std::vector<Node> near;
   uint32_t merged = 0;
-  for (const PointIndex point : PointsNearby(state, image)) {
+  for (const PointIndex point : nearby.Find(state, image)) {
     if (!state.Exists(point)) continue;
     observed.FindNear((state.CamFromWorld(image) * state.Point(point).position).normalized(), near);
     for (const Node node : near) {
@@ -88,7 +101,9 @@ uint32_t MergeInImage(MappingState& state, ImageSlot image, double max_error_px)
 uint32_t MergeCoincidentPoints(MappingState& state, double max_error_px) {
   uint32_t merged = 0;
   const std::vector<ImageSlot> registered = state.Registered();
-  for (const ImageSlot image : registered) merged += MergeInImage(state, image, max_error_px);
+  NearbyPoints nearby;
+  for (const ImageSlot image : registered)
+    merged += MergeInImage(state, image, max_error_px, nearby);
   return merged;
 }
 

@@ -15,9 +15,8 @@ bool Explains(const MappingState& state,
               const Eigen::Vector3d& position,
               const std::vector<Node>& nodes,
               double max_error_px) {
-  return std::ranges::all_of(nodes, [&](Node node) {
-    return NodeError(state, position, node) <= AngleFromPixels(state, node, max_error_px);
-  });
+  return std::ranges::all_of(
+      nodes, [&](Node node) { return IsExplained(state, position, node, max_error_px); });
 }
 
 std::optional<Eigen::Vector3d> TriangulateAll(const MappingState& state,

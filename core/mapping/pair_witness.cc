@@ -18,7 +18,10 @@ ViewMatches MatchesOf(const MappingState& state, ImageSlot image, const LinkedPa
   const CorrespondenceGraph& graph = state.Graph();
   const ImageSlot view = pair.a == image ? pair.b : pair.a;
   ViewMatches matches{.view_from_world = state.CamFromWorld(view)};
-  for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
+  const std::vector<FeatureMatch>& inliers = state.Problem().pairs[pair.index].inliers;
+  matches.in_view.reserve(inliers.size());
+  matches.in_image.reserve(inliers.size());
+  for (const FeatureMatch& match : inliers) {
     const Vector3d& a = graph.bearing_of_node[graph.node_of_feature[pair.a][match.a]];
     const Vector3d& b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
     matches.in_view.push_back(pair.a == image ? b : a);
@@ -38,20 +41,21 @@ struct MatchCount {
 MatchCount CountMatches(const Rigid3& cam_from_world,
                         const ViewMatches& matches,
                         double max_error_rad) {
-  Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
+  const Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
+  const Eigen::Matrix3d R = cam_from_view.rotation.toRotationMatrix();
   const bool has_baseline = cam_from_view.translation.norm() > 0.0;
-  cam_from_view.translation.normalize();
+  const Vector3d T = cam_from_view.translation.normalized();
   const double min_cos_far = std::cos(2.0 * max_error_rad);
   MatchCount count;
   for (size_t i = 0; i < matches.in_view.size(); ++i) {
-    const Vector3d& a = matches.in_view[i];
+    const Vector3d q = R * matches.in_view[i];
     const Vector3d& b = matches.in_image[i];
-    const bool is_far = b.dot(cam_from_view.rotation * a) > min_cos_far;
+    const bool is_far = b.dot(q) > min_cos_far;
     count.near += is_far ? 0U : 1U;
-    if (!has_baseline || !(SymmetricEpipolarAngle(cam_from_view, a, b) <= max_error_rad)) continue;
+    if (!has_baseline || !(SymmetricEpipolarAngleOfTurned(T, q, b) <= max_error_rad)) continue;
     if (is_far) {
       ++count.far_agreeing;
-    } else if (IsInFrontOfBoth(cam_from_view, a, b)) {
+    } else if (IsTurnedInFrontOfBoth(T, q, b)) {
       ++count.near_agreeing;
     }
   }

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/bundle/bearing_error.h"
 #include "core/estimators/refine_between_views.h"
+#include "core/geometry/rotation.h"
 #include "core/mapping/baseline_length.h"
 #include "core/robust/false_alarms.h"
 
@@ -145,7 +145,7 @@ double ChanceShare(const Rigid3& cam_from_world,
     for (size_t i = 0; i < n; ++i) {
       const Vector3d& position = correspondences.positions[(i + shift) % n];
       agreeing +=
-          BearingError(cam_from_world, position, correspondences.bearings[i]) <= max_error_rad ? 1U
+          IsWithinAngle(cam_from_world * position, correspondences.bearings[i], max_error_rad) ? 1U
                                                                                                : 0U;
     }
   }

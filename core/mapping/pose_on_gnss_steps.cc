@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/bundle/bearing_error.h"
+#include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/pose_from_pairs.h"
 #include "core/mapping/pose_of_most_places.h"
@@ -28,7 +28,7 @@ PlaceCounts CountByPlace(const Rigid3& pose,
   PlaceCounts counts{};
   for (size_t i = 0; i < correspondences.size(); ++i) {
     const Eigen::Vector3d& bearing = correspondences.bearings[i];
-    if (BearingError(pose, correspondences.positions[i], bearing) <= max_error_rad)
+    if (IsWithinAngle(pose * correspondences.positions[i], bearing, max_error_rad))
       ++counts[SphereCell(bearing, kSpreadCells)];
   }
   return counts;

@@ -5,13 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <numeric>
 
 namespace orbweave {
 namespace {
 
 /// Towards the baseline itself depths are as good as unknown.
 constexpr double kMinSine = 0.05;
+
+/// In linear time; `depths`: by pair.
+std::vector<RayDepth> SortedByNode(std::span<const RayDepth> depths, uint32_t num_nodes) {
+  std::vector<uint32_t> next(num_nodes + 1, 0);
+  for (const RayDepth& depth : depths) ++next[depth.node + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<RayDepth> sorted(depths.size());
+  for (const RayDepth& depth : depths) sorted[next[depth.node]++] = depth;
+  return sorted;
+}
 
 }  // namespace
 
@@ -39,10 +49,7 @@ std::vector<RayDepth> MeasureRayDepths(const ClusterProblem& problem,
       depths.push_back({b, i, std::log(sin_a / sin_x)});
     }
   }
-  std::sort(depths.begin(), depths.end(), [](const RayDepth& x, const RayDepth& y) {
-    return std::tuple(x.node, x.pair, x.log_depth) < std::tuple(y.node, y.pair, y.log_depth);
-  });
-  return depths;
+  return SortedByNode(depths, graph.NumNodes());
 }
 
 LengthsOnRay::LengthsOnRay(std::span<const RayDepth> ray, std::span<const double> log_lengths) {

@@ -21,8 +21,9 @@ struct RayDepth {
 };
 
 /// Those of both rays of all matches of `pairs` (indices into graph.pairs, none a pure rotation),
-/// sorted by node, then by pair. Rays that meet under less than `min_angle_rad`, and rays towards
-/// the baseline (sine below 0.05), say nothing of depth and are left out.
+/// sorted by node, then by pair, as matches follow each other. Rays that meet under less than
+/// `min_angle_rad`, and rays towards the baseline (sine below 0.05), say nothing of depth and are
+/// left out.
 [[nodiscard]] std::vector<RayDepth> MeasureRayDepths(const ClusterProblem& problem,
                                                      const CorrespondenceGraph& graph,
                                                      std::span<const uint32_t> pairs,

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/bundle/bearing_error.h"
+#include "core/geometry/rotation.h"
 
 namespace orbweave {
 namespace {
@@ -45,8 +45,9 @@ PoseSupport SupportOf(const Rigid3& cam_from_world,
   std::vector<Node> nodes;
   std::vector<PointIndex> points;
   for (size_t i = 0; i < correspondences.size(); ++i) {
-    if (BearingError(cam_from_world, correspondences.positions[i], correspondences.bearings[i]) <=
-        max_error_rad) {
+    if (IsWithinAngle(cam_from_world * correspondences.positions[i],
+                      correspondences.bearings[i],
+                      max_error_rad)) {
       support.is_inlier[i] = 1;
       nodes.push_back(correspondences.nodes[i]);
       points.push_back(correspondences.points[i]);

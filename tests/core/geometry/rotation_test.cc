@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tests/support/random_world.h"
@@ -92,6 +94,25 @@ TEST(AngleBetween, IsAccurateForTinyAndFlatAngles) {
                 1.0,
                 1e-3);
   }
+}
+
+TEST(IsWithinAngle, IsWhatTheAngleSays) {
+  Random random(7);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const Vector3d a = 3.0 * RandomDirection(random);
+    const double max_rad = std::pow(10.0, random.Uniform(-6.0, 0.5));
+    const double angle_rad = std::min(pi, max_rad * random.Uniform(0.2, 2.2));
+    const Vector3d across = TangentBasis(a.normalized()) * Eigen::Vector2d(0.6, -0.8);
+    const Vector3d b = Eigen::AngleAxisd(angle_rad, across) * a / 7.0;
+    EXPECT_EQ(IsWithinAngle(a, b, max_rad), AngleBetween(a, b) <= max_rad)
+        << angle_rad << " " << max_rad;
+  }
+}
+
+TEST(IsWithinAngle, HoldsOfNothingThatIsNoNumber) {
+  const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(IsWithinAngle(nowhere, Vector3d::UnitX(), 1.0));
+  EXPECT_FALSE(IsWithinAngle(Vector3d::UnitX(), nowhere, 1.0));
 }
 
 }  // namespace
