@@ -29,6 +29,12 @@ double GravityInformation(const std::optional<Gravity>& gravity, const Sim3& enu
   return std::pow(gravity->SigmaAt(away_rad), -2);
 }
 
+bool KnowsHeights(const std::vector<MeasuredRun>& runs) {
+  return std::ranges::any_of(runs, [](const MeasuredRun& run) {
+    return std::ranges::any_of(run, &MeasuredFix::is_height_known);
+  });
+}
+
 // Takes off what a shift and a tilt of the model would: what gravity keeps the model from following
 // says nothing of how errors hang together.
 void TakeOffPlane(std::vector<MeasuredRun>& runs) {
@@ -51,7 +57,8 @@ void TakeOffPlane(std::vector<MeasuredRun>& runs) {
   }
 }
 
-// Robust standard deviation of the residuals per axis, x and y equal.
+// Robust standard deviation of the residuals per axis, x and y equal; z one where no height is
+// known.
 Eigen::Vector3d ScatterOf(const std::vector<MeasuredRun>& runs) {
   std::array<std::vector<double>, 2> off;  // horizontally, vertically
   for (const MeasuredRun& run : runs) {
@@ -62,7 +69,8 @@ Eigen::Vector3d ScatterOf(const std::vector<MeasuredRun>& runs) {
     }
   }
   const double horizontal = kSigmaOfMad * Quantile(std::move(off[0]), 0.5);
-  return {horizontal, horizontal, kSigmaOfMad * Quantile(std::move(off[1]), 0.5)};
+  const double vertical = off[1].empty() ? 1.0 : kSigmaOfMad * Quantile(std::move(off[1]), 0.5);
+  return {horizontal, horizontal, vertical};
 }
 
 }  // namespace
@@ -90,7 +98,7 @@ double HeightInflation(std::span<const GnssDrive> drives,
     }
   }
   const Eigen::Vector3d scatter = ScatterOf(runs);
-  if (!(scatter.minCoeff() > 0.0)) return 1.0;  // exact, or no height is known
+  if (!(scatter.minCoeff() > 0.0)) return 1.0;  // exact
   double squared_extent_m2 = 0.0;
   for (MeasuredRun& run : runs) {
     for (MeasuredFix& fix : run) squared_extent_m2 += (fix.at - middle).squaredNorm() / n;
@@ -103,11 +111,12 @@ double HeightInflation(std::span<const GnssDrive> drives,
     for (MeasuredFix& fix : run) fix.at = (fix.at - middle) / std::sqrt(squared_extent_m2);
   }
   std::erase_if(runs, [](const MeasuredRun& run) { return run.empty(); });
-  TakeOffPlane(runs);
+  const bool knows_heights = KnowsHeights(runs);
+  if (knows_heights) TakeOffPlane(runs);
   const double information =
       scatter.z() * scatter.z() * GravityInformation(gravity, enu_from_world);
   const PositionNoise noise = EstimatePositionNoise(runs, information / squared_extent_m2);
-  return std::max(1.0, std::min(n, noise.vertical.inflation));
+  return std::clamp(knows_heights ? noise.vertical.inflation : noise.horizontal.inflation, 1.0, n);
 }
 
 }  // namespace orbweave

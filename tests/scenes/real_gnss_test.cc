@@ -24,6 +24,7 @@ struct Outcome {
   /// Squared error over claimed variance per axis, mean over images.
   Eigen::Vector3d ratio = Eigen::Vector3d::Zero();
   double rotation_deg = 0.0;  ///< largest
+  double tilt_deg = 0.0;      // of that, what is not heading; at worst
   double rotation_sigma_deg = 0.0;
   double rms_m = 0.0;
   std::vector<CrossCheck> checks{};
@@ -58,6 +59,10 @@ Outcome OutcomeOf(const Corridor& corridor) {
     outcome.rms_m += error.squaredNorm() / n;
     outcome.rotation_deg = std::max(
         outcome.rotation_deg, kDeg * image.cam_from_world.rotation.angularDistance(truth.rotation));
+    const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
+    outcome.tilt_deg =
+        std::max(outcome.tilt_deg,
+                 kDeg * AngleBetween(image.cam_from_world.rotation * down, truth.rotation * down));
     if (!image.uncertainty) continue;
     outcome.ratio +=
         error.cwiseAbs2().cwiseQuotient(image.uncertainty->position_covariance.diagonal()) / n;
@@ -199,6 +204,33 @@ TEST(RealGnss, PositionsWithoutHeightsDoNotLayHillsFlat) {
     EXPECT_LT(outcome.ratio.z(), 1.0) << "nobody knows how high it is";
     EXPECT_GT(outcome.ratio.head<2>().sum(), 0.02) << seed;
     EXPECT_LT(outcome.ratio.head<2>().sum(), 12.0) << seed;
+  }
+}
+
+// What neighbours are off alike would fit hills of a model that rolls.
+TEST(RealGnss, ErrorsThatNeighboursShareDoNotRollHillsWithoutHeights) {
+  for (const int seed : {5, 6, 7, 8}) {
+    Corridor corridor = CorridorOf({.panoramas = 150,
+                                    .spacing_m = 10.0,
+                                    .noise_px = 1.0,
+                                    .gnss_sigma_m = 4.0,
+                                    .gnss_correlation_m = 150.0,
+                                    .gnss_heights = false,
+                                    .hill_grade = 0.15,
+                                    .hill_length_m = 800.0,
+                                    .seed = seed});
+    const Outcome outcome = OutcomeOf(corridor);
+    EXPECT_LT(outcome.tilt_deg, 2.0) << seed;
+    EXPECT_LT(outcome.rotation_deg, 2.0 * outcome.rotation_sigma_deg) << seed;
+    Random random(8);
+    for (ImageRecord& image : corridor.manifest.images) {
+      const Eigen::Vector3d down =
+          corridor.cams_from_world[image.id.value].rotation * -Eigen::Vector3d::UnitZ();
+      image.prior.pitch_deg = -kDeg * std::asin(down.z()) + 0.1 * random.Normal();
+      image.prior.roll_deg = kDeg * std::atan2(down.x(), down.y()) + 0.1 * random.Normal();
+      image.prior.tilt_sigma_deg = 0.1;
+    }
+    EXPECT_LT(OutcomeOf(corridor).tilt_deg, 1.0) << seed;
   }
 }
 

@@ -126,6 +126,23 @@ TEST(HeightInflation, FindsThatNeighboursAreOffTogether) {
   EXPECT_GT(InflationOf(street, {}), 10.0);
 }
 
+TEST(HeightInflation, IsThatOfTheGroundWhereNoHeightIsKnown) {
+  Random random(4);
+  DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 1.5, .sigma_m = 0.5}, 4);
+  double error_m = 0.0;
+  for (ImageRecord& image : street.manifest.images) {
+    image.prior.vertical_sigma_m = kUnknownHeightSigma_m;
+    error_m = 0.95 * error_m + 1.2 * random.Normal();
+    image.prior.position_in_enu->x() += error_m;
+    image.prior.position_in_enu->y() -= error_m;
+  }
+  EXPECT_GT(InflationOf(street, {}), 5.0);
+  street = Drive({.panoramas = 100, .turn_rad = 1.5, .sigma_m = 2.0}, 4);
+  for (ImageRecord& image : street.manifest.images)
+    image.prior.vertical_sigma_m = kUnknownHeightSigma_m;
+  EXPECT_LT(InflationOf(street, {}), 5.0);
+}
+
 TEST(HeightInflation, DoesNotTakeATiltOfTheModelForErrors) {
   const DrivenStreet street = Drive({.panoramas = 100, .turn_rad = 1.5}, 5);
   const Sim3 tilted{1.0, RotationFromVector({0.02, -0.01, 0.0}), Eigen::Vector3d::Zero()};
