@@ -23,7 +23,7 @@ struct Georeference {
   double vertical_scatter_m = 0.0;
   /// Standard deviation of the scale over the scale, from scatter and extent.
   double scale_uncertainty = 0.0;
-  /// So many heights are worth one independent one (EstimatePositionNoise).
+  /// By how much less positions know of its tilt than if they were independent (TiltInflation).
   double gnss_inflation = 1.0;
   /// Where the world was bent to GNSS (DeformWorld): the farthest that an image went from where one
   /// similarity for all would put it.

@@ -19,8 +19,8 @@
 #include "core/merging/find_gravity.h"
 #include "core/merging/gnss_smoothness.h"
 #include "core/merging/gnss_track.h"
-#include "core/merging/height_inflation.h"
 #include "core/merging/refine_georeference.h"
+#include "core/merging/tilt_inflation.h"
 
 namespace orbweave {
 namespace {
@@ -278,7 +278,7 @@ absl::Status FitWithErrors(const std::vector<GnssDrive>& drives,
     result.checks = std::move(found.checks);
     TakeOff(result.drive_errors, drives, *result.enu_from_world, positions);
     result.gnss_inflation =
-        HeightInflation(drives, positions.in_enu, gravity, *result.enu_from_world);
+        TiltInflation(drives, positions.in_enu, gravity, *result.enu_from_world);
     // A fit that has leant over to follow two datums does not come back by itself.
     const bool has_datums = std::ranges::any_of(
         result.drive_errors, [](const DriveErrors& errors) { return !errors.offset_m.isZero(); });

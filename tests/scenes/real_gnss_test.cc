@@ -234,6 +234,23 @@ TEST(RealGnss, ErrorsThatNeighboursShareDoNotRollHillsWithoutHeights) {
   }
 }
 
+TEST(RealGnss, AFewHeightsDoNotLetHillsRoll) {
+  for (const int seed : {2, 4, 6, 9}) {
+    Corridor corridor = CorridorOf({.panoramas = 120,
+                                    .spacing_m = 5.0,
+                                    .gnss_sigma_m = 4.0,
+                                    .gnss_correlation_m = 150.0,
+                                    .hill_grade = 0.15,
+                                    .seed = seed});
+    for (ImageRecord& image : corridor.manifest.images) {
+      if (image.id.value % 30 != 15) image.prior.vertical_sigma_m = kUnknownHeightSigma_m;
+    }
+    const Outcome outcome = OutcomeOf(corridor);
+    EXPECT_LT(outcome.tilt_deg, 4.0) << seed;
+    EXPECT_LT(outcome.ratio.z(), 3.0) << seed;
+  }
+}
+
 // A receiver that is still finding its place: errors fade over sixty metres.
 TEST(RealGnss, PositionsThatBeginFarOffAreOwned) {
   for (const int seed : {1, 2, 3}) {

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/merging/height_inflation.h"
+#include "core/merging/tilt_inflation.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,10 +30,26 @@ double GravityInformation(const std::optional<Gravity>& gravity, const Sim3& enu
   return std::pow(gravity->SigmaAt(away_rad), -2);
 }
 
-bool KnowsHeights(const std::vector<MeasuredRun>& runs) {
-  return std::ranges::any_of(runs, [](const MeasuredRun& run) {
-    return std::ranges::any_of(run, &MeasuredFix::is_height_known);
-  });
+// What positions know of a tilt if they are independent, in any one unit; about the axis that
+// heights know least of, as the roll about a street.
+struct TiltInformation {
+  double by_heights = 0.0;
+  double by_hills = 0.0;  // along the ground, as these stand out of the plane
+};
+
+TiltInformation TiltInformationOf(const std::vector<MeasuredRun>& runs) {
+  Eigen::Matrix2d by_heights = Eigen::Matrix2d::Zero();
+  TiltInformation information;
+  for (const MeasuredRun& run : runs) {
+    for (const MeasuredFix& fix : run) {
+      const Eigen::Vector2d lever = Eigen::Vector2d(fix.at.y(), -fix.at.x()) / fix.sigma_m.z();
+      if (fix.is_height_known) by_heights += lever * lever.transpose();
+      information.by_hills += std::pow(fix.at.z() / fix.sigma_m.x(), 2);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(by_heights, Eigen::EigenvaluesOnly);
+  information.by_heights = std::max(solver.eigenvalues()[0], 0.0);
+  return information;
 }
 
 // Takes off what a shift and a tilt of the model would: what gravity keeps the model from following
@@ -50,6 +67,7 @@ void TakeOffPlane(std::vector<MeasuredRun>& runs) {
       b += row(fix) * fix.residual.z();
     }
   }
+  if (A.isZero(0.0)) return;
   A.diagonal().array() += kDamping * A.diagonal().maxCoeff();
   const Eigen::Vector3d plane = A.ldlt().solve(b);
   for (MeasuredRun& run : runs) {
@@ -75,10 +93,10 @@ Eigen::Vector3d ScatterOf(const std::vector<MeasuredRun>& runs) {
 
 }  // namespace
 
-double HeightInflation(std::span<const GnssDrive> drives,
-                       std::span<const Eigen::Vector3d> positions_in_enu,
-                       const std::optional<Gravity>& gravity,
-                       const Sim3& enu_from_world) {
+double TiltInflation(std::span<const GnssDrive> drives,
+                     std::span<const Eigen::Vector3d> positions_in_enu,
+                     const std::optional<Gravity>& gravity,
+                     const Sim3& enu_from_world) {
   const auto n = static_cast<double>(positions_in_enu.size());
   std::vector<MeasuredRun> runs;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -111,12 +129,16 @@ double HeightInflation(std::span<const GnssDrive> drives,
     for (MeasuredFix& fix : run) fix.at = (fix.at - middle) / std::sqrt(squared_extent_m2);
   }
   std::erase_if(runs, [](const MeasuredRun& run) { return run.empty(); });
-  const bool knows_heights = KnowsHeights(runs);
-  if (knows_heights) TakeOffPlane(runs);
+  TakeOffPlane(runs);
   const double information =
       scatter.z() * scatter.z() * GravityInformation(gravity, enu_from_world);
   const PositionNoise noise = EstimatePositionNoise(runs, information / squared_extent_m2);
-  return std::clamp(knows_heights ? noise.vertical.inflation : noise.horizontal.inflation, 1.0, n);
+  const TiltInformation tilt = TiltInformationOf(runs);
+  const double claimed = tilt.by_heights + tilt.by_hills;
+  if (!(claimed > 0.0)) return 1.0;
+  const double left =
+      tilt.by_heights / noise.vertical.inflation + tilt.by_hills / noise.horizontal.inflation;
+  return std::clamp(claimed / left, 1.0, n);
 }
 
 }  // namespace orbweave
