@@ -20,10 +20,8 @@ double EpipolarAngle(const Eigen::Matrix3d& E, const Vector3d& p_a, const Vector
 }
 
 double SymmetricEpipolarAngle(const Rigid3& b_from_a, const Vector3d& p_a, const Vector3d& p_b) {
-  return SymmetricEpipolarAngleOfTurned(b_from_a.translation, b_from_a.rotation * p_a, p_b);
-}
-
-double SymmetricEpipolarAngleOfTurned(const Vector3d& T, const Vector3d& q, const Vector3d& p_b) {
+  const Vector3d& T = b_from_a.translation;
+  const Vector3d q = b_from_a.rotation * p_a;
   const double f = p_b.dot(T.cross(q));  // p_b^T E p_a
   const double along_a = T.dot(q);       // |E p_a|^2 = 1 - along_a^2, |E^T p_b|^2 = 1 - along_b^2
   const double along_b = T.dot(p_b);
@@ -33,14 +31,11 @@ double SymmetricEpipolarAngleOfTurned(const Vector3d& T, const Vector3d& q, cons
 }
 
 bool IsInFrontOfBoth(const Rigid3& b_from_a, const Vector3d& p_a, const Vector3d& p_b) {
-  return IsTurnedInFrontOfBoth(b_from_a.translation, b_from_a.rotation * p_a, p_b);
-}
-
-bool IsTurnedInFrontOfBoth(const Vector3d& T, const Vector3d& q, const Vector3d& p_b) {
   // lambda_b p_b = lambda_a q + T in least squares, times 1 - (q.p_b)^2 >= 0.
+  const Vector3d q = b_from_a.rotation * p_a;
   const double c = q.dot(p_b);
-  const double along_a = T.dot(q);
-  const double along_b = T.dot(p_b);
+  const double along_a = b_from_a.translation.dot(q);
+  const double along_b = b_from_a.translation.dot(p_b);
   return c * along_b - along_a > 0.0 && along_b - c * along_a > 0.0;
 }
 

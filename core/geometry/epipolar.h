@@ -22,20 +22,10 @@ namespace orbweave {
                                             const Eigen::Vector3d& p_a,
                                             const Eigen::Vector3d& p_b);
 
-/// The same of a ray that is turned into b already: q = R p_a.
-[[nodiscard]] double SymmetricEpipolarAngleOfTurned(const Eigen::Vector3d& T,
-                                                    const Eigen::Vector3d& q,
-                                                    const Eigen::Vector3d& p_b);
-
 /// Cheirality on both spheres (paper 3.3): whether the point nearest to the two rays lies in front
 /// of both, p . (R P + T) > 0. False for parallel rays.
 [[nodiscard]] bool IsInFrontOfBoth(const Rigid3& b_from_a,
                                    const Eigen::Vector3d& p_a,
                                    const Eigen::Vector3d& p_b);
-
-/// The same of a ray that is turned into b already: q = R p_a.
-[[nodiscard]] bool IsTurnedInFrontOfBoth(const Eigen::Vector3d& T,
-                                         const Eigen::Vector3d& q,
-                                         const Eigen::Vector3d& p_b);
 
 }  // namespace orbweave

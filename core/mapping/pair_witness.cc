@@ -41,21 +41,20 @@ struct MatchCount {
 MatchCount CountMatches(const Rigid3& cam_from_world,
                         const ViewMatches& matches,
                         double max_error_rad) {
-  const Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
-  const Eigen::Matrix3d R = cam_from_view.rotation.toRotationMatrix();
+  Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
   const bool has_baseline = cam_from_view.translation.norm() > 0.0;
-  const Vector3d T = cam_from_view.translation.normalized();
+  cam_from_view.translation.normalize();
   const double min_cos_far = std::cos(2.0 * max_error_rad);
   MatchCount count;
   for (size_t i = 0; i < matches.in_view.size(); ++i) {
-    const Vector3d q = R * matches.in_view[i];
+    const Vector3d& a = matches.in_view[i];
     const Vector3d& b = matches.in_image[i];
-    const bool is_far = b.dot(q) > min_cos_far;
+    const bool is_far = b.dot(cam_from_view.rotation * a) > min_cos_far;
     count.near += is_far ? 0U : 1U;
-    if (!has_baseline || !(SymmetricEpipolarAngleOfTurned(T, q, b) <= max_error_rad)) continue;
+    if (!has_baseline || !(SymmetricEpipolarAngle(cam_from_view, a, b) <= max_error_rad)) continue;
     if (is_far) {
       ++count.far_agreeing;
-    } else if (IsTurnedInFrontOfBoth(T, q, b)) {
+    } else if (IsInFrontOfBoth(cam_from_view, a, b)) {
       ++count.near_agreeing;
     }
   }
