@@ -4,12 +4,22 @@
 # What computes is always compiled file by file, so that what the compiler folds never depends on the option.
 option(ORBWEAVE_UNITY "Compile files of a test program, and commands, several at a time" OFF)
 
-# orbweave_defined_names(RESULT FILE): what a file defines for itself outside functions and classes, that is what its
-# lines without indentation name before the first bracket, brace, `=` or `;`.
+# orbweave_defined_names(RESULT FILE): what a file defines for itself (in its unnamed namespace) outside functions and
+# classes, that is what its lines without indentation name there before the first bracket, brace, `=` or `;`.
+# What it defines for others has one meaning everywhere, and may be mentioned by its neighbours.
 function(orbweave_defined_names result file)
-  file(STRINGS "${file}" lines REGEX "^[A-Za-z]")
+  file(STRINGS "${file}" lines REGEX "^([A-Za-z]|}  // namespace)")
   set(names)
+  set(own FALSE)
   foreach(line IN LISTS lines)
+    if(line MATCHES "^namespace {")
+      set(own TRUE)
+    elseif(line MATCHES "^}")
+      set(own FALSE)
+    endif()
+    if(NOT own AND NOT line MATCHES "^(namespace [A-Za-z0-9_]+ =|using |static )")
+      continue()
+    endif()
     if(line MATCHES "^(TEST|TYPED_TEST|INSTANTIATE_|namespace |template |extern |using [^=]*$)")
       continue()
     elseif(line MATCHES "^MATCHER[A-Z0-9_]*.([A-Za-z0-9_]+)")
