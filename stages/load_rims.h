@@ -7,7 +7,7 @@
 
 #include "core/base/digest.h"
 #include "core/base/status.h"
-#include "core/merging/submodel.h"
+#include "core/merging/alignment/submodel.h"
 #include "core/pipeline/blob_access.h"
 
 namespace orbweave {

@@ -19,8 +19,8 @@
 #include "core/graph/build_view_graph.h"
 #include "core/graph/pair_options.h"
 #include "core/graph/partition_view_graph.h"
-#include "core/mapping/mapping_options.h"
-#include "core/merging/align_options.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/merging/alignment/align_options.h"
 #include "core/partitioned_ba/global_options.h"
 #include "stages/ingest_images/ingest_options.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/status.h"
-#include "core/merging/alignment.h"
-#include "core/merging/submodel.h"
+#include "core/merging/alignment/alignment.h"
+#include "core/merging/alignment/submodel.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/two_view_geometry.h"
 #include "core/scene/view_graph.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/mapping/correspondence_graph.h"
-#include "core/mapping/mapping_options.h"
+#include "core/mapping/model/correspondence_graph.h"
+#include "core/mapping/model/mapping_options.h"
 
 namespace orbweave {
 

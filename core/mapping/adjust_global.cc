@@ -6,15 +6,15 @@
 #include <algorithm>
 
 #include "core/mapping/adjust_part.h"
-#include "core/mapping/complete_tracks.h"
-#include "core/mapping/drop_near_points.h"
-#include "core/mapping/drop_two_view_points.h"
-#include "core/mapping/filter_points.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/median_error.h"
-#include "core/mapping/merge_coincident_points.h"
-#include "core/mapping/merge_points.h"
-#include "core/mapping/retriangulate_pairs.h"
+#include "core/mapping/model/complete_tracks.h"
+#include "core/mapping/model/drop_near_points.h"
+#include "core/mapping/model/drop_two_view_points.h"
+#include "core/mapping/model/filter_points.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/median_error.h"
+#include "core/mapping/model/merge_coincident_points.h"
+#include "core/mapping/model/merge_points.h"
+#include "core/mapping/model/retriangulate_pairs.h"
 
 namespace orbweave {
 namespace {

@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "core/mapping/adjust_part.h"
-#include "core/mapping/complete_tracks.h"
-#include "core/mapping/drop_near_points.h"
-#include "core/mapping/filter_points.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/merge_points.h"
+#include "core/mapping/model/complete_tracks.h"
+#include "core/mapping/model/drop_near_points.h"
+#include "core/mapping/model/filter_points.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/merge_points.h"
 
 namespace orbweave {
 namespace {

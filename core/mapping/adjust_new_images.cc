@@ -9,11 +9,11 @@
 #include "core/bundle/adjust_bundle.h"
 #include "core/bundle/bundle_problem.h"
 #include "core/mapping/adjust_part.h"
-#include "core/mapping/complete_tracks.h"
-#include "core/mapping/filter_points.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/merge_points.h"
-#include "core/mapping/scene_correspondences.h"
+#include "core/mapping/model/complete_tracks.h"
+#include "core/mapping/model/filter_points.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/merge_points.h"
+#include "core/mapping/registration/scene_correspondences.h"
 
 namespace orbweave {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/base/stage_context.h"
 #include "core/bundle/bundle_options.h"
 #include "core/bundle/bundle_report.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

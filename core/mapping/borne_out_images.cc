@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "core/mapping/position_agreement.h"
-#include "core/mapping/step_witness.h"
+#include "core/mapping/positioning/position_agreement.h"
+#include "core/mapping/registration/step_witness.h"
 
 namespace orbweave {
 

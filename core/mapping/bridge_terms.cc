@@ -7,7 +7,7 @@
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/mapping/baseline_length.h"
+#include "core/mapping/registration/baseline_length.h"
 
 namespace orbweave {
 namespace {

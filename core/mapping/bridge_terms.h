@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/mapping/fit_bridge.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

@@ -10,13 +10,13 @@
 #include <set>
 #include <span>
 
-#include "core/mapping/centre_by_lengths.h"
-#include "core/mapping/find_gap_shift.h"
-#include "core/mapping/line_pieces.h"
-#include "core/mapping/log_length_of_pair.h"
-#include "core/mapping/matches_in_planes.h"
-#include "core/mapping/measure_gap_lengths.h"
-#include "core/mapping/measure_pair_lengths.h"
+#include "core/mapping/lengths/centre_by_lengths.h"
+#include "core/mapping/lengths/find_gap_shift.h"
+#include "core/mapping/lengths/line_pieces.h"
+#include "core/mapping/lengths/log_length_of_pair.h"
+#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/measure_gap_lengths.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
 
 namespace orbweave {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/base/quantile.h"
 #include "core/geometry/epipolar.h"
 #include "core/graph/disjoint_sets.h"
-#include "core/mapping/position_agreement.h"
-#include "core/mapping/reconstructed_share.h"
-#include "core/mapping/register_image.h"
+#include "core/mapping/model/reconstructed_share.h"
+#include "core/mapping/positioning/position_agreement.h"
+#include "core/mapping/registration/register_image.h"
 
 namespace orbweave {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

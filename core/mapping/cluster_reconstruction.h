@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mapping/pair_length.h"
+#include "core/mapping/lengths/pair_length.h"
 #include "core/scene/ids.h"
 #include "core/scene/reconstruction.h"
 

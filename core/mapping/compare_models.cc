@@ -11,8 +11,8 @@
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/borne_out_images.h"
 #include "core/mapping/check_against_pairs.h"
-#include "core/mapping/matches_in_planes.h"
-#include "core/mapping/measure_pair_lengths.h"
+#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
 #include "core/mapping/position_misfit.h"
 
 namespace orbweave {

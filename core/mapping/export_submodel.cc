@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/mapping/adjust_part.h"
-#include "core/mapping/filter_points.h"
+#include "core/mapping/model/filter_points.h"
 
 namespace orbweave {
 namespace {

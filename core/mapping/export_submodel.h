@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_state.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/geometry/sim3.h"
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

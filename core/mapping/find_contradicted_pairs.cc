@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/geometry/sphere_cells.h"
-#include "core/mapping/matches_in_planes.h"
+#include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/misleading_pairs.h"
 
 namespace orbweave {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/mapping/mapping_schedule.h"
+#include "core/mapping/model/mapping_schedule.h"
 
 namespace orbweave {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/mapping/correspondence_graph.h"
-#include "core/mapping/mapping_options.h"
+#include "core/mapping/model/correspondence_graph.h"
+#include "core/mapping/model/mapping_options.h"
 
 namespace orbweave {
 

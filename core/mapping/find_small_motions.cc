@@ -13,7 +13,7 @@
 #include "core/estimators/refine_two_view.h"
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
-#include "core/mapping/correspondence_graph.h"
+#include "core/mapping/model/correspondence_graph.h"
 
 namespace orbweave {
 namespace {

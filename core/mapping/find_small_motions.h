@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/mapping/cluster_problem.h"
+#include "core/mapping/model/cluster_problem.h"
 
 namespace orbweave {
 

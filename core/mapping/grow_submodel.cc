@@ -10,9 +10,9 @@
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/adjust_local.h"
 #include "core/mapping/adjust_new_images.h"
-#include "core/mapping/mapping_schedule.h"
 #include "core/mapping/mend_lengths.h"
-#include "core/mapping/rank_next_images.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/rank_next_images.h"
 #include "core/mapping/reconsider_images.h"
 #include "core/mapping/slide_onto_gnss.h"
 

@@ -8,8 +8,8 @@
 
 #include "core/base/quantile.h"
 #include "core/mapping/adjust_part.h"
-#include "core/mapping/filter_points.h"
-#include "core/mapping/mapping_schedule.h"
+#include "core/mapping/model/filter_points.h"
+#include "core/mapping/model/mapping_schedule.h"
 
 namespace orbweave {
 namespace {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/stage_context.h"
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

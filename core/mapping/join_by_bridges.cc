@@ -13,12 +13,12 @@
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/adjust_local.h"
 #include "core/mapping/bridge_terms.h"
-#include "core/mapping/filter_points.h"
 #include "core/mapping/find_bridge.h"
 #include "core/mapping/grow_submodel.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/reconstructed_share.h"
-#include "core/mapping/triangulate_tracks.h"
+#include "core/mapping/model/filter_points.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/reconstructed_share.h"
+#include "core/mapping/model/triangulate_tracks.h"
 
 namespace orbweave {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
-#include "core/mapping/registration_log.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
+#include "core/mapping/registration/registration_log.h"
 
 namespace orbweave {
 

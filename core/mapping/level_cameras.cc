@@ -10,8 +10,8 @@
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/upright.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/positioning/upright.h"
 
 namespace orbweave {
 namespace {

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "core/bundle/bundle_problem.h"
-#include "core/mapping/correspondence_graph.h"
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/correspondence_graph.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

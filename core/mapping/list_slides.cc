@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
-#include "core/mapping/ask_gnss_of_ways.h"
-#include "core/mapping/asked_rays.h"
-#include "core/mapping/gap_votes.h"
-#include "core/mapping/line_pieces.h"
+#include "core/mapping/lengths/ask_gnss_of_ways.h"
+#include "core/mapping/lengths/asked_rays.h"
+#include "core/mapping/lengths/gap_votes.h"
+#include "core/mapping/lengths/line_pieces.h"
 
 namespace orbweave {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "core/mapping/gnss_ways.h"
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
-#include "core/mapping/move_images.h"
+#include "core/mapping/lengths/gnss_ways.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
+#include "core/mapping/model/move_images.h"
 
 namespace orbweave {
 

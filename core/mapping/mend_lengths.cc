@@ -12,10 +12,10 @@
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/candidate_moves.h"
 #include "core/mapping/compare_models.h"
-#include "core/mapping/matches_in_planes.h"
-#include "core/mapping/measure_pair_lengths.h"
-#include "core/mapping/move_images.h"
-#include "core/mapping/step_witness.h"
+#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
+#include "core/mapping/model/move_images.h"
+#include "core/mapping/registration/step_witness.h"
 
 namespace orbweave {
 namespace {

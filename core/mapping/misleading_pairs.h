@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/mapping/fit_plan.h"
-#include "core/mapping/upright.h"
+#include "core/mapping/positioning/upright.h"
 
 namespace orbweave {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/sim3.h"
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

@@ -10,9 +10,9 @@
 
 #include "core/estimators/estimate_similarity.h"
 #include "core/mapping/fit_plan.h"
-#include "core/mapping/position_agreement.h"
-#include "core/mapping/registered_sequence.h"
-#include "core/mapping/upright.h"
+#include "core/mapping/lengths/registered_sequence.h"
+#include "core/mapping/positioning/position_agreement.h"
+#include "core/mapping/positioning/upright.h"
 #include "core/robust/loss.h"
 
 namespace orbweave {

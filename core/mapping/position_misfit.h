@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "core/mapping/mapping_state.h"
+#include "core/mapping/model/mapping_state.h"
 
 namespace orbweave {
 

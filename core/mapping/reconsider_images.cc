@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/pair_witness.h"
-#include "core/mapping/pose_of_most_places.h"
-#include "core/mapping/pose_on_gnss_steps.h"
-#include "core/mapping/scene_correspondences.h"
-#include "core/mapping/triangulate_tracks.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/triangulate_tracks.h"
+#include "core/mapping/registration/pair_witness.h"
+#include "core/mapping/registration/pose_of_most_places.h"
+#include "core/mapping/registration/pose_on_gnss_steps.h"
+#include "core/mapping/registration/scene_correspondences.h"
 
 namespace orbweave {
 namespace {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "core/base/stage_context.h"
-#include "core/mapping/mapping_options.h"
-#include "core/mapping/mapping_state.h"
-#include "core/mapping/register_image.h"
-#include "core/mapping/registration_log.h"
+#include "core/mapping/model/mapping_options.h"
+#include "core/mapping/model/mapping_state.h"
+#include "core/mapping/registration/register_image.h"
+#include "core/mapping/registration/registration_log.h"
 
 namespace orbweave {
 

@@ -4,9 +4,9 @@
 
 #include "absl/status/statusor.h"
 #include "core/base/stage_context.h"
-#include "core/mapping/cluster_problem.h"
 #include "core/mapping/cluster_reconstruction.h"
-#include "core/mapping/mapping_options.h"
+#include "core/mapping/model/cluster_problem.h"
+#include "core/mapping/model/mapping_options.h"
 
 namespace orbweave {
 

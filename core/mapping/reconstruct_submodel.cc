@@ -10,7 +10,7 @@
 #include "core/mapping/find_seed_pairs.h"
 #include "core/mapping/initialise_from_pair.h"
 #include "core/mapping/level_cameras.h"
-#include "core/mapping/mapping_schedule.h"
+#include "core/mapping/model/mapping_schedule.h"
 #include "core/mapping/reconstruct_globally.h"
 
 namespace orbweave {

@@ -10,10 +10,10 @@
 
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/compare_models.h"
-#include "core/mapping/gnss_ways.h"
+#include "core/mapping/lengths/gnss_ways.h"
+#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
 #include "core/mapping/list_slides.h"
-#include "core/mapping/matches_in_planes.h"
-#include "core/mapping/measure_pair_lengths.h"
 
 namespace orbweave {
 namespace {

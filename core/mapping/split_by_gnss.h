@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/mapping/cluster_problem.h"
+#include "core/mapping/model/cluster_problem.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {

@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "core/mapping/adjust_part.h"
-#include "core/mapping/filter_points.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/place_by_pairs.h"
-#include "core/mapping/place_by_positions.h"
-#include "core/mapping/register_image.h"
+#include "core/mapping/model/filter_points.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/positioning/place_by_pairs.h"
+#include "core/mapping/positioning/place_by_positions.h"
+#include "core/mapping/registration/register_image.h"
 
 namespace orbweave {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/geometry/rotation.h"
 #include "core/merging/carry_point.h"
-#include "core/merging/cluster_spreads.h"
+#include "core/merging/georeference/cluster_spreads.h"
 
 namespace orbweave {
 namespace {

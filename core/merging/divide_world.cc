@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "core/merging/global_problem.h"
+#include "core/merging/georeference/global_problem.h"
 #include "core/partitioned_ba/assign_tracks.h"
 
 namespace orbweave {

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "core/merging/georeference.h"
+#include "core/merging/georeference/georeference.h"
 #include "core/partitioned_ba/subproblem.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/reconstruction.h"

@@ -13,16 +13,16 @@
 #include <utility>
 
 #include "core/base/status.h"
-#include "core/merging/assess_world.h"
-#include "core/merging/check_attitudes.h"
-#include "core/merging/check_drive_motion.h"
-#include "core/merging/check_gnss.h"
-#include "core/merging/check_leans.h"
-#include "core/merging/check_missed_points.h"
-#include "core/merging/check_sequence_steps.h"
-#include "core/merging/choose_local_frame.h"
-#include "core/merging/global_problem.h"
-#include "core/merging/judge_gnss.h"
+#include "core/merging/checks/assess_world.h"
+#include "core/merging/checks/check_attitudes.h"
+#include "core/merging/checks/check_drive_motion.h"
+#include "core/merging/checks/check_gnss.h"
+#include "core/merging/checks/check_leans.h"
+#include "core/merging/checks/check_missed_points.h"
+#include "core/merging/checks/check_sequence_steps.h"
+#include "core/merging/georeference/choose_local_frame.h"
+#include "core/merging/georeference/global_problem.h"
+#include "core/merging/georeference/judge_gnss.h"
 
 namespace orbweave {
 namespace {

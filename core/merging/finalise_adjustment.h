@@ -9,9 +9,9 @@
 
 #include "absl/status/statusor.h"
 #include "core/geometry/sim3.h"
-#include "core/merging/certify_seams.h"
-#include "core/merging/georeference.h"
-#include "core/merging/inspect_subproblem.h"
+#include "core/merging/checks/certify_seams.h"
+#include "core/merging/checks/inspect_subproblem.h"
+#include "core/merging/georeference/georeference.h"
 #include "core/partitioned_ba/global_options.h"
 #include "core/partitioned_ba/subproblem_solver.h"
 #include "core/scene/image_manifest.h"

@@ -12,8 +12,8 @@
 #include "core/merging/carry_point.h"
 #include "core/merging/deform_world.h"
 #include "core/merging/divide_world.h"
-#include "core/merging/georeference_reconstruction.h"
-#include "core/merging/global_problem.h"
+#include "core/merging/georeference/georeference_reconstruction.h"
+#include "core/merging/georeference/global_problem.h"
 #include "core/merging/place_clusters.h"
 
 namespace orbweave {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/merging/alignment.h"
-#include "core/merging/submodel.h"
+#include "core/merging/alignment/alignment.h"
+#include "core/merging/alignment/submodel.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {

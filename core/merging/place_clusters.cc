@@ -12,9 +12,9 @@
 #include "core/averaging/solve_similarity_graph.h"
 #include "core/base/parallel_for.h"
 #include "core/base/quantile.h"
-#include "core/merging/cluster_spreads.h"
-#include "core/merging/estimate_gravity.h"
-#include "core/merging/georeference_reconstruction.h"
+#include "core/merging/georeference/cluster_spreads.h"
+#include "core/merging/georeference/estimate_gravity.h"
+#include "core/merging/georeference/georeference_reconstruction.h"
 
 namespace orbweave {
 namespace {

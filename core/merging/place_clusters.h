@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/stage_context.h"
-#include "core/merging/align_options.h"
-#include "core/merging/georeference.h"
+#include "core/merging/alignment/align_options.h"
+#include "core/merging/georeference/georeference.h"
 #include "core/partitioned_ba/global_options.h"
 
 namespace orbweave {

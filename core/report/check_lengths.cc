@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
-#include "core/mapping/find_length_faults.h"
+#include "core/mapping/lengths/find_length_faults.h"
 #include "core/report/lengths_within_models.h"
 #include "core/report/model_of_images.h"
 

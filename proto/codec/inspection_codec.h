@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/base/status.h"
-#include "core/merging/inspect_subproblem.h"
+#include "core/merging/checks/inspect_subproblem.h"
 
 namespace orbweave {
 

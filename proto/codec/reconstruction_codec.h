@@ -7,8 +7,8 @@
 
 #include "core/artifacts/stage_results.h"
 #include "core/base/status.h"
-#include "core/merging/alignment.h"
-#include "core/merging/review_seams.h"
+#include "core/merging/alignment/alignment.h"
+#include "core/merging/alignment/review_seams.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/base/status.h"
-#include "core/merging/fit_seams.h"
+#include "core/merging/alignment/fit_seams.h"
 
 namespace orbweave {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/artifacts/check_adjustment.h"
-#include "core/merging/inspect_subproblem.h"
+#include "core/merging/checks/inspect_subproblem.h"
 #include "stages/codecs.h"
 
 namespace orbweave {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/merging/align_submodels.h"
+#include "core/merging/alignment/align_submodels.h"
 #include "stages/codecs.h"
 
 namespace orbweave {

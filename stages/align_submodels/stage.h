@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/merging/alignment.h"
-#include "core/merging/fit_seams.h"
+#include "core/merging/alignment/alignment.h"
+#include "core/merging/alignment/fit_seams.h"
 #include "stages/stage.h"
 
 namespace orbweave {

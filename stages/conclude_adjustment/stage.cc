@@ -10,8 +10,8 @@
 #include "core/artifacts/check_adjustment.h"
 #include "core/artifacts/check_bounds.h"
 #include "core/merging/attach_loose_images.h"
+#include "core/merging/checks/inspect_subproblem.h"
 #include "core/merging/finalise_adjustment.h"
-#include "core/merging/inspect_subproblem.h"
 #include "stages/codecs.h"
 
 namespace orbweave {

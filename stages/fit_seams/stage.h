@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/digest.h"
-#include "core/merging/fit_seams.h"
+#include "core/merging/alignment/fit_seams.h"
 #include "stages/stage.h"
 
 namespace orbweave {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/artifacts/recipes.h"
-#include "core/mapping/cluster_problem.h"
+#include "core/mapping/model/cluster_problem.h"
 #include "core/scene/features.h"
 
 namespace orbweave {

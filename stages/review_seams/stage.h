@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/artifacts/stage_results.h"
-#include "core/merging/review_seams.h"
+#include "core/merging/alignment/review_seams.h"
 #include "stages/stage.h"
 
 namespace orbweave {

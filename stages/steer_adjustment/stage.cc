@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/artifacts/check_bounds.h"
-#include "core/merging/inspect_subproblem.h"
+#include "core/merging/checks/inspect_subproblem.h"
 #include "core/partitioned_ba/adjust_subproblems.h"
 #include "stages/codecs.h"
 #include "stages/steer_adjustment/advance_adjustment.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mapping/export_submodel.h"
-#include "core/mapping/filter_points.h"
+#include "core/mapping/model/filter_points.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/true_state.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/filter_points.h"
+#include "core/mapping/model/filter_points.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/sphere_cells.h"
-#include "core/mapping/mapping_schedule.h"
-#include "core/mapping/triangulate_tracks.h"
+#include "core/mapping/model/mapping_schedule.h"
+#include "core/mapping/model/triangulate_tracks.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mapping/centre_by_lengths.h"
 #include "core/mapping/compare_models.h"
+#include "core/mapping/lengths/centre_by_lengths.h"
 #include "tests/core/mapping/torn_street.h"
 
 namespace orbweave {

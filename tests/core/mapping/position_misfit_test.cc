@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/matches_in_planes.h"
+#include "core/mapping/lengths/matches_in_planes.h"
 #include "tests/core/mapping/gnss_walk.h"
 
 namespace orbweave {

@@ -11,7 +11,7 @@
 
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
-#include "core/mapping/cluster_problem.h"
+#include "core/mapping/model/cluster_problem.h"
 #include "core/synthetic/make_street.h"
 
 namespace orbweave {

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <set>
 
-#include "core/mapping/cluster_problem.h"
 #include "core/mapping/cluster_reconstruction.h"
-#include "core/mapping/mapping_options.h"
+#include "core/mapping/model/cluster_problem.h"
+#include "core/mapping/model/mapping_options.h"
 #include "core/synthetic/make_street.h"
 #include "tests/core/mapping/model_error.h"
 #include "tests/core/mapping/ray_street.h"

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "core/mapping/measure_pair_lengths.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
 #include "tests/core/mapping/torn_street.h"
 
 namespace orbweave {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/mapping/mapping_state.h"
-#include "core/mapping/triangulate_tracks.h"
+#include "core/mapping/model/mapping_state.h"
+#include "core/mapping/model/triangulate_tracks.h"
 #include "tests/core/mapping/ray_street.h"
 
 namespace orbweave {

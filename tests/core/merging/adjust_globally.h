@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/bundle/bundle_options.h"
+#include "core/merging/checks/inspect_subproblem.h"
 #include "core/merging/divide_world.h"
 #include "core/merging/finalise_adjustment.h"
-#include "core/merging/georeference.h"
-#include "core/merging/georeference_reconstruction.h"
-#include "core/merging/inspect_subproblem.h"
+#include "core/merging/georeference/georeference.h"
+#include "core/merging/georeference/georeference_reconstruction.h"
 #include "core/partitioned_ba/adjust_subproblems.h"
 
 namespace orbweave::testing {

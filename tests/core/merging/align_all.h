@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/merging/align_options.h"
-#include "core/merging/align_submodels.h"
-#include "core/merging/alignment.h"
+#include "core/merging/alignment/align_options.h"
+#include "core/merging/alignment/align_submodels.h"
+#include "core/merging/alignment/alignment.h"
 
 namespace orbweave::testing {
 

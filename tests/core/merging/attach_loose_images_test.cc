@@ -11,7 +11,7 @@ namespace orbweave {
 namespace {
 
 /// Images along a street to the east, 3 m apart, all with GNSS.
-ImageManifest Street(uint32_t num_images) {
+ImageManifest ImagesOfStreet(uint32_t num_images) {
   ImageManifest manifest;
   for (uint32_t i = 0; i < num_images; ++i) {
     ImageRecord& image = manifest.images.emplace_back();
@@ -37,7 +37,7 @@ double TurnAboutZ(const RegisteredImage& image) {
 }
 
 TEST(AttachLooseImages, PutsMissingImagesAtTheirPositionsTurnedAsTheirNeighbours) {
-  const ImageManifest manifest = Street(12);
+  const ImageManifest manifest = ImagesOfStreet(12);
   std::vector<FinalisedWorld> worlds = {World(2, 5, true)};
   for (uint32_t i = 9; i < 11; ++i) worlds[0].images.merge(World(i, i + 1, true).images);
   AttachLooseImages(manifest, worlds);
@@ -56,7 +56,7 @@ TEST(AttachLooseImages, PutsMissingImagesAtTheirPositionsTurnedAsTheirNeighbours
 }
 
 TEST(AttachLooseImages, StandsLevelWithItsHeadingWhereNobodyOfTheDriveIsObserved) {
-  ImageManifest manifest = Street(3);
+  ImageManifest manifest = ImagesOfStreet(3);
   manifest.images[2].drive = 1;
   manifest.images[2].prior.heading_deg = 90.0;
   std::vector<FinalisedWorld> worlds = {World(0, 2, true)};
@@ -69,7 +69,7 @@ TEST(AttachLooseImages, StandsLevelWithItsHeadingWhereNobodyOfTheDriveIsObserved
 }
 
 TEST(AttachLooseImages, TakesImagesOfAWorldThatIsNotGeoreferencedButNotOfOneThatIs) {
-  const ImageManifest manifest = Street(9);
+  const ImageManifest manifest = ImagesOfStreet(9);
   std::vector<FinalisedWorld> worlds = {World(0, 4, true), World(4, 7, true), World(7, 9, false)};
   AttachLooseImages(manifest, worlds);
   EXPECT_EQ(worlds[0].images.size(), 6U);
@@ -79,7 +79,7 @@ TEST(AttachLooseImages, TakesImagesOfAWorldThatIsNotGeoreferencedButNotOfOneThat
 }
 
 TEST(AttachLooseImages, LeavesOutImagesWithoutPositionAndWorldsWithoutGnss) {
-  ImageManifest manifest = Street(4);
+  ImageManifest manifest = ImagesOfStreet(4);
   manifest.images[3].prior.position_in_enu.reset();
   std::vector<FinalisedWorld> worlds = {World(0, 3, true)};
   AttachLooseImages(manifest, worlds);

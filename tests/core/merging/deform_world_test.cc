@@ -12,7 +12,7 @@
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
 #include "core/merging/carry_point.h"
-#include "core/merging/georeference_reconstruction.h"
+#include "core/merging/georeference/georeference_reconstruction.h"
 #include "core/synthetic/make_street.h"
 #include "core/synthetic/street.h"
 

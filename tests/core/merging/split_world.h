@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/merging/alignment.h"
-#include "core/merging/submodel.h"
+#include "core/merging/alignment/alignment.h"
+#include "core/merging/alignment/submodel.h"
 #include "core/scene/reconstruction.h"
 #include "core/synthetic/make_street.h"
 #include "tests/support/random_world.h"

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/mapping/lengths/gap_votes.h"
+
+namespace orbweave {
+
+/// What votes say of a way: how far all that lies behind it is to be shifted along it.
+struct GapShift {
+  double shift = 0.0;      ///< along the way, in the model's unit; 0: nowhere else
+  double here = 0.0;       ///< votes with the model as it is, 50 of each pair at most
+  double elsewhere = 0.0;  ///< votes with the shift, as many as here where there is none
+
+  /// Whether clearly more votes want it (IsToldElsewhere).
+  [[nodiscard]] bool IsClear() const;
+};
+
+/// The shift with which most votes agree closely (ToldLengths::CountAgreeing), of those that pairs
+/// name: two of each, where its own votes crowd. It is the median of those that agree with it.
+/// Pairs of fewer than eight votes say nothing, and all of them nothing where they tell too little
+/// (TellsEnough): then all is 0. `votes`: those of one side of the gap.
+[[nodiscard]] GapShift FindGapShift(const AskedRays& asked,
+                                    const GapVotes& gap,
+                                    std::span<const LengthVote> votes);
+
+/// The shift between `low` and `high` with which most votes agree closely, where those of each pair
+/// crowd there; elsewhere is 0 where none do. How many pairs tell anything does not matter.
+[[nodiscard]] GapShift FindGapShiftWithin(const AskedRays& asked,
+                                          const GapVotes& gap,
+                                          std::span<const LengthVote> votes,
+                                          double low,
+                                          double high);
+
+}  // namespace orbweave

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/lengths/measure_gap_lengths.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "core/mapping/lengths/ask_gnss_of_ways.h"
+#include "core/mapping/lengths/find_gap_shift.h"
+#include "core/mapping/lengths/find_length_faults.h"
+#include "core/mapping/lengths/gap_votes.h"
+#include "core/mapping/lengths/log_length_of_pair.h"
+#include "core/mapping/lengths/matches_in_planes.h"
+
+namespace orbweave {
+namespace {
+
+/// What one side of a gap says of it.
+struct Side {
+  GapLength length{};
+  double shift = 0.0;  ///< that clearly more of its rays want than what the model has
+};
+
+Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedRays& asked) {
+  std::map<uint32_t, RayCount> rays;
+  for (const LengthVote& vote : votes)
+    rays[vote.pair].Add(vote.log_length, asked.log_lengths[vote.pair], kLengthTolerance);
+  const auto& images = asked.state.Problem().images;
+  GapLength side{.between = {images[gap.image].id, images[gap.next].id}};
+  for (const auto& [pair, count] : rays) {
+    const LengthAgreement agreement = AgreementOf({count});
+    side.pairs += agreement.told > 0.0 ? 1 : 0;
+    side.agreement.Add(agreement);
+  }
+  const GapShift shift = FindGapShift(asked, gap, votes);
+  side.here = shift.here;
+  side.elsewhere = shift.elsewhere;
+  return {side, shift.IsClear() ? shift.shift : 0.0};
+}
+
+/// Whether one side is to be believed less: it tells too little, or agrees more.
+bool TellsLess(const GapLength& one, const GapLength& other) {
+  const bool is_enough = TellsEnough(one.agreement, one.pairs);
+  if (is_enough != TellsEnough(other.agreement, other.pairs)) return !is_enough;
+  return one.agreement.Share() > other.agreement.Share();
+}
+
+/// Whether more rays of the one side say another length; where that is alike, more rays at all.
+bool WantsAnotherMore(const GapLength& one, const GapLength& other) {
+  const auto wish = [](const GapLength& side) {
+    return std::pair(DeviationsElsewhere(side.here, side.elsewhere), side.here);
+  };
+  return wish(one) > wish(other);
+}
+
+}  // namespace
+
+LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
+  LengthAgreement matches;
+  for (const uint32_t pair : gap.pairs) {
+    matches.Add(AgreementOfMatches(
+        asked.state, asked.state.Graph().pairs[pair], kMatchTolerance * asked.max_error_px));
+  }
+  return matches;
+}
+
+std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
+  std::vector<GapLength> gaps;
+  for (const GapVotes& votes : CollectGapVotes(asked)) {
+    const Side before = SideOf(votes, votes.before, asked);
+    const Side behind = SideOf(votes, votes.behind, asked);
+    const Side& wants_another = WantsAnotherMore(behind.length, before.length) ? behind : before;
+    GapLength& gap =
+        gaps.emplace_back(TellsLess(before.length, behind.length) ? behind.length : before.length);
+    gap.here = wants_another.length.here;
+    gap.elsewhere = wants_another.length.elsewhere;
+    gap.matches = MatchesAcross(asked, votes);
+    gap.rays = votes.asked;
+    gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
+    gap.is_borne_out = gnss != nullptr && IsBorneOut(asked, votes, *gnss, wants_another.shift);
+  }
+  return gaps;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/lengths/street_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/registration/pair_witness.h"
+#include "core/scene/left_off.h"
+
+namespace orbweave {
+namespace {
+
+constexpr size_t kMaxSpan = 2 * kReachAlongLine;
+constexpr double kMinShareAbout = 0.9;
+// Of another drive over the same street two images are within half a step of one, four of two: a
+// way on which two drives are torn alike is none that a camera was carried elsewhere on.
+constexpr double kMuchNearer = 0.5;
+constexpr size_t kFewestNear = 2;
+constexpr size_t kManyNear = 5;
+
+/// Whether most of a pair's matches are where the model has them.
+bool Agrees(const MappingState& state, const LinkedPair& pair, double tolerance_px) {
+  const LengthAgreement agreement = AgreementOfMatches(state, pair, tolerance_px);
+  return agreement.agreeing > kAgreeingPairShare * agreement.told;
+}
+
+/// Registered images drive by drive.
+std::vector<ImageSlot> ByDrives(const MappingState& state) {
+  std::vector<ImageSlot> images = state.Registered();
+  const auto& known = state.Problem().images;
+  std::ranges::sort(images, {}, [&](ImageSlot image) {
+    return std::tuple(known[image].drive, known[image].rank_in_drive, known[image].id);
+  });
+  return images;
+}
+
+/// Calls visit(pair) for each pair of registered images.
+template <typename Visit>
+void ForEachPair(const MappingState& state, const Visit& visit) {
+  for (const LinkedPair& pair : state.Graph().pairs) {
+    if (state.IsRegistered(pair.a) && state.IsRegistered(pair.b)) visit(pair);
+  }
+}
+
+/// Tells of images that follow each other in a drive which of them are no neighbours: a camera was
+/// carried to and fro, through a room say.
+class Apartness {
+ public:
+  Apartness(const MappingState& state, const std::vector<size_t>& place, double tolerance_px)
+      : state_(state), place_(place), tolerance_px_(tolerance_px) {}
+
+  /// Whether no pair joins the two, and both have others much nearer than each other, elsewhere in
+  /// the drives, to which pairs join them.
+  [[nodiscard]] bool AreApart(ImageSlot a, ImageSlot b) const {
+    if (HavePair(a, b)) return false;
+    const double near = kMuchNearer * (state_.Centre(a) - state_.Centre(b)).norm();
+    const size_t of_a = CountWithin(near, a);
+    const size_t of_b = CountWithin(near, b);
+    return std::min(of_a, of_b) >= kFewestNear && of_a + of_b >= kManyNear;
+  }
+
+ private:
+  [[nodiscard]] bool HavePair(ImageSlot a, ImageSlot b) const {
+    return std::ranges::any_of(state_.Graph().pairs_of_image[a], [&](uint32_t p) {
+      const LinkedPair& pair = state_.Graph().pairs[p];
+      return (pair.a == a ? pair.b : pair.a) == b;
+    });
+  }
+  [[nodiscard]] size_t CountWithin(double distance, ImageSlot image) const {
+    const auto& pairs = state_.Graph().pairs_of_image[image];
+    return static_cast<size_t>(std::ranges::count_if(pairs, [&](uint32_t p) {
+      const LinkedPair& pair = state_.Graph().pairs[p];
+      const ImageSlot other = pair.a == image ? pair.b : pair.a;
+      if (!state_.IsRegistered(other) ||
+          !((state_.Centre(image) - state_.Centre(other)).norm() < distance))
+        return false;
+      const auto [first, last] = std::minmax({place_[image], place_[other]});
+      return last - first > kReachAlongLine && Agrees(state_, pair, tolerance_px_);
+    }));
+  }
+
+  const MappingState& state_;
+  const std::vector<size_t>& place_;
+  double tolerance_px_;
+};
+
+/// Behind which images the drive goes on elsewhere.
+std::vector<uint8_t> EndsBehind(const MappingState& state,
+                                const std::vector<ImageSlot>& images,
+                                const Apartness& apartness) {
+  std::vector<const PosePrior*> priors;
+  for (const ImageSlot image : images) priors.push_back(&state.Problem().images[image].prior);
+  std::vector<uint8_t> ends = LeftOffBehind(priors);
+  for (size_t i = 0; i + 1 < images.size(); ++i) {
+    ends[i] = ends[i] != 0 || apartness.AreApart(images[i], images[i + 1]);
+  }
+  return ends;
+}
+
+/// Divided where the drive ends or goes on elsewhere, and where no pair leads on.
+std::vector<StreetLine> FindRuns(const MappingState& state, double tolerance_px) {
+  const std::vector<ImageSlot> images = ByDrives(state);
+  std::vector<size_t> place(state.Graph().NumImages());
+  for (size_t i = 0; i < images.size(); ++i) place[images[i]] = i;
+  const auto drive = [&](size_t at) { return state.Problem().images[images[at]].drive; };
+  const std::vector<uint8_t> ends =
+      EndsBehind(state, images, Apartness(state, place, tolerance_px));
+  std::vector<uint8_t> leads_on(images.size(), 0);
+  ForEachPair(state, [&](const LinkedPair& pair) {
+    const auto [first, last] = std::minmax({place[pair.a], place[pair.b]});
+    if (last - first > kReachAlongLine || drive(first) != drive(last)) return;
+    std::fill(leads_on.begin() + static_cast<std::ptrdiff_t>(first),
+              leads_on.begin() + static_cast<std::ptrdiff_t>(last),
+              uint8_t{1});
+  });
+  std::vector<StreetLine> runs;
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (i == 0 || leads_on[i - 1] == 0 || ends[i - 1] != 0) runs.emplace_back();
+    runs.back().push_back(images[i]);
+  }
+  return runs;
+}
+
+/// One end of a run.
+struct End {
+  size_t run = 0;
+  bool is_last = false;
+  friend auto operator<=>(const End&, const End&) = default;
+};
+
+/// Two ends that runs meet at.
+struct Meeting {
+  End one{};
+  End other{};
+  size_t matches = 0;  ///< of the pairs between the runs
+};
+
+/// The pairs between two runs, lower run first, by the places of their images from either end.
+class PairsBetween {
+ public:
+  /// `from_first`: places from the first image of its run, `from_last` from its last.
+  struct Place {
+    size_t from_first = 0;
+    size_t from_last = 0;
+  };
+
+  void Add(const Place& one, const Place& other, size_t matches) {
+    ++pairs_;
+    matches_ += matches;
+    for (Option& option : options_) {
+      const size_t span = (option.one_is_last ? one.from_last : one.from_first) + 1 +
+                          (option.other_is_last ? other.from_last : other.from_first);
+      option.about += span <= kMaxSpan ? 1 : 0;
+      option.spans += span * matches;
+    }
+  }
+
+  /// At the two ends that have the pairs the closest together, if they lie about these.
+  [[nodiscard]] std::optional<Meeting> Find(size_t one, size_t other) const {
+    const Option& best = *std::ranges::min_element(options_, {}, &Option::spans);
+    if (static_cast<double>(best.about) < kMinShareAbout * static_cast<double>(pairs_))
+      return std::nullopt;
+    return Meeting{{one, best.one_is_last}, {other, best.other_is_last}, matches_};
+  }
+
+ private:
+  struct Option {
+    bool one_is_last = false;
+    bool other_is_last = false;
+    size_t about = 0;  ///< pairs within kMaxSpan places
+    size_t spans = 0;  ///< places between the images of all matches
+  };
+  std::array<Option, 4> options_ = {{{true, false}, {false, false}, {true, true}, {false, true}}};
+  size_t pairs_ = 0;
+  size_t matches_ = 0;
+};
+
+/// Where runs meet, most matches first. Pairs that the model contradicts say nothing of it: places
+/// that look alike.
+std::vector<Meeting> FindMeetings(const MappingState& state,
+                                  const std::vector<StreetLine>& runs,
+                                  double tolerance_px) {
+  std::vector<size_t> run_of(state.Graph().NumImages());
+  std::vector<PairsBetween::Place> place(run_of.size());
+  for (size_t run = 0; run < runs.size(); ++run) {
+    for (size_t i = 0; i < runs[run].size(); ++i) {
+      run_of[runs[run][i]] = run;
+      place[runs[run][i]] = {i, runs[run].size() - 1 - i};
+    }
+  }
+  std::map<std::pair<size_t, size_t>, PairsBetween> between;
+  ForEachPair(state, [&](const LinkedPair& pair) {
+    if (run_of[pair.a] == run_of[pair.b]) return;
+    if (!Agrees(state, pair, tolerance_px)) return;
+    const bool in_order = run_of[pair.a] < run_of[pair.b];
+    const ImageSlot one = in_order ? pair.a : pair.b;
+    const ImageSlot other = in_order ? pair.b : pair.a;
+    between[{run_of[one], run_of[other]}].Add(
+        place[one], place[other], state.Problem().pairs[pair.index].inliers.size());
+  });
+  std::vector<Meeting> meetings;
+  for (const auto& [two, pairs] : between) {
+    if (const auto meeting = pairs.Find(two.first, two.second)) meetings.push_back(*meeting);
+  }
+  std::ranges::stable_sort(meetings, std::greater<>(), &Meeting::matches);
+  return meetings;
+}
+
+/// Runs joined at their ends, each end once, to lines without a loop.
+class Joiner {
+ public:
+  explicit Joiner(size_t num_runs) : line_of_run_(num_runs) {
+    std::iota(line_of_run_.begin(), line_of_run_.end(), 0);
+  }
+
+  void Join(const Meeting& meeting) {
+    const size_t one = line_of_run_[meeting.one.run];
+    const size_t other = line_of_run_[meeting.other.run];
+    if (one == other || next_.contains(meeting.one) || next_.contains(meeting.other)) return;
+    next_[meeting.one] = meeting.other;
+    next_[meeting.other] = meeting.one;
+    std::ranges::replace(line_of_run_, std::max(one, other), std::min(one, other));
+  }
+
+  /// By their lowest runs.
+  [[nodiscard]] std::vector<StreetLine> Take(const std::vector<StreetLine>& runs) const {
+    std::vector<StreetLine> lines;
+    std::vector<uint8_t> is_taken(runs.size(), 0);
+    for (size_t run = 0; run < runs.size(); ++run) {
+      if (is_taken[run] != 0) continue;
+      StreetLine& line = lines.emplace_back();
+      for (std::optional<End> from = BeginOf(run); from; from = After(*from)) {
+        is_taken[from->run] = 1;
+        const StreetLine& images = runs[from->run];
+        if (from->is_last) {
+          std::ranges::copy(images.rbegin(), images.rend(), std::back_inserter(line));
+        } else {
+          std::ranges::copy(images, std::back_inserter(line));
+        }
+      }
+    }
+    return lines;
+  }
+
+ private:
+  /// The run that the line is entered by next, and at which end, having entered one at `from`.
+  [[nodiscard]] std::optional<End> After(End from) const {
+    const auto next = next_.find({from.run, !from.is_last});
+    return next == next_.end() ? std::nullopt : std::optional(next->second);
+  }
+
+  /// The end to begin with of the line that `run` is of: that of the lower run.
+  [[nodiscard]] End BeginOf(size_t run) const {
+    const auto follow = [&](End from) {
+      while (const auto next = After(from)) from = *next;
+      return End{from.run, !from.is_last};
+    };
+    return std::min(follow({run, false}), follow({run, true}));
+  }
+
+  std::vector<size_t> line_of_run_;
+  std::map<End, End> next_{};
+};
+
+}  // namespace
+
+std::vector<StreetLine> FindStreetLines(const MappingState& state, double tolerance_px) {
+  const std::vector<StreetLine> runs = FindRuns(state, tolerance_px);
+  Joiner joiner(runs.size());
+  for (const Meeting& meeting : FindMeetings(state, runs, tolerance_px)) joiner.Join(meeting);
+  return joiner.Take(runs);
+}
+
+}  // namespace orbweave

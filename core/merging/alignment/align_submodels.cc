@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/alignment/align_submodels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "core/averaging/average_similarities.h"
+#include "core/averaging/similarity_graph.h"
+#include "core/base/quantile.h"
+#include "core/geometry/rotation.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+// Beyond this the evidence leaves a direction of the similarity open.
+constexpr double kMaxCondition = 1e6;
+// So many common tracks decide about a seam; with fewer the common images do.
+constexpr uint32_t kMinDecidingTracks = 16;
+constexpr double kMinAgreeingShare = 0.25;
+
+// A seam between submodels known by their position, and what becomes of it.
+struct Candidate {
+  SeamReport report{};
+  const FittedSeam* seam = nullptr;
+};
+
+// Why the fit cannot be used; empty when it can.
+std::string FindFault(const SeamReport& report, const SeamFit& fit, const AlignOptions& options) {
+  if (report.common_images == 0) return "all common images are loose";
+  const bool tracks_decide = report.common_tracks >= kMinDecidingTracks;
+  if (!tracks_decide && report.common_images < static_cast<uint32_t>(options.min_common_images)) {
+    return std::to_string(report.common_images) + " common images and " +
+           std::to_string(report.common_tracks) + " common tracks are too few";
+  }
+  if (tracks_decide && fit.inlier_tracks < kMinAgreeingShare * report.common_tracks) {
+    return std::to_string(fit.inlier_tracks) + " of " + std::to_string(report.common_tracks) +
+           " common tracks agree";
+  }
+  if (!tracks_decide && fit.inlier_cameras < static_cast<uint32_t>(options.min_common_images)) {
+    return std::to_string(fit.inlier_cameras) + " of " + std::to_string(report.common_images) +
+           " common images agree";
+  }
+  if (fit.condition_number > kMaxCondition) return "the similarity is ill-conditioned";
+  return "";
+}
+
+Candidate MakeCandidate(const FittedSeam& seam,
+                        uint32_t submodel_a,
+                        uint32_t submodel_b,
+                        const AlignOptions& options) {
+  SeamReport report{.submodel_a = submodel_a,
+                    .submodel_b = submodel_b,
+                    .common_images = static_cast<uint32_t>(seam.shared.size()),
+                    .common_tracks = seam.common_tracks,
+                    .inlier_tracks = seam.fit.inlier_tracks,
+                    .condition_number = seam.fit.condition_number};
+  report.reason = FindFault(report, seam.fit, options);
+  report.used = report.reason.empty();
+  return {std::move(report), &seam};
+}
+
+using Outlines = std::vector<const SubmodelOutline*>;
+
+Outlines OutlinesOf(std::span<const SeamsOfCluster> clusters) {
+  Outlines outlines;
+  for (const SeamsOfCluster& cluster : clusters) {
+    for (const SubmodelOutline& outline : cluster.submodels) outlines.push_back(&outline);
+  }
+  return outlines;
+}
+
+// Every submodel once, in the order of their names.
+bool AreInOrder(const Outlines& outlines) {
+  return std::ranges::adjacent_find(
+             outlines, std::ranges::greater_equal{}, &SubmodelOutline::name) == outlines.end();
+}
+
+// All seams, sorted by the positions of their submodels.
+absl::StatusOr<std::vector<Candidate>> FindCandidates(std::span<const SeamsOfCluster> clusters,
+                                                      const Outlines& outlines,
+                                                      const AlignOptions& options) {
+  std::map<SubmodelName, uint32_t> position;
+  for (const SubmodelOutline* outline : outlines)
+    position.emplace(outline->name, static_cast<uint32_t>(position.size()));
+  std::vector<Candidate> candidates;
+  for (const SeamsOfCluster& cluster : clusters) {
+    for (const FittedSeam& seam : cluster.seams) {
+      const auto a = position.find(seam.a);
+      const auto b = position.find(seam.b);
+      if (a == position.end() || b == position.end())
+        return absl::InvalidArgumentError(
+            "align_submodels: a seam of a submodel that is not there");
+      candidates.push_back(MakeCandidate(seam, a->second, b->second, options));
+    }
+  }
+  std::ranges::stable_sort(candidates, {}, [](const Candidate& candidate) {
+    return std::pair(candidate.report.submodel_a, candidate.report.submodel_b);
+  });
+  return candidates;
+}
+
+// Inverse of the fit's covariance plus what the submodels may bend and stretch.
+Matrix7d InformationWithDrift(const FittedSeam& seam, const AlignOptions& options) {
+  const double bend = options.drift_deg / kDegPerRad;
+  const double stretch =
+      options.drift_share * std::max(seam.extent_a, seam.extent_b) / seam.fit.chart.length_in_a;
+  Vector7d variance;
+  variance.head<3>().setConstant(bend * bend);
+  variance[3] = options.drift_share * options.drift_share;
+  variance.tail<3>().setConstant(stretch * stretch);
+  Matrix7d covariance = seam.fit.covariance;
+  covariance.diagonal() += variance;
+  return covariance.inverse();
+}
+
+SimilarityGraph MakeGraph(const Outlines& outlines,
+                          const std::vector<Candidate>& candidates,
+                          const AlignOptions& options) {
+  SimilarityGraph graph;
+  for (const SubmodelOutline* outline : outlines) {
+    graph.node_length.push_back(outline->length);
+    graph.node_weight.push_back(static_cast<double>(outline->images.size()));
+  }
+  for (const auto& [report, seam] : candidates) {
+    if (!report.used) continue;
+    graph.edges.push_back(
+        {.a = report.submodel_a,
+         .b = report.submodel_b,
+         .measured = seam->fit.chart,
+         .information = InformationWithDrift(*seam, options),
+         .strength = static_cast<double>(seam->fit.inlier_tracks + seam->fit.inlier_cameras)});
+  }
+  return graph;
+}
+
+// Worlds in order of their number of images (then of their first submodel).
+std::vector<uint32_t> RankWorlds(const Outlines& outlines, const std::vector<uint32_t>& part) {
+  std::vector<std::set<ImageId>> images(part.size());
+  for (size_t m = 0; m < outlines.size(); ++m)
+    images[part[m]].insert(outlines[m]->images.begin(), outlines[m]->images.end());
+  std::vector<uint32_t> order(part.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
+    return images[x].size() > images[y].size();
+  });
+  std::vector<uint32_t> rank(part.size());
+  for (uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
+  std::vector<uint32_t> world;
+  for (const uint32_t p : part) world.push_back(rank[p]);
+  return world;
+}
+
+void SwitchOffContradicted(const AveragedSimilarities& averaged,
+                           std::vector<Candidate>& candidates) {
+  size_t e = 0;
+  for (auto& [report, seam] : candidates) {
+    if (!report.used) continue;
+    if (averaged.is_used[e] == 0) {
+      report.used = false;
+      report.contradicted = true;
+      report.reason = "contradicted by loops: off by " +
+                      std::to_string(std::lround(averaged.error[e])) + " times the expected drift";
+    }
+    ++e;
+  }
+}
+
+void MeasureJumps(const Alignment& alignment, Candidate& candidate) {
+  const uint32_t a = candidate.report.submodel_a;
+  const uint32_t b = candidate.report.submodel_b;
+  if (alignment.world[a] != alignment.world[b]) return;
+  std::vector<double> distances;
+  std::vector<double> angles_deg;
+  for (const FittedSeam::SharedPose& shared : candidate.seam->shared) {
+    const Rigid3 from_a = TransformCamera(alignment.world_from_submodel[a], shared.cam_from_a);
+    const Rigid3 from_b = TransformCamera(alignment.world_from_submodel[b], shared.cam_from_b);
+    distances.push_back((from_a.Centre() - from_b.Centre()).norm());
+    angles_deg.push_back(kDegPerRad * RotationAngle(from_a.rotation * from_b.rotation.conjugate()));
+  }
+  candidate.report.position_jump_m = Quantile(std::move(distances), 0.5);
+  candidate.report.rotation_jump_deg = Quantile(std::move(angles_deg), 0.5);
+}
+
+}  // namespace
+
+absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> clusters,
+                                         const AlignOptions& options,
+                                         const StageContext& context) {
+  const Outlines outlines = OutlinesOf(clusters);
+  if (!AreInOrder(outlines))
+    return absl::DataLossError("align_submodels: submodels are not in order, or there twice");
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Candidate> candidates,
+                            FindCandidates(clusters, outlines, options));
+  ORBWEAVE_ASSIGN_OR_RETURN(AveragedSimilarities averaged,
+                            AverageSimilarities(MakeGraph(outlines, candidates, options),
+                                                {.max_error = options.max_contradiction},
+                                                context));
+  SwitchOffContradicted(averaged, candidates);
+  Alignment alignment{.world_from_submodel = std::move(averaged.world_from_node),
+                      .world = RankWorlds(outlines, averaged.part)};
+  for (const SubmodelOutline* outline : outlines) {
+    alignment.submodels.push_back(
+        {outline->name.cluster, static_cast<uint32_t>(outline->images.size())});
+  }
+  for (Candidate& candidate : candidates) {
+    MeasureJumps(alignment, candidate);
+    alignment.seams.push_back(std::move(candidate.report));
+  }
+  return alignment;
+}
+
+}  // namespace orbweave

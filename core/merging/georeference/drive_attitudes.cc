@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/georeference/drive_attitudes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/geometry/rotation.h"
+#include "core/merging/georeference/moves_along.h"
+#include "core/scene/sequence_of_drive.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kMinStatedShare = 0.5;
+
+bool StatesTilt(const PosePrior& prior) { return prior.pitch_deg && prior.roll_deg; }
+
+Eigen::Matrix3d LevelFromCamera(const PosePrior& prior) {
+  const Eigen::Vector3d down =
+      DownInCamera(kRadPerDeg * *prior.pitch_deg, kRadPerDeg * *prior.roll_deg);
+  return RotationBetween(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
+}
+
+DriveAttitudes AttitudesOf(const Reconstruction& reconstruction,
+                           const ImageManifest& manifest,
+                           uint32_t drive,
+                           const std::vector<ImageId>& images) {
+  DriveAttitudes attitudes{.drive = drive, .num_registered = images.size()};
+  for (const ImageId id : images) {
+    const PosePrior& prior = manifest.At(id).prior;
+    attitudes.num_stating_both += StatesTilt(prior) ? 1 : 0;
+    attitudes.num_stating_any += prior.pitch_deg || prior.roll_deg ? 1 : 0;
+  }
+  const bool is_stated = static_cast<double>(attitudes.num_stating_both) >=
+                         kMinStatedShare * static_cast<double>(images.size());
+  double sigma_deg = 0.0;
+  std::vector<Eigen::Vector3d> centres;
+  for (const ImageId id : images)
+    centres.push_back(reconstruction.images.at(id).cam_from_world.Centre());
+  const std::vector<MoveAlong> moves = MovesAlong(centres);
+  for (size_t i = 0; i < images.size(); ++i) {
+    const ImageId id = images[i];
+    const Eigen::Matrix3d R =
+        reconstruction.images.at(id).cam_from_world.rotation.toRotationMatrix();
+    const PosePrior& prior = manifest.At(id).prior;
+    if (is_stated && !StatesTilt(prior)) continue;
+    attitudes.images.push_back(id);
+    attitudes.travel.push_back(moves[i].moved.stableNormalized());
+    attitudes.level_from_world.push_back(is_stated ? LevelFromCamera(prior) * R : R);
+    sigma_deg = std::max(sigma_deg, prior.tilt_sigma_deg);
+  }
+  if (is_stated) attitudes.stated_sigma_rad = kRadPerDeg * sigma_deg;
+  return attitudes;
+}
+
+}  // namespace
+
+Eigen::Vector3d DownInCamera(double pitch_rad, double roll_rad) {
+  return {std::sin(roll_rad) * std::cos(pitch_rad),
+          std::cos(roll_rad) * std::cos(pitch_rad),
+          -std::sin(pitch_rad)};
+}
+
+std::vector<DriveAttitudes> AttitudesOfDrives(const Reconstruction& reconstruction,
+                                              const ImageManifest& manifest) {
+  std::vector<DriveAttitudes> drives;
+  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
+    std::vector<ImageId> images;
+    for (const ImageId id : sequence) {
+      const auto image = reconstruction.images.find(id);
+      if (image != reconstruction.images.end() && !image->second.loose) images.push_back(id);
+    }
+    if (!images.empty()) drives.push_back(AttitudesOf(reconstruction, manifest, drive, images));
+  }
+  return drives;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/lengths/measure_gap_lengths.h"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+#include <set>
+#include <vector>
+
+#include "core/geometry/sim3.h"
+#include "core/mapping/lengths/find_gap_shift.h"
+#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
+#include "tests/core/mapping/torn_street.h"
+
+namespace orbweave {
+namespace {
+
+constexpr uint32_t kImages = TornStreet::kImages;
+
+/// Everything from image 7 on stands farther along.
+MappingState Torn(const TornStreet& street, double by_m) {
+  MappingState torn = street.Right();
+  for (ImageSlot image = 7; image < kImages; ++image)
+    TornStreet::Move(image, {by_m, 0.0, 0.0}, torn);
+  return torn;
+}
+
+TEST(GapLengths, AreOneForEachWayFromAnImageToTheNext) {
+  const TornStreet street;
+  const std::vector<GapLength> gaps = MeasureGapLengths({street.Right(), {}});
+  ASSERT_EQ(gaps.size(), kImages - 1);
+  for (uint32_t i = 0; i + 1 < kImages; ++i) {
+    EXPECT_EQ(gaps[i].between, (ImagePair{ImageId(i), ImageId(i + 1)}));
+    EXPECT_GE(gaps[i].pairs, 3U);
+    EXPECT_GT(gaps[i].agreement.told, 100.0);
+    EXPECT_GT(gaps[i].agreement.Share(), 0.8);
+  }
+}
+
+TEST(GapLengths, DoNotDependOnTheFrameOfTheModel) {
+  const TornStreet street;
+  const MappingState torn = Torn(street, 3.0);
+  const Sim3 other{0.3, RotationFromVector({0.4, -1.1, 0.7}), {3.0, -8.0, 1.0}};
+  MappingState moved = street.Fixture().StateWith({});
+  for (const ImageSlot image : torn.Registered())
+    moved.Register(image, TransformCamera(other, torn.CamFromWorld(image)));
+  const std::vector<GapLength> of_torn = MeasureGapLengths({torn, {}});
+  const std::vector<GapLength> of_moved = MeasureGapLengths({moved, {}});
+  ASSERT_EQ(of_moved.size(), of_torn.size());
+  for (size_t i = 0; i < of_torn.size(); ++i) {
+    EXPECT_DOUBLE_EQ(of_moved[i].agreement.told, of_torn[i].agreement.told);
+    EXPECT_NEAR(of_moved[i].agreement.Share(), of_torn[i].agreement.Share(), 0.01);
+  }
+}
+
+/// Pairs across a tear of half a step are all too long and bear each other out.
+TEST(GapLengths, FindATearOfHalfAStep) {
+  const TornStreet street;
+  const double step_m = (TornStreet::Centre(7) - TornStreet::Centre(6)).norm();
+  const std::vector<GapLength> gaps = MeasureGapLengths({Torn(street, 0.5 * step_m), {}});
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    if (i == 6) {
+      EXPECT_LT(gaps[i].agreement.Share(), 0.1);
+    } else if (i + 1 < 6 || i > 7) {
+      EXPECT_GT(gaps[i].agreement.Share(), 0.5) << i;
+    } else {  // what lies on the side of the tear leads across it
+      EXPECT_GT(gaps[i].agreement.Share(), gaps[6].agreement.Share()) << i;
+    }
+  }
+}
+
+/// A step that is a fifth too long still has every second ray within 15 % of it.
+TEST(GapLengths, HearWhereRaysSayAnotherLength) {
+  const TornStreet street;
+  for (const GapLength& gap : MeasureGapLengths({street.Right(), {}})) {
+    EXPECT_GT(gap.here, 20.0);
+    EXPECT_FALSE(IsToldElsewhere(gap.here, gap.elsewhere)) << gap.between.a.value;
+  }
+  for (const double by_m : {-1.4, 1.4}) {
+    const std::vector<GapLength> gaps = MeasureGapLengths({Torn(street, by_m), {}});
+    EXPECT_TRUE(IsToldElsewhere(gaps[6].here, gaps[6].elsewhere)) << by_m;
+    for (const size_t far : {0U, 1U, 2U, 10U, 11U, 12U, 13U})
+      EXPECT_FALSE(IsToldElsewhere(gaps[far].here, gaps[far].elsewhere)) << far;
+  }
+}
+
+/// Two right halves that stand askew: every length is right.
+TEST(GapLengths, HearWhereMatchesSayThatTheTwoSidesStandAskew) {
+  const TornStreet street;
+  MappingState askew = street.Right();
+  TornStreet::TurnFrom(7, 0.1, askew);
+  const std::vector<GapLength> gaps = MeasureGapLengths({askew, {}});
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    if (i + 3 > 6 && i < 6 + 3) continue;  // pairs that lead across image 6 and 7 lead across these
+    EXPECT_GT(gaps[i].matches.Share(), 0.8) << i;
+  }
+  EXPECT_TRUE(IsAskew(gaps[6].matches)) << gaps[6].matches.Share();
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kHinge);
+  EXPECT_EQ(faults[0].image, ImageId(6));
+}
+
+TEST(GapShift, IsByHowMuchTheStreetIsTorn) {
+  const TornStreet street;
+  for (const double by_m : {-3.0, 1.4, 4.0}) {
+    const MappingState torn = Torn(street, by_m);
+    const AskedRays asked(torn, {});
+    const std::vector<GapVotes> gaps = CollectGapVotes(asked);
+    for (const auto* votes : {&gaps[6].before, &gaps[6].behind}) {
+      const GapShift shift = FindGapShift(asked, gaps[6], *votes);
+      EXPECT_NEAR(shift.shift, -by_m, 0.15);
+      EXPECT_GT(shift.elsewhere, 2.0 * shift.here);
+    }
+  }
+}
+
+TEST(GapShift, IsNoneWhereNobodySaysAnything) {
+  const TornStreet street;
+  const MappingState right = street.Right();
+  const AskedRays asked(right, {});
+  const GapShift shift = FindGapShift(asked, {.image = 3, .next = 4}, {});
+  EXPECT_EQ(shift.shift, 0.0);
+  EXPECT_EQ(shift.here, 0.0);
+  EXPECT_EQ(shift.elsewhere, 0.0);
+}
+
+TEST(GapShift, IsNoneWhereTwoPairsSayIt) {
+  const TornStreet street;
+  const MappingState torn = Torn(street, 4.0);
+  const AskedRays asked(torn, {});
+  const GapVotes gap = CollectGapVotes(asked)[6];
+  std::vector<LengthVote> of_two = gap.before;
+  std::set<uint32_t> pairs;
+  for (const LengthVote& vote : of_two) pairs.insert(vote.pair);
+  ASSERT_GT(pairs.size(), 2U);
+  const uint32_t third = *std::next(pairs.begin(), 2);
+  std::erase_if(of_two, [&](const LengthVote& vote) { return vote.pair >= third; });
+  EXPECT_NE(FindGapShift(asked, gap, gap.before).shift, 0.0);
+  EXPECT_EQ(FindGapShift(asked, gap, of_two).elsewhere, 0.0);
+}
+
+/// What is behind the jump agrees with itself.
+TEST(GapLengths, FindWhereTheScaleJumps) {
+  const TornStreet street;
+  MappingState state = street.Right();
+  for (ImageSlot image = 7; image < kImages; ++image)
+    TornStreet::Move(image, 0.7 * (TornStreet::Centre(image) - TornStreet::Centre(6)), state);
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
+  EXPECT_LT(gaps[6].agreement.Share(), 0.25);
+  for (const size_t far : {0U, 1U, 2U, 3U, 10U, 11U, 12U, 13U})
+    EXPECT_GT(gaps[far].agreement.Share(), 0.5) << far;
+}
+
+TEST(GapLengths, LeadOverImagesThatAreNotInTheModel) {
+  const TornStreet street;
+  MappingState state = street.Right();
+  state.Deregister(7);
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
+  ASSERT_EQ(gaps.size(), kImages - 2);
+  EXPECT_EQ(gaps[6].between, (ImagePair{ImageId(6), ImageId(8)}));
+  EXPECT_GT(gaps[6].agreement.Share(), 0.8);
+}
+
+/// Taken against the order of their names.
+TEST(GapLengths, FollowTheDriveWhateverItsImagesAreCalled) {
+  const TornStreet street;
+  const MappingState torn = Torn(street, 3.0);
+  ClusterProblem problem = street.Fixture().world.problem;
+  for (ClusterImage& image : problem.images) image.rank_in_drive = kImages - image.id.value;
+  MappingState state(problem, street.Fixture().graph);
+  for (ImageSlot image = 0; image < kImages; ++image)
+    state.Register(image, torn.CamFromWorld(image));
+  const std::vector<GapLength> gaps = MeasureGapLengths({state, {}});
+  ASSERT_EQ(gaps.size(), kImages - 1);
+  EXPECT_EQ(gaps.front().between, (ImagePair{ImageId(kImages - 1), ImageId(kImages - 2)}));
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(7));
+  EXPECT_EQ(faults[0].next, ImageId(6));
+}
+
+/// The street in a model, torn at image 7, its images of drives 0 and 1.
+std::vector<GapLength> OfTwoDrives(const TornStreet& street, bool (*is_of_second)(uint32_t image)) {
+  ClusterProblem problem = street.Fixture().world.problem;
+  for (ClusterImage& image : problem.images) image.drive = is_of_second(image.id.value) ? 1 : 0;
+  MappingState state(problem, street.Fixture().graph);
+  const MappingState torn = Torn(street, 3.0);
+  for (ImageSlot image = 0; image < kImages; ++image)
+    state.Register(image, torn.CamFromWorld(image));
+  return MeasureGapLengths({state, {}});
+}
+
+TEST(GapLengths, LeadFromOneDayToTheNext) {
+  const std::vector<GapLength> gaps =
+      OfTwoDrives(TornStreet(), [](uint32_t image) { return image >= 7; });
+  ASSERT_EQ(gaps.size(), kImages - 1);
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(6));
+  EXPECT_EQ(faults[0].next, ImageId(7));
+}
+
+TEST(GapLengths, EndWithTheLine) {
+  const std::vector<GapLength> gaps =
+      OfTwoDrives(TornStreet(), [](uint32_t image) { return image % 2 == 1; });
+  ASSERT_EQ(gaps.size(), kImages - 2);
+  EXPECT_EQ(gaps[7].between, (ImagePair{ImageId(1), ImageId(3)}));
+}
+
+TEST(GapLengths, ThereAreNoneOfNoModel) {
+  const TornStreet street;
+  EXPECT_TRUE(MeasureGapLengths({street.Fixture().StateWith({}), {}}).empty());
+}
+
+/// With positions as they are, stated to so many metres.
+std::vector<GapLength> GapsWithGnss(double sigma_m, double torn_by_m) {
+  TornStreet street;
+  street.GivePositions(1, 0.0, sigma_m);
+  const MappingState state = Torn(street, torn_by_m);
+  const AskedRays asked(state, {});
+  const GnssWays gnss(state, 4.0 * kMatchTolerance);
+  return MeasureGapLengths(asked, &gnss);
+}
+
+TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
+  for (const GapLength& gap : GapsWithGnss(0.5, 0.0)) EXPECT_TRUE(gap.is_borne_out);
+  const std::vector<GapLength> torn = GapsWithGnss(0.5, 4.0);
+  for (size_t i = 0; i < torn.size(); ++i) EXPECT_EQ(torn[i].is_borne_out, i != 6) << i;
+  const TornStreet without;
+  for (const GapLength& gap : MeasureGapLengths({without.Right(), {}}))
+    EXPECT_FALSE(gap.is_borne_out);
+}
+
+TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
+  TornStreet street;
+  street.GivePositions(3, 3.0, 3.0);
+  const MappingState state = street.Right();
+  const AskedRays asked(state, {});
+  const GnssWays gnss(state, 4.0 * kMatchTolerance);
+  for (const GapLength& gap : MeasureGapLengths(asked, &gnss)) EXPECT_FALSE(gap.is_borne_out);
+}
+
+TEST(GapLengths, CountTheRaysThatTell) {
+  const TornStreet street;
+  for (const GapLength& gap : MeasureGapLengths({street.Right(), {}})) {
+    EXPECT_GT(gap.telling_rays, 100U);
+    EXPECT_GT(gap.rays, gap.telling_rays);
+  }
+}
+
+}  // namespace
+}  // namespace orbweave

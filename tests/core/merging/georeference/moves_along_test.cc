@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/georeference/moves_along.h"
+
+#include <gtest/gtest.h>
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(MovesAlong, LeadFromThePlaceBeforeToThePlaceAfter) {
+  const std::vector<Vector3d> places = {{0, 0, 0}, {2, 0, 0}, {4, 1, 0}, {4, 3, 1}};
+  const std::vector<MoveAlong> moves = MovesAlong(places);
+  ASSERT_EQ(moves.size(), 4U);
+  EXPECT_EQ(moves[0].moved, Vector3d(2, 0, 0));
+  EXPECT_EQ(moves[1].moved, Vector3d(4, 1, 0));
+  EXPECT_EQ(moves[2].moved, Vector3d(2, 3, 1));
+  EXPECT_EQ(moves[3].moved, Vector3d(0, 2, 1));
+  EXPECT_EQ(moves[3].first, 2U);
+  EXPECT_EQ(moves[3].last, 3U);
+}
+
+TEST(MovesAlong, LeadNowhereWhereACarrierStands) {
+  std::vector<Vector3d> places;
+  for (int i = 0; i < 10; ++i) places.emplace_back(3.0 * i, 0.0, 0.0);
+  for (int i = 0; i < 3; ++i) places.emplace_back(27.0 + 0.01 * i, 0.0, 0.0);
+  const std::vector<MoveAlong> moves = MovesAlong(places);
+  EXPECT_FALSE(moves[9].moved.isZero());
+  EXPECT_TRUE(moves[11].moved.isZero());
+  EXPECT_TRUE(moves[12].moved.isZero());
+}
+
+TEST(MovesAlong, NeedTwoPlaces) {
+  EXPECT_TRUE(MovesAlong({}).empty());
+  const std::vector<Vector3d> one = {Vector3d::Ones()};
+  EXPECT_TRUE(MovesAlong(one).front().moved.isZero());
+}
+
+}  // namespace
+}  // namespace orbweave
