@@ -44,7 +44,7 @@ std::string SigmaLine(const JobReport& report) {
   if (!uncertainty.known) return "unknown: " + PrintableText(uncertainty.reason);
   return absl::StrCat(SigmaText(uncertainty.position_median),
                       report.gnss.used ? " m" : " units",
-                      ", ",
+                      uncertainty.heights_are_known ? ", " : " along the ground, ",
                       SigmaText(uncertainty.rotation_median_deg),
                       " deg (median, ",
                       uncertainty.held_image.empty()

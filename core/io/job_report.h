@@ -125,11 +125,18 @@ struct ReportUncertainty {
   double bearing_sigma_factor = 1.0;
   double horizontal_gnss_sigma_factor = 1.0;
   double vertical_gnss_sigma_factor = 1.0;
+  /// False where GNSS holds the frame and states no height: then the sigmas of positions, here and
+  /// below, are those along the ground.
+  bool heights_are_known = true;
   double position_median = 0.0;
   double position_p95 = 0.0;
   double rotation_median_deg = 0.0;
   double rotation_p95_deg = 0.0;
   std::vector<uint32_t> worst{};  ///< of JobReport.images, least certain first
+
+  [[nodiscard]] double PositionSigma(const PoseUncertainty& pose) const {
+    return heights_are_known ? pose.PositionSigma() : pose.PositionSigmas().head<2>().norm();
+  }
 };
 
 /// One of the written models: sparse/N.

@@ -116,6 +116,7 @@ Json Uncertainty(const ReportUncertainty& uncertainty,
   Json json = {{"known", uncertainty.known}, {"frame", UncertaintyFrameText(uncertainty)}};
   if (!uncertainty.known) return json;
   json["unit"] = model.gnss.used ? "metre" : "free";
+  json["position_sigma_of"] = uncertainty.heights_are_known ? "all axes" : "ground";
   json["position_sigma_median"] = uncertainty.position_median;
   json["position_sigma_p95"] = uncertainty.position_p95;
   json["rotation_sigma_median_deg"] = uncertainty.rotation_median_deg;
@@ -135,7 +136,7 @@ Json Uncertainty(const ReportUncertainty& uncertainty,
   for (const uint32_t index : uncertainty.worst) {
     const ReportImage& image = report.images[index];
     json["worst"].push_back({{"name", image.name},
-                             {"position_sigma", image.uncertainty->PositionSigma()},
+                             {"position_sigma", uncertainty.PositionSigma(*image.uncertainty)},
                              {"rotation_sigma_deg", image.uncertainty->RotationSigma_deg()}});
   }
   return json;

@@ -108,10 +108,14 @@ std::string PathLines(const JobReport& report, const MapFrame& frame, const MapV
   return svg;
 }
 
-std::string UncertaintyText(const ReportImage& image) {
+std::string UncertaintyText(const JobReport& report, const ReportImage& image) {
   if (!image.uncertainty) return "";
+  const ReportUncertainty& of_model = image.model < report.each_model.size()
+                                          ? report.each_model[image.model].uncertainty
+                                          : report.uncertainty;
   return absl::StrCat("\nsigma ",
-                      SigmaText(image.uncertainty->PositionSigma()),
+                      SigmaText(of_model.PositionSigma(*image.uncertainty)),
+                      of_model.heights_are_known ? "" : " along the ground",
                       ", ",
                       SigmaText(image.uncertainty->RotationSigma_deg()),
                       " deg");
@@ -130,7 +134,7 @@ std::string TitleOf(const JobReport& report, const ReportImage& image) {
                       " observations, ",
                       DecimalText(image.residual_px_mean, 2),
                       " px",
-                      UncertaintyText(image));
+                      UncertaintyText(report, image));
 }
 
 std::string Dots(const JobReport& report,

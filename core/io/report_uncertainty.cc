@@ -35,9 +35,12 @@ std::string Row(const std::string& what, double position, double rotation_deg, d
 std::string UncertaintyFrameText(const ReportUncertainty& uncertainty) {
   if (!uncertainty.known) return "unknown: " + uncertainty.reason;
   if (uncertainty.held_image.empty()) {
-    return "absolute: the frame is held by GNSS, whose errors count as alike as they are found "
-           "along "
-           "the street; an offset that all positions share shows nowhere, and is not in it";
+    return absl::StrCat(
+        "absolute: the frame is held by GNSS, whose errors count as alike as they are found along "
+        "the street; an offset that all positions share shows nowhere, and is not in it",
+        uncertainty.heights_are_known
+            ? ""
+            : "; no position has a height: those of the model are known but for a shift");
   }
   std::string text = "relative to " + uncertainty.held_image + ", whose pose is held";
   if (uncertainty.held_distance_to.empty()) return text;
@@ -77,7 +80,7 @@ std::string UncertaintyHtml(const JobReport& report) {
   for (const uint32_t index : uncertainty.worst) {
     const ReportImage& image = report.images[index];
     rows += Row(EscapeHtml(image.name),
-                image.uncertainty->PositionSigma(),
+                uncertainty.PositionSigma(*image.uncertainty),
                 image.uncertainty->RotationSigma_deg(),
                 step);
   }
@@ -93,7 +96,8 @@ std::string UncertaintyHtml(const JobReport& report) {
   }
   const std::string relative = RelativePrecisionText(report);
   return absl::StrCat(
-      "<table><thead><tr><th>panorama</th><th>position, ",
+      "<table><thead><tr><th>panorama</th><th>position",
+      uncertainty.heights_are_known ? ", " : " along the ground, ",
       report.gnss.used ? "m" : "units",
       "</th><th>",
       is_in_order ? "of a step" : "of the distance to the nearest",

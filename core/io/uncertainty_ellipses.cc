@@ -44,8 +44,9 @@ Ellipse EllipseOf(const ReportImage& image, const MapView& view) {
 
 std::vector<Ellipse> LeastCertain(const MapImages& images, const MapView& view) {
   const size_t stride = (images.size() + kMaxEllipses - 1) / kMaxEllipses;
-  const auto sigma = [](const ReportImage* image) {
-    return image->uncertainty ? image->uncertainty->PositionSigma() : -1.0;
+  const auto variance = [&](const ReportImage* image) {
+    if (!image->uncertainty) return -1.0;
+    return (view.axes * image->uncertainty->position_covariance * view.axes.transpose()).trace();
   };
   std::vector<Ellipse> ellipses;
   for (size_t begin = 0; begin < images.size(); begin += stride) {
@@ -53,7 +54,7 @@ std::vector<Ellipse> LeastCertain(const MapImages& images, const MapView& view) 
     const auto end =
         images.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stride, images.size()));
     const ReportImage* worst = *std::max_element(
-        first, end, [&](const auto* x, const auto* y) { return sigma(x) < sigma(y); });
+        first, end, [&](const auto* x, const auto* y) { return variance(x) < variance(y); });
     if (worst->uncertainty) ellipses.push_back(EllipseOf(*worst, view));
   }
   return ellipses;

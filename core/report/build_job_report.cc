@@ -201,6 +201,14 @@ ReportGnss GnssRow(const GnssReport& gnss) {
           .outliers = gnss.outliers};
 }
 
+/// Those of a model in a frame of its own are as good as its other coordinates.
+bool HeightsAreKnown(const AdjustedModel& model, const ImageManifest& manifest) {
+  return !model.report.gnss.used || std::ranges::any_of(model.images, [&](const auto& image) {
+    const PosePrior& prior = manifest.At(image.first).prior;
+    return prior.position_in_enu && IsHeightKnown(prior.vertical_sigma_m);
+  });
+}
+
 std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& report) {
   std::vector<ReportModel> rows;
   for (uint32_t number = 0; number < results.models.size(); ++number) {
@@ -209,7 +217,8 @@ std::vector<ReportModel> ModelRows(const JobResults& results, const JobReport& r
     row.points = model.measures.points;
     row.observations = model.measures.observations;
     row.residual_px_mean = model.measures.residual_px_mean;
-    row.uncertainty = SummariseUncertainty(model.report.uncertainty, model.images);
+    row.uncertainty = SummariseUncertainty(
+        model.report.uncertainty, model.images, HeightsAreKnown(model, results.manifest));
     row.gnss = GnssRow(model.report.gnss);
   }
   for (const ReportImage& image : report.images) {

@@ -16,20 +16,22 @@ constexpr size_t kMaxWorst = 10;
 }  // namespace
 
 ReportUncertainty SummariseUncertainty(const UncertaintyReport& report,
-                                       const std::map<ImageId, RegisteredImage>& images) {
+                                       const std::map<ImageId, RegisteredImage>& images,
+                                       bool heights_are_known) {
   ReportUncertainty result{.known = report.known,
                            .reason = report.reason,
                            .held_image = report.held_image,
                            .held_distance_to = report.held_distance_to,
                            .bearing_sigma_factor = report.bearing_sigma_factor,
                            .horizontal_gnss_sigma_factor = report.horizontal_gnss_sigma_factor,
-                           .vertical_gnss_sigma_factor = report.vertical_gnss_sigma_factor};
+                           .vertical_gnss_sigma_factor = report.vertical_gnss_sigma_factor,
+                           .heights_are_known = heights_are_known};
   std::vector<double> positions;
   std::vector<double> rotations_deg;
   std::vector<std::pair<double, uint32_t>> by_sigma;
   for (const auto& [id, image] : images) {
     if (!image.uncertainty) continue;
-    positions.push_back(image.uncertainty->PositionSigma());
+    positions.push_back(result.PositionSigma(*image.uncertainty));
     rotations_deg.push_back(image.uncertainty->RotationSigma_deg());
     by_sigma.emplace_back(-positions.back(), id.value);
   }

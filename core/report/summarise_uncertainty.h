@@ -11,8 +11,11 @@
 namespace orbweave {
 
 /// The uncertainty of one model's poses for the report: median and 95 % quantile over its images,
-/// and the ten whose positions are least certain, worst first.
+/// and the ten whose positions are least certain, worst first. Heights that are not known would
+/// drown what is known along the ground.
 [[nodiscard]] ReportUncertainty SummariseUncertainty(
-    const UncertaintyReport& report, const std::map<ImageId, RegisteredImage>& images);
+    const UncertaintyReport& report,
+    const std::map<ImageId, RegisteredImage>& images,
+    bool heights_are_known);
 
 }  // namespace orbweave

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 
@@ -17,6 +18,13 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kMinStatedShare = 0.5;
+// Resultant lengths of headings in the world, and of the axis of travel as seen from them: headings
+// within 26 degrees (RMS) though the drive leads along and across them. Of 226 panoramas of a town
+// that were turned to the north 0.98 and 0.71; where a carrier holds the camera the second is 0.9
+// and more.
+constexpr double kMinHeadingLength = 0.9;
+constexpr double kMaxTravelLength = 0.8;
+constexpr size_t kMinMoves = 8;
 
 bool StatesTilt(const PosePrior& prior) { return prior.pitch_deg && prior.roll_deg; }
 
@@ -24,6 +32,42 @@ Eigen::Matrix3d LevelFromCamera(const PosePrior& prior) {
   const Eigen::Vector3d down =
       DownInCamera(kRadPerDeg * *prior.pitch_deg, kRadPerDeg * *prior.roll_deg);
   return RotationBetween(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
+}
+
+// Of the angles of vectors in the plane, `fold` of which count as one turn.
+class ResultantLength {
+ public:
+  explicit ResultantLength(double fold) : fold_(fold) {}
+
+  void Add(const Eigen::Vector2d& v) {
+    sum_ += std::polar(1.0, fold_ * std::atan2(v.y(), v.x()));
+    ++count_;
+  }
+  [[nodiscard]] double Get() const { return std::abs(sum_) / static_cast<double>(count_); }
+
+ private:
+  double fold_;
+  std::complex<double> sum_{};
+  size_t count_ = 0;
+};
+
+bool KeepsHeading(const DriveAttitudes& attitudes) {
+  Eigen::Vector3d down = Eigen::Vector3d::Zero();
+  for (const Eigen::Matrix3d& R : attitudes.level_from_world) down += R.row(1).transpose();
+  const Eigen::Matrix<double, 3, 2> ground = TangentBasis(down.stableNormalized());
+  ResultantLength headings(1.0);
+  ResultantLength ways(2.0);
+  size_t num_moves = 0;
+  for (size_t i = 0; i < attitudes.travel.size(); ++i) {
+    if (attitudes.travel[i].isZero(0.0)) continue;
+    const Eigen::Matrix3d& R = attitudes.level_from_world[i];
+    const Eigen::Vector3d in_camera = R * attitudes.travel[i];
+    headings.Add(ground.transpose() * R.row(2).transpose());
+    ways.Add({in_camera.z(), in_camera.x()});
+    ++num_moves;
+  }
+  return num_moves >= kMinMoves && headings.Get() >= kMinHeadingLength &&
+         ways.Get() <= kMaxTravelLength;
 }
 
 DriveAttitudes AttitudesOf(const Reconstruction& reconstruction,
@@ -55,6 +99,7 @@ DriveAttitudes AttitudesOf(const Reconstruction& reconstruction,
     sigma_deg = std::max(sigma_deg, prior.tilt_sigma_deg);
   }
   if (is_stated) attitudes.stated_sigma_rad = kRadPerDeg * sigma_deg;
+  attitudes.keeps_heading = KeepsHeading(attitudes);
   return attitudes;
 }
 

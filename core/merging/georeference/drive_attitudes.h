@@ -25,6 +25,10 @@ struct DriveAttitudes {
   std::vector<Eigen::Vector3d> travel{};  ///< unit, in the world; zero where it does not move
   /// Standard deviation of what is taken off, the largest of all; absent where nothing is.
   std::optional<double> stated_sigma_rad{};
+  /// They look the same way of the world wherever the drive goes (heading-locked, as panoramas are
+  /// that a program turned to the north): no mount that turns with its carrier holds them, so that
+  /// none makes all of them lean to one side.
+  bool keeps_heading = false;
   size_t num_registered = 0;
   size_t num_stating_both = 0;
   size_t num_stating_any = 0;

@@ -25,6 +25,8 @@ constexpr double kRoadSigma_rad = 0.02;
 // towns are built on.
 constexpr double kGroundSigma_rad = 0.05;
 constexpr double kLeastScatter_rad = 1e-3;
+// What turns panoramas to one heading, a program or somebody who looks, levels them as well.
+constexpr double kLevelledSigma_rad = 0.05;
 // A mount that leans on flat ground explains nearly all that neighbours lean alike, hills under an
 // upright one leave most of it; less than half may be either.
 constexpr double kExplainedShare = 0.15;
@@ -34,7 +36,8 @@ constexpr int kSteps = 30;
 
 // Of d_k about y, in any direction.
 double MountSigma_rad(const DriveAttitudes& drive) {
-  return drive.stated_sigma_rad.value_or(kMountSigma_rad);
+  return drive.stated_sigma_rad.value_or(drive.keeps_heading ? kLevelledSigma_rad
+                                                             : kMountSigma_rad);
 }
 
 // A drive's part of the cost with d_k eliminated:
@@ -44,6 +47,7 @@ struct DriveTerm {
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  // sum of W_i R_i
   Eigen::Matrix3d W = Eigen::Matrix3d::Zero();  // sum of W_i
   double u = 1.0;
+  bool is_of_mount = true;  // u
 
   [[nodiscard]] Eigen::Matrix3d InverseM() const {
     return (W + u * Eigen::Matrix3d::Identity()).inverse();
@@ -97,7 +101,7 @@ double SigmaOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down)
 // What would be known less if mounts leaned anyhow, as a share; of the direction known worst.
 double MountShare(std::vector<DriveTerm> terms, const Eigen::Vector3d& down) {
   const double sigma_rad = SigmaOf(terms, down);
-  for (DriveTerm& term : terms) term.u = 0.0;
+  for (DriveTerm& term : terms) term.u = term.is_of_mount ? 0.0 : term.u;
   return 1.0 - std::clamp(std::pow(sigma_rad / SigmaOf(terms, down), 2), 0.0, 1.0);
 }
 
@@ -171,7 +175,8 @@ class Estimate {
   Estimate(const std::vector<DriveAttitudes>& drives, const Eigen::Vector3d& start, bool on_hills)
       : drives_(drives), on_hills_(on_hills), down_(start) {
     for (const DriveAttitudes& drive : drives) {
-      terms_.push_back({.u = 1.0 / std::pow(MountSigma_rad(drive), 2)});
+      terms_.push_back(
+          {.u = 1.0 / std::pow(MountSigma_rad(drive), 2), .is_of_mount = !drive.keeps_heading});
       in_mount_.push_back(MeanDown(drive));
     }
   }
@@ -258,7 +263,7 @@ class Estimate {
     const double share_along = std::min(1.0, MostOfADrive(of_along) / sum_along);
     const double share_across = std::min(1.0, MostOfADrive(of_across) / sum_across);
     DriveTerm& term = terms_[k];
-    term = {.u = term.u};
+    term = {.u = term.u, .is_of_mount = term.is_of_mount};
     for (size_t i = 0; i < drives_[k].images.size(); ++i) {
       const Leaning leaning = LeaningOf(k, i);
       const double w_along = share_along * of_along.Weight(leaning.along);

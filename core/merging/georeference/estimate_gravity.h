@@ -56,7 +56,9 @@ struct Gravity {
 /// like a mount that leans: both are tried, a mount is taken where it leaves next to nothing that
 /// neighbours lean alike, and where it may be either the sigma has half of what lies between. Where
 /// enough of a drive's panoramas state pitch and roll (DriveAttitudes), R_i is that from the world
-/// into a level camera, and d_k is within their tilt_sigma_deg.
+/// into a level camera, and d_k is within their tilt_sigma_deg. Panoramas that keep their heading
+/// while the drive turns (DriveAttitudes::keeps_heading) were levelled by what turned them: their
+/// d_k is y within three degrees.
 ///
 /// nullopt where panoramas are not upright on average (FindGravity) or there are none.
 [[nodiscard]] std::optional<Gravity> EstimateGravity(const Reconstruction& reconstruction,

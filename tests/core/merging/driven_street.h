@@ -26,6 +26,7 @@ struct DriveOptions {
   double turn_share = 0.3;  ///< of the drive, in the middle, over which it turns; 1: an arc
   double sigma_m = 0.0;     ///< of GNSS, per axis
   Eigen::Quaterniond mount = Eigen::Quaterniond::Identity();  ///< from an upright camera
+  bool keeps_heading = false;  ///< cameras look east wherever the carrier goes
   double sway_rad = 0.0;
   double slope_rad = 0.0;   ///< of the steepest hill, up and down
   int hill_panoramas = 40;  ///< from one hill to the next
@@ -47,6 +48,10 @@ inline void AddDrive(const DriveOptions& options, Random& random, DrivenStreet& 
     upright.row(0) = right;
     upright.row(1) = forward.cross(right);
     upright.row(2) = forward;
+    if (options.keeps_heading) {
+      const double east = -heading;
+      upright *= RotationFromVector({0.0, 0.0, east}).toRotationMatrix().transpose();
+    }
     const Eigen::Vector3d sway(random.Normal(), random.Normal(), random.Normal());
     const Eigen::Vector3d noise(random.Normal(), random.Normal(), random.Normal());
     const ImageId id(static_cast<uint32_t>(street.manifest.images.size()));

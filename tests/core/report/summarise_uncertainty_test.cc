@@ -26,7 +26,7 @@ std::map<ImageId, RegisteredImage> SomeImages(uint32_t num_images) {
 
 TEST(SummariseUncertainty, HasMedianQuantileAndTheWorstFirst) {
   const ReportUncertainty summary = SummariseUncertainty(
-      {.known = true, .held_image = "a.jpg", .bearing_sigma_factor = 1.25}, SomeImages(20));
+      {.known = true, .held_image = "a.jpg", .bearing_sigma_factor = 1.25}, SomeImages(20), true);
   EXPECT_TRUE(summary.known);
   EXPECT_EQ(summary.held_image, "a.jpg");
   EXPECT_EQ(summary.bearing_sigma_factor, 1.25);
@@ -36,8 +36,19 @@ TEST(SummariseUncertainty, HasMedianQuantileAndTheWorstFirst) {
   EXPECT_THAT(summary.worst, ElementsAre(6, 13, 5, 12, 19, 4, 11, 18, 10, 17));
 }
 
+TEST(SummariseUncertainty, SpeaksOfTheGroundWhereNoHeightIsKnown) {
+  std::map<ImageId, RegisteredImage> images = SomeImages(20);
+  for (auto& [id, image] : images) {
+    if (image.uncertainty) image.uncertainty->position_covariance(2, 2) = 1e4 + id.value;
+  }
+  const ReportUncertainty summary = SummariseUncertainty({.known = true}, images, false);
+  EXPECT_DOUBLE_EQ(summary.position_median, 15.0);
+  EXPECT_THAT(summary.worst, ElementsAre(6, 13, 5, 12, 19, 4, 11, 18, 10, 17));
+  EXPECT_GT(SummariseUncertainty({.known = true}, images, true).position_median, 100.0);
+}
+
 TEST(SummariseUncertainty, AcceptsAModelThatKnowsNothing) {
-  const ReportUncertainty summary = SummariseUncertainty({.reason = "why"}, {});
+  const ReportUncertainty summary = SummariseUncertainty({.reason = "why"}, {}, true);
   EXPECT_FALSE(summary.known);
   EXPECT_EQ(summary.reason, "why");
   EXPECT_TRUE(summary.worst.empty());

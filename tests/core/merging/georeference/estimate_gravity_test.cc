@@ -44,6 +44,22 @@ TEST(EstimateGravity, OwnsThatItMayBeWrongOnAStraightStreet) {
   EXPECT_NEAR(gravity->mount_sigma_rad.at(0), kMountSigma_rad, 0.01);
 }
 
+TEST(EstimateGravity, TakesPanoramasThatKeepTheirHeadingForLevelled) {
+  const DrivenStreet street = Drive({.turn_rad = 1.6, .keeps_heading = true, .sway_rad = 0.03}, 2);
+  const std::optional<Gravity> gravity = EstimateGravity(street.model, street.manifest);
+  ASSERT_TRUE(gravity.has_value());
+  EXPECT_LT(AngleBetween(gravity->down_in_world, kDown), 0.02);
+  EXPECT_LT(gravity->sigma_rad, 0.6 * kMountSigma_rad);
+  EXPECT_LT(gravity->SigmaAt(0.2), 0.6 * kMountSigma_rad);  // no mount's doing
+}
+
+TEST(EstimateGravity, CannotTellWhoHoldsTheHeadingOfAStraightStreet) {
+  const DrivenStreet street = Drive({.keeps_heading = true, .sway_rad = 0.03}, 2);
+  const std::optional<Gravity> gravity = EstimateGravity(street.model, street.manifest);
+  ASSERT_TRUE(gravity.has_value());
+  EXPECT_NEAR(gravity->sigma_rad, kMountSigma_rad, 0.01);
+}
+
 TEST(EstimateGravity, TakesAwayWhatPitchAndRollSay) {
   DrivenStreet street = Drive({.mount = kLean, .sway_rad = 0.015}, 3);
   for (ImageRecord& image : street.manifest.images) {
