@@ -18,9 +18,9 @@
 #include "cli/stop_signals.h"
 #include "cli/surface_text.h"
 #include "core/io/file.h"
-#include "core/io/html_text.h"
+#include "core/io/gnss/reference_poses.h"
 #include "core/io/json_text.h"
-#include "core/io/reference_poses.h"
+#include "core/io/page/html_text.h"
 #include "core/synthetic/realistic_street.h"
 #include "core/synthetic/write_street.h"
 

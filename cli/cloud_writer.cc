@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/io/write_dense_ply.h"
+#include "core/io/points/write_dense_ply.h"
 
 namespace orbweave {
 namespace {

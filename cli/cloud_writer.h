@@ -8,8 +8,8 @@
 #include "core/artifacts/dense_records.h"
 #include "core/base/status.h"
 #include "core/dense/top_view.h"
-#include "core/io/utm_frame.h"
-#include "core/io/write_las.h"
+#include "core/io/gnss/utm_frame.h"
+#include "core/io/points/write_las.h"
 #include "core/report/dense_report.h"
 
 namespace orbweave {

@@ -9,7 +9,7 @@
 #include "cli/exit_code.h"
 #include "cli/fleet_argument.h"
 #include "cli/option_arguments.h"
-#include "core/io/scan_image_folder.h"
+#include "core/io/images/scan_image_folder.h"
 
 namespace orbweave {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/option_arguments.h"
 #include "cli/stop_signals.h"
 #include "core/base/status.h"
-#include "core/io/scan_image_folder.h"
+#include "core/io/images/scan_image_folder.h"
 #include "core/pipeline/coordinator_api.h"
 
 namespace orbweave {

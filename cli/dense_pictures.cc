@@ -10,7 +10,7 @@
 #include "core/drawing/draw_depth_map.h"
 #include "core/drawing/draw_top_view.h"
 #include "core/io/file.h"
-#include "core/io/place_picture.h"
+#include "core/io/page/place_picture.h"
 #include "stages/check_depths/stage.h"
 #include "stages/dense_codecs.h"
 

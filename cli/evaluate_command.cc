@@ -14,10 +14,10 @@
 #include "cli/surface_text.h"
 #include "core/estimators/compare_poses.h"
 #include "core/estimators/compare_with_claims.h"
-#include "core/io/camera_sigmas.h"
-#include "core/io/colmap_model.h"
+#include "core/io/colmap/colmap_model.h"
 #include "core/io/file.h"
-#include "core/io/reference_poses.h"
+#include "core/io/gnss/reference_poses.h"
+#include "core/io/images/camera_sigmas.h"
 
 namespace orbweave {
 namespace {

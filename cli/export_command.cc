@@ -15,7 +15,7 @@
 #include "cli/fetch_results.h"
 #include "cli/finished_job.h"
 #include "core/base/clock.h"
-#include "core/io/write_colmap_database.h"
+#include "core/io/colmap/write_colmap_database.h"
 
 namespace orbweave {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "coordinator/coordinator.h"
-#include "core/io/export_cube_faces.h"
+#include "core/io/cubes/export_cube_faces.h"
 
 namespace orbweave {
 

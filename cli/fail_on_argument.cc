@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/exit_code.h"
-#include "core/io/level_text.h"
+#include "core/io/page/level_text.h"
 
 namespace orbweave {
 

@@ -9,9 +9,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/io/first_names.h"
-#include "core/io/group_messages.h"
-#include "core/io/html_text.h"
-#include "core/io/level_text.h"
+#include "core/io/page/group_messages.h"
+#include "core/io/page/html_text.h"
+#include "core/io/page/level_text.h"
 #include "core/io/printable_text.h"
 
 namespace orbweave {

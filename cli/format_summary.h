@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 
 namespace orbweave {
 

@@ -8,7 +8,7 @@
 
 #include "cli/option_arguments.h"
 #include "cli/store_argument.h"
-#include "core/io/scan_image_folder.h"
+#include "core/io/images/scan_image_folder.h"
 
 namespace orbweave {
 

@@ -15,7 +15,7 @@
 #include "cli/inspected_job.h"
 #include "core/base/clock.h"
 #include "core/io/file.h"
-#include "core/io/find_image.h"
+#include "core/io/images/find_image.h"
 
 namespace orbweave {
 namespace {

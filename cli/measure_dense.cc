@@ -7,7 +7,7 @@
 #include "cli/run_local_job.h"
 #include "cli/write_dense.h"
 #include "core/io/file.h"
-#include "core/io/reference_poses.h"
+#include "core/io/gnss/reference_poses.h"
 #include "stages/codecs.h"
 #include "stages/dense_codecs.h"
 #include "stages/job_reader.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 #include "core/pipeline/coordinator_api.h"
 
 namespace orbweave {

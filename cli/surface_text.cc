@@ -11,7 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "core/base/quantile.h"
 #include "core/dense/evaluate_surface.h"
-#include "core/io/read_ply_points.h"
+#include "core/io/points/read_ply_points.h"
 
 namespace orbweave {
 namespace {

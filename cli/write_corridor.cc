@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "core/io/cameras_csv.h"
+#include "core/io/colmap/write_colmap_database.h"
 #include "core/io/file.h"
-#include "core/io/write_colmap_database.h"
+#include "core/io/page/cameras_csv.h"
 #include "core/synthetic/corridor.h"
 #include "core/synthetic/make_corridor.h"
 

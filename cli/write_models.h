@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/fetch_results.h"
-#include "core/io/colmap_model_writer.h"
-#include "core/io/write_ply.h"
+#include "core/io/colmap/colmap_model_writer.h"
+#include "core/io/points/write_ply.h"
 
 namespace orbweave {
 

@@ -11,7 +11,7 @@
 #include "absl/strings/str_split.h"
 #include "core/base/sleep.h"
 #include "core/base/status.h"
-#include "core/io/list_files.h"
+#include "core/io/images/list_files.h"
 #include "core/io/natural_order.h"
 #include "core/io/printable_text.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/file_place.h"
-#include "core/io/scan_image_folder.h"
+#include "core/io/images/file_place.h"
+#include "core/io/images/scan_image_folder.h"
 #include "objects/s3_store.h"
 
 namespace orbweave {

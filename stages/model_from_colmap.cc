@@ -10,7 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
-#include "core/io/match_names.h"
+#include "core/io/images/match_names.h"
 
 namespace orbweave {
 namespace {

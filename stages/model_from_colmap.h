@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/io/colmap_model.h"
+#include "core/io/colmap/colmap_model.h"
 #include "core/merging/finalise_adjustment.h"
 #include "core/partitioned_ba/subproblem.h"
 #include "core/scene/image_manifest.h"

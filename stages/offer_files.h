@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/stage_context.h"
-#include "core/io/scan_image_folder.h"
+#include "core/io/images/scan_image_folder.h"
 #include "core/pipeline/blob_depot.h"
 
 namespace orbweave {

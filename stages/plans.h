@@ -8,8 +8,8 @@
 
 #include "core/artifacts/adjustment_records.h"
 #include "core/artifacts/recipes.h"
-#include "core/io/cluster_table.h"
-#include "core/io/image_sources.h"
+#include "core/io/images/cluster_table.h"
+#include "core/io/images/image_sources.h"
 #include "core/pipeline/job_plan.h"
 #include "core/scene/features.h"
 #include "core/scene/image_manifest.h"

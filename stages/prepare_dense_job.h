@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/base/stage_context.h"
-#include "core/io/colmap_model.h"
-#include "core/io/scan_image_folder.h"
+#include "core/io/colmap/colmap_model.h"
+#include "core/io/images/scan_image_folder.h"
 #include "core/pipeline/blob_depot.h"
 #include "core/pipeline/job_api.h"
 #include "stages/pipeline_options.h"

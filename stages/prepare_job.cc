@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/graph/set_aside_far_pairs.h"
-#include "core/io/cluster_table.h"
+#include "core/io/colmap/read_colmap_database.h"
+#include "core/io/images/cluster_table.h"
 #include "core/io/printable_text.h"
-#include "core/io/read_colmap_database.h"
 #include "core/io/text_file.h"
 #include "stages/check_options_together.h"
 #include "stages/codecs.h"

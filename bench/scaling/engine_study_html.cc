@@ -10,8 +10,8 @@
 #include "absl/strings/str_format.h"
 #include "bench/scaling/engine_study_text.h"
 #include "bench/scaling/line_chart.h"
-#include "core/io/html_page.h"
-#include "core/io/html_text.h"
+#include "core/io/page/html_page.h"
+#include "core/io/page/html_text.h"
 
 namespace orbweave {
 namespace {

@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "bench/scaling/engine_study_text.h"
-#include "core/io/html_text.h"
+#include "core/io/page/html_text.h"
 
 namespace orbweave {
 namespace {

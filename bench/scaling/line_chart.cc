@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
-#include "core/io/html_text.h"
+#include "core/io/page/html_text.h"
 
 namespace orbweave {
 namespace {

@@ -9,8 +9,8 @@
 #include "bench/scaling/engine_study_html.h"
 #include "bench/scaling/line_chart.h"
 #include "bench/scaling/scaling_tables.h"
-#include "core/io/html_page.h"
-#include "core/io/html_text.h"
+#include "core/io/page/html_page.h"
+#include "core/io/page/html_text.h"
 
 namespace orbweave {
 namespace {

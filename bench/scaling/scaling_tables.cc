@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
-#include "core/io/html_page.h"
-#include "core/io/html_text.h"
+#include "core/io/page/html_page.h"
+#include "core/io/page/html_text.h"
 
 namespace orbweave {
 

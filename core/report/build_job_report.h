@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/artifacts/stage_results.h"
-#include "core/io/job_report.h"
-#include "core/io/measure_reconstruction.h"
+#include "core/io/page/job_report.h"
+#include "core/io/page/measure_reconstruction.h"
 #include "core/merging/alignment/align_submodels.h"
 #include "core/merging/alignment/review_seams.h"
 #include "core/merging/checks/certify_seams.h"

@@ -11,7 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/quantile.h"
-#include "core/io/group_messages.h"
+#include "core/io/page/group_messages.h"
 
 namespace orbweave {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/dense/tile_grid.h"
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {

@@ -7,11 +7,11 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "core/io/bar_chart.h"
-#include "core/io/html_page.h"
-#include "core/io/html_text.h"
-#include "core/io/report_charts.h"
-#include "core/io/report_tables.h"
+#include "core/io/page/bar_chart.h"
+#include "core/io/page/html_page.h"
+#include "core/io/page/html_text.h"
+#include "core/io/page/report_charts.h"
+#include "core/io/page/report_tables.h"
 
 namespace orbweave {
 namespace {

@@ -3,7 +3,7 @@
 #include "core/report/dense_report_json.h"
 
 #include "core/io/json_text.h"
-#include "core/io/report_json_rows.h"
+#include "core/io/page/report_json_rows.h"
 
 namespace orbweave {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/artifacts/stage_results.h"
-#include "core/io/measure_reconstruction.h"
+#include "core/io/page/measure_reconstruction.h"
 #include "core/mapping/cluster_reconstruction.h"
 #include "core/merging/alignment/alignment.h"
 #include "core/merging/alignment/review_seams.h"

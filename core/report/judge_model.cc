@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/io/group_messages.h"
+#include "core/io/page/group_messages.h"
 
 namespace orbweave {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
-#include "core/io/group_messages.h"
+#include "core/io/page/group_messages.h"
 #include "core/report/check_standing_camera.h"
 
 namespace orbweave {

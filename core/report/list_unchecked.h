@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 #include "core/report/job_results.h"
 
 namespace orbweave {

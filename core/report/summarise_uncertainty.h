@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 #include "core/partitioned_ba/global_options.h"
 #include "core/scene/reconstruction.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {

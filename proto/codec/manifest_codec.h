@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "core/base/status.h"
-#include "core/io/cluster_table.h"
-#include "core/io/image_sources.h"
+#include "core/io/images/cluster_table.h"
+#include "core/io/images/image_sources.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "absl/status/status.h"
-#include "core/io/geoid_heights.h"
+#include "core/io/gnss/geoid_heights.h"
 #include "core/scene/image_manifest.h"
 
 namespace orbweave {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "core/io/gnss_table.h"
-#include "core/io/image_sources.h"
+#include "core/io/gnss/gnss_table.h"
+#include "core/io/images/image_sources.h"
 
 namespace orbweave {
 

@@ -4,7 +4,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/base/stage_context.h"
-#include "core/io/image_sources.h"
+#include "core/io/images/image_sources.h"
 #include "core/scene/image_manifest.h"
 #include "stages/ingest_images/ingest_options.h"
 

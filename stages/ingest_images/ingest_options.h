@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/options.h"
-#include "core/io/geoid_heights.h"
+#include "core/io/gnss/geoid_heights.h"
 
 namespace orbweave {
 

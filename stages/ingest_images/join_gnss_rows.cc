@@ -8,7 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/io/first_names.h"
-#include "core/io/match_names.h"
+#include "core/io/images/match_names.h"
 #include "core/scene/local_frame.h"
 
 namespace orbweave {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/artifacts/recipes.h"
-#include "core/io/image_sources.h"
+#include "core/io/images/image_sources.h"
 #include "core/scene/image_manifest.h"
 #include "stages/stage.h"
 

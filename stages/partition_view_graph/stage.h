@@ -6,7 +6,7 @@
 
 #include "core/artifacts/recipes.h"
 #include "core/artifacts/stage_results.h"
-#include "core/io/cluster_table.h"
+#include "core/io/images/cluster_table.h"
 #include "core/merging/alignment/review_seams.h"
 #include "core/scene/features.h"
 #include "core/scene/image_manifest.h"

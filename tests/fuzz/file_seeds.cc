@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "coordinator/sqlite_journal.h"
-#include "core/io/colmap_model_writer.h"
+#include "core/io/colmap/colmap_model_writer.h"
+#include "core/io/colmap/write_colmap_database.h"
 #include "core/io/sqlite_connection.h"
-#include "core/io/write_colmap_database.h"
 #include "tests/fuzz/artifact_values.h"
 #include "tests/fuzz/round_trip.h"
 #include "tests/fuzz/seeds.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/io/gnss_table.h"
+#include "core/io/gnss/gnss_table.h"
 #include "tests/fuzz/round_trip.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

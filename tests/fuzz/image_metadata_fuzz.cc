@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/io/image_metadata.h"
+#include "core/io/images/image_metadata.h"
 #include "tests/fuzz/round_trip.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

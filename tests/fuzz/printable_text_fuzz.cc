@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/io/html_text.h"
+#include "core/io/page/html_text.h"
 #include "core/io/printable_text.h"
 #include "tests/fuzz/round_trip.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/io/reference_poses.h"
+#include "core/io/gnss/reference_poses.h"
 #include "tests/fuzz/round_trip.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "core/estimators/compare_poses.h"
-#include "core/io/colmap_model.h"
-#include "core/io/reference_poses.h"
+#include "core/io/colmap/colmap_model.h"
+#include "core/io/gnss/reference_poses.h"
 #include "tests/jobs/corridor_job.h"
 
 namespace orbweave::testing {

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/io/image_sources.h"
+#include "core/io/images/image_sources.h"
 #include "core/pipeline/job_plan.h"
 #include "proto/codec/adjustment_codec.h"
 #include "proto/codec/manifest_codec.h"

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "core/io/scan_image_folder.h"
+#include "core/io/images/scan_image_folder.h"
 #include "core/scene/local_frame.h"
 #include "core/scene/sequence_of_drive.h"
 #include "stages/ingest_images/count_from_ellipsoid.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/base/random.h"
-#include "core/io/job_report.h"
+#include "core/io/page/job_report.h"
 
 namespace orbweave {
 
