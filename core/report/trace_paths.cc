@@ -13,17 +13,13 @@
 
 #include "core/base/quantile.h"
 #include "core/scene/left_off.h"
+#include "core/scene/order_along_way.h"
 #include "core/scene/sequence_of_drive.h"
-#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
 
-constexpr size_t kFewestNearer = 3;
-constexpr size_t kMostNearer = 20;
-constexpr size_t kDisordered = 4;  // one of so many is not next to the next one
-constexpr double kStanding = 0.1;  // of a usual step, as in UsualStep
-constexpr size_t kSample = 500;    // images of a drive that are asked for all others
+constexpr size_t kSample = 500;  // images of a drive that are asked for all others
 
 /// The registered images of one drive in one model, in the order of the drive.
 struct Leg {
@@ -76,43 +72,12 @@ std::vector<size_t> SampleOf(size_t size) {
   return sample;
 }
 
-/// The places of a leg but those where the camera stood.
-std::vector<Eigen::Vector3d> MovingPlaces(const Leg& leg) {
-  const std::vector<PosePrior> positions = AsPositions(leg);
-  const double standing = kStanding * UsualStep(PointersTo(positions));
-  std::vector<Eigen::Vector3d> moving;
-  for (const Eigen::Vector3d& place : leg.places) {
-    if (moving.empty() || (place - moving.back()).norm() > standing) moving.push_back(place);
-  }
-  return moving;
-}
-
-/// Of the images of a drive, how many were asked, and how many the next one is not next to.
-struct Votes {
-  size_t asked = 0;
-  size_t against = 0;
-};
-
-void AskForOrder(const Leg& leg, Votes& votes) {
-  const std::vector<Eigen::Vector3d> places = MovingPlaces(leg);
-  const size_t many = std::clamp(places.size() / 4, kFewestNearer, kMostNearer);
-  for (const size_t i : SampleOf(places.size() - 1)) {
-    const double step = (places[i + 1] - places[i]).norm();
-    const auto within = static_cast<size_t>(std::ranges::count_if(
-        places, [&](const Eigen::Vector3d& place) { return (place - places[i]).norm() < step; }));
-    ++votes.asked;
-    votes.against += within > many ? 1 : 0;  // it counts itself
-  }
-}
-
 std::set<uint32_t> DrivesWithoutOrder(const ImageManifest& manifest, const std::vector<Leg>& legs) {
-  std::map<uint32_t, Votes> votes;
-  for (const Leg& leg : legs) AskForOrder(leg, votes[leg.drive]);
+  std::map<uint32_t, OrderVotes> votes;
+  for (const Leg& leg : legs) votes[leg.drive].Add(VoteOnOrder(leg.places));
   std::set<uint32_t> drives;
   for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    if (TimedAmong(manifest, sequence).empty() &&
-        kDisordered * votes[drive].against > votes[drive].asked)
-      drives.insert(drive);
+    if (TimedAmong(manifest, sequence).empty() && !votes[drive].AreInOrder()) drives.insert(drive);
   }
   return drives;
 }

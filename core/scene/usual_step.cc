@@ -28,15 +28,19 @@ double SigmaBetween(const PosePrior& a, const PosePrior& b) {
   return std::hypot(a.horizontal_sigma_m, b.horizontal_sigma_m);
 }
 
+double UsualStep(std::vector<double> steps) {
+  const double standing = kStanding * Quantile(steps, kHardlyAnyLonger);
+  std::erase_if(steps, [&](double step) { return step < standing; });
+  return Quantile(std::move(steps), 0.5);
+}
+
 double UsualStep(std::span<const PosePrior* const> sequence) {
   std::vector<double> steps;
   for (size_t i = 0; i + 1 < sequence.size(); ++i) {
     if (sequence[i]->position_in_enu && sequence[i + 1]->position_in_enu)
       steps.push_back(DistanceBetween(*sequence[i], *sequence[i + 1]));
   }
-  const double standing = kStanding * Quantile(steps, kHardlyAnyLonger);
-  std::erase_if(steps, [&](double step) { return step < standing; });
-  return Quantile(std::move(steps), 0.5);
+  return UsualStep(std::move(steps));
 }
 
 }  // namespace orbweave

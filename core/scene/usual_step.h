@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/scene/image_manifest.h"
 
@@ -14,8 +15,11 @@ namespace orbweave {
 /// Standard deviation of it, metres, of two independent positions.
 [[nodiscard]] double SigmaBetween(const PosePrior& a, const PosePrior& b);
 
+/// The usual one of the steps of a sequence: the median of those of a camera that does not stand.
+[[nodiscard]] double UsualStep(std::vector<double> steps);
+
 /// How far apart neighbours of a sequence, given by their priors in its order, are by GNSS, metres:
-/// the median of the steps of a camera that does not stand. 0 where no two have positions.
+/// the usual step. 0 where no two have positions.
 [[nodiscard]] double UsualStep(std::span<const PosePrior* const> sequence);
 
 }  // namespace orbweave

@@ -10,12 +10,14 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/registration/pair_witness.h"
 #include "core/scene/left_off.h"
+#include "core/scene/order_along_way.h"
 
 namespace orbweave {
 namespace {
@@ -34,13 +36,30 @@ bool Agrees(const MappingState& state, const LinkedPair& pair, double tolerance_
   return agreement.agreeing > kAgreeingPairShare * agreement.told;
 }
 
+/// Images of one drive: as they are, or along the way where they are in no order.
+void OrderDrive(const MappingState& state, std::span<ImageSlot> images) {
+  std::vector<Eigen::Vector3d> places;
+  for (const ImageSlot image : images) places.push_back(state.Centre(image));
+  if (VoteOnOrder(places).AreInOrder()) return;
+  const std::vector<ImageSlot> by_rank(images.begin(), images.end());
+  std::ranges::transform(
+      OrderAlongWay(places), images.begin(), [&](uint32_t i) { return by_rank[i]; });
+}
+
 /// Registered images drive by drive.
 std::vector<ImageSlot> ByDrives(const MappingState& state) {
   std::vector<ImageSlot> images = state.Registered();
   const auto& known = state.Problem().images;
+  const auto drive_of = [&](ImageSlot image) { return known[image].drive; };
   std::ranges::sort(images, {}, [&](ImageSlot image) {
-    return std::tuple(known[image].drive, known[image].rank_in_drive, known[image].id);
+    return std::tuple(drive_of(image), known[image].rank_in_drive, known[image].id);
   });
+  for (std::span<ImageSlot> left = images; !left.empty();) {
+    const auto end = std::ranges::upper_bound(left, drive_of(left.front()), {}, drive_of);
+    const auto count = static_cast<size_t>(end - left.begin());
+    OrderDrive(state, left.first(count));
+    left = left.subspan(count);
+  }
   return images;
 }
 

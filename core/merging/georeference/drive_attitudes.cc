@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <numbers>
 #include <utility>
 
 #include "core/geometry/rotation.h"
+#include "core/merging/georeference/drive_sequences.h"
 #include "core/merging/georeference/moves_along.h"
-#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -113,15 +114,13 @@ Eigen::Vector3d DownInCamera(double pitch_rad, double roll_rad) {
 
 std::vector<DriveAttitudes> AttitudesOfDrives(const Reconstruction& reconstruction,
                                               const ImageManifest& manifest) {
-  std::vector<DriveAttitudes> drives;
-  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    std::vector<ImageId> images;
-    for (const ImageId id : sequence) {
-      const auto image = reconstruction.images.find(id);
-      if (image != reconstruction.images.end() && !image->second.loose) images.push_back(id);
-    }
-    if (!images.empty()) drives.push_back(AttitudesOf(reconstruction, manifest, drive, images));
+  std::map<ImageId, Eigen::Vector3d> centres;
+  for (const auto& [id, image] : reconstruction.images) {
+    if (!image.loose) centres[id] = image.cam_from_world.Centre();
   }
+  std::vector<DriveAttitudes> drives;
+  for (const DriveSequence& sequence : DriveSequences(centres, manifest))
+    drives.push_back(AttitudesOf(reconstruction, manifest, sequence.drive, sequence.images));
   return drives;
 }
 

@@ -22,7 +22,9 @@ struct DriveAttitudes {
   uint32_t drive = 0;
   std::vector<ImageId> images{};
   std::vector<Eigen::Matrix3d> level_from_world{};  ///< of each of them
-  std::vector<Eigen::Vector3d> travel{};  ///< unit, in the world; zero where it does not move
+  /// Unit, in the world; zero where it does not move. Of drives in no order (DriveSequences) it may
+  /// be the other way.
+  std::vector<Eigen::Vector3d> travel{};
   /// Standard deviation of what is taken off, the largest of all; absent where nothing is.
   std::optional<double> stated_sigma_rad{};
   /// They look the same way of the world wherever the drive goes (heading-locked, as panoramas are

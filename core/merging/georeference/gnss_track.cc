@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "core/merging/georeference/drive_sequences.h"
 #include "core/merging/georeference/moves_along.h"
-#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 namespace {
@@ -51,25 +52,25 @@ void MeasureTravel(const ImageManifest& manifest, GnssDrive& drive) {
 
 std::vector<GnssDrive> GnssDrivesOf(const Reconstruction& reconstruction,
                                     const ImageManifest& manifest) {
+  std::map<ImageId, Eigen::Vector3d> centres;
+  for (const auto& [id, image] : reconstruction.images) {
+    if (!image.loose && manifest.At(id).prior.position_in_enu)
+      centres[id] = image.cam_from_world.Centre();
+  }
   std::vector<GnssDrive> drives;
-  for (const auto& [number, sequence] : SequenceOfDrives(manifest)) {
-    GnssDrive drive{.drive = number};
-    for (const ImageId id : sequence) {
-      const auto image = reconstruction.images.find(id);
+  for (const DriveSequence& sequence : DriveSequences(centres, manifest)) {
+    GnssDrive& drive = drives.emplace_back(GnssDrive{.drive = sequence.drive});
+    for (const ImageId id : sequence.images) {
       const PosePrior& prior = manifest.At(id).prior;
-      if (image == reconstruction.images.end() || image->second.loose) continue;
-      if (!prior.position_in_enu) continue;
       drive.fixes.push_back({.image = id,
-                             .centre_in_world = image->second.cam_from_world.Centre(),
+                             .centre_in_world = centres.at(id),
                              .position_in_enu = *prior.position_in_enu,
                              .horizontal_sigma_m = prior.horizontal_sigma_m,
                              .vertical_sigma_m = prior.vertical_sigma_m});
     }
-    if (drive.fixes.empty()) continue;
     drive.has_times = HasTimes(drive, manifest);
     MeasureWays(drive);
-    MeasureTravel(manifest, drive);
-    drives.push_back(std::move(drive));
+    if (!sequence.is_by_place) MeasureTravel(manifest, drive);
   }
   return drives;
 }

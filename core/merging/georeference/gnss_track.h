@@ -20,11 +20,11 @@ struct DrivenFix {
   double vertical_sigma_m = 1.0;
   double way = 0.0;  ///< from the first of its drive, along the model, world units
   /// Where the carrier goes, in the world: per second where the drive's times are known, else of
-  /// unit length; zero where it does not move.
+  /// unit length; zero where it does not move, and where that is not known.
   Eigen::Vector3d travel = Eigen::Vector3d::Zero();
 };
 
-/// The fixes of one drive, in the order in which they were taken (SequenceOfDrives).
+/// The fixes of one drive, one after the other (DriveSequences).
 struct GnssDrive {
   uint32_t drive = 0;
   bool has_times = false;

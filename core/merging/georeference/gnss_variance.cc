@@ -10,7 +10,7 @@
 
 #include "core/bundle/bundle_state.h"
 #include "core/bundle/variance_factors.h"
-#include "core/scene/sequence_of_drive.h"
+#include "core/merging/georeference/drive_sequences.h"
 
 namespace orbweave {
 namespace {
@@ -27,23 +27,23 @@ Runs CollectRuns(const GlobalProblem& problem,
                  const Eigen::Vector3d& factors,
                  const ImageManifest& manifest) {
   std::map<ImageId, const PositionPrior*> priors;
+  std::map<ImageId, Eigen::Vector3d> centres;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const PositionPrior& prior : problem.bundle.position_priors) {
     priors[problem.image_of_pose[prior.pose]] = &prior;
+    centres[problem.image_of_pose[prior.pose]] = state.poses[prior.pose].centre;
     middle += state.poses[prior.pose].centre;
   }
   middle /= static_cast<double>(priors.size());
   Runs result;
   double squares = 0.0;
-  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
+  for (const DriveSequence& sequence : DriveSequences(centres, manifest)) {
     MeasuredRun run;
     double way_m = 0.0;
     const PositionPrior* before = nullptr;
-    for (const ImageId id : sequence) {
-      const auto found = priors.find(id);
-      if (found == priors.end()) continue;
-      const PositionPrior& prior = *found->second;
-      const Eigen::Vector3d& centre = state.poses[prior.pose].centre;
+    for (const ImageId id : sequence.images) {
+      const PositionPrior& prior = *priors.at(id);
+      const Eigen::Vector3d& centre = centres.at(id);
       if (before != nullptr) way_m += (centre - state.poses[before->pose].centre).norm();
       before = &prior;
       Eigen::Vector3d residual = centre - prior.position_in_world;
