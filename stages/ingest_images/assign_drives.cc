@@ -21,6 +21,47 @@ using Sequence = std::vector<ImageId>;
 
 std::string FolderOf(const std::string& name) { return name.substr(0, name.rfind('/') + 1); }
 
+/// Per image of a folder, in order of names: of the table, if it has one.
+using Labels = std::vector<std::optional<std::string>>;
+
+/// Gives those between two of one label that label too, and as many at most before the first and
+/// behind the last of all.
+void LabelBetween(Labels& labels) {
+  const auto is_labelled = [](const auto& label) { return label.has_value(); };
+  const auto first = std::ranges::find_if(labels, is_labelled);
+  if (first == labels.end()) return;
+  std::ptrdiff_t longest = 0;
+  auto last = first;
+  for (auto next = first; next != labels.end(); ++next) {
+    if (!next->has_value()) continue;
+    if (*next == *last) {
+      longest = std::max(longest, next - last - 1);
+      std::fill(last, next, *last);
+    }
+    last = next;
+  }
+  if (first - labels.begin() <= longest) std::fill(labels.begin(), first, *first);
+  if (labels.end() - last - 1 <= longest) std::fill(last, labels.end(), *last);
+}
+
+/// Per image.
+Labels LabelsOf(std::span<const IngestCandidate> candidates, const ImageManifest& manifest) {
+  std::map<std::string, std::vector<size_t>> folders;
+  for (size_t i = 0; i < candidates.size(); ++i)
+    folders[FolderOf(manifest.images[i].name)].push_back(i);
+  Labels labels(candidates.size());
+  for (const auto& [folder, images] : folders) {
+    Labels of_folder;
+    for (const size_t i : images) {
+      const GnssRow* row = candidates[i].row;
+      of_folder.push_back(row == nullptr ? std::nullopt : row->drive);
+    }
+    LabelBetween(of_folder);
+    for (size_t k = 0; k < images.size(); ++k) labels[images[k]] = of_folder[k];
+  }
+  return labels;
+}
+
 /// Whether one of these folders has a picture that was taken between two of another.
 bool TimesOverlap(const std::map<std::string, Sequence>& folders, const ImageManifest& manifest) {
   std::vector<std::pair<double, double>> spans_s;
@@ -100,13 +141,11 @@ void SetCaptureTimes(std::span<const IngestCandidate> candidates, ImageManifest&
 void AssignDrives(std::span<const IngestCandidate> candidates,
                   double gap_s,
                   ImageManifest& manifest) {
+  const Labels labels = LabelsOf(candidates, manifest);
   std::map<std::string, Sequence> labelled;
   Sequence unlabelled;
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    const GnssRow* row = candidates[i].row;
-    (row != nullptr && row->drive ? labelled[*row->drive] : unlabelled)
-        .push_back(manifest.images[i].id);
-  }
+  for (size_t i = 0; i < candidates.size(); ++i)
+    (labels[i] ? labelled[*labels[i]] : unlabelled).push_back(manifest.images[i].id);
   std::vector<Sequence> groups;
   Sequence unsure;
   const auto order_of_group = [&](const TimeOrder& order) {

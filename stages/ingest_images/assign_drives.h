@@ -15,11 +15,13 @@ namespace orbweave {
 /// `candidates[i]` is images[i].
 void SetCaptureTimes(std::span<const IngestCandidate> candidates, ImageManifest& manifest);
 
-/// Numbers drives by their first image: one per label of the table's drive column. Images without a
-/// label are gone through in the order of OrderByTime, and a pause of more than `gap_s` between two
-/// of them begins a new drive. Where the times of two folders overlap, two cameras were on the way
-/// at once: then every folder is gone through by itself. Images whose place neither times nor names
-/// tell become a warning.
+/// Numbers drives by their first image: one per label of the table's drive column. A table need not
+/// have a row for every image: of those of a folder, by name, that have no label the ones between
+/// two images of one label are of that drive, and so are as many at most before its first and
+/// behind its last. Other images without a label are gone through in the order of OrderByTime, and
+/// a pause of more than `gap_s` between two of them begins a new drive. Where the times of two
+/// folders overlap, two cameras were on the way at once: then every folder is gone through by
+/// itself. Images whose place neither times nor names tell become a warning.
 void AssignDrives(std::span<const IngestCandidate> candidates,
                   double gap_s,
                   ImageManifest& manifest);

@@ -201,6 +201,19 @@ std::vector<uint32_t> DrivesOf(const ImageManifest& manifest) {
   return drives;
 }
 
+TEST(IngestImages, TheTableNeedNotHaveARowForEveryImageOfADrive) {
+  ImageSources sources = GoodSources(10);
+  sources.gnss_name = "gnss.csv";
+  sources.gnss_text =
+      "name,x,y,z,drive\nimg1.jpg,0,0,0,west\nimg3.jpg,1,0,0,west\nimg6.jpg,2,0,0,east\n"
+      "img8.jpg,3,0,0,east\n";
+  // Between two drives nothing tells of which an image is.
+  EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 0, 0, 0, 1, 1, 2, 2, 2, 2));
+  sources.gnss_text = "name,x,y,z,drive\nimg3.jpg,0,0,0,west\nimg5.jpg,1,0,0,west\n";
+  // Others may be of a drive that the table has nothing of.
+  EXPECT_THAT(DrivesOf(Ingest(sources)), ElementsAre(0, 0, 0, 1, 1, 1, 0, 0, 0, 0));
+}
+
 TEST(IngestImages, FindsDrivesByTimeWhereNamesAreInAnotherOrder) {
   // Two drives a day apart, whose pictures are named by chance.
   ImageSources sources = GoodSources(6);
