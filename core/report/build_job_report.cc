@@ -14,6 +14,7 @@
 #include "core/report/check_look_alikes.h"
 #include "core/report/check_pairs.h"
 #include "core/report/check_standing_camera.h"
+#include "core/report/check_stretches.h"
 #include "core/report/check_told_steps.h"
 #include "core/report/judge_model.h"
 #include "core/report/list_missing_images.h"
@@ -313,6 +314,7 @@ JobReport BuildJobReport(const JobResults& results) {
   report.checks.push_back(CheckPairs(results));
   report.checks.push_back(CheckLengths(results));
   report.checks.push_back(CheckToldSteps(results));
+  report.checks.push_back(CheckStretches(results));
   if (std::optional<CrossCheck> standing = CheckStandingCamera(results, report.images))
     report.checks.push_back(*std::move(standing));
   report.checks.push_back(CheckLookAlikes(results));
