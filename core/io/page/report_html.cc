@@ -58,11 +58,16 @@ std::string Cards(const JobReport& report) {
   }
   if (report.uncertainty.known) {
     const std::string relative = RelativePrecisionText(report);
-    cards += Card(
-        SigmaText(report.uncertainty.position_median),
-        report.gnss.used ? "m" : "units",
-        (relative.empty() ? "median position sigma" : "median position sigma: " + relative) + "; " +
-            SigmaText(report.uncertainty.rotation_median_deg) + "° of rotation" + of_model);
+    cards += Card(SigmaText(report.uncertainty.position_median),
+                  report.gnss.used ? "m" : "units",
+                  absl::StrCat("median position sigma",
+                               report.uncertainty.heights_are_known ? "" : " along the ground",
+                               relative.empty() ? "" : ": ",
+                               relative,
+                               "; ",
+                               SigmaText(report.uncertainty.rotation_median_deg),
+                               "° of rotation",
+                               of_model));
   }
   return "<div class=\"cards\">" + cards + "</div>\n";
 }
