@@ -7,15 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/merging/georeference/drive_sequences.h"
-#include "core/scene/usual_step.h"
+#include "core/merging/georeference/gnss_track.h"
 
 namespace orbweave {
 namespace {
@@ -24,19 +22,6 @@ constexpr size_t kFewest = 4;
 constexpr double kOtherScale = 1.5;
 constexpr double kSigmas = 3.0;
 constexpr double kAsStraight = 4.0 / 3.0;
-
-/// A way from the first place to the last.
-struct Way {
-  double across = 0.0;  ///< distance of the two
-  double along = 0.0;
-
-  void Add(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    along += (to - from).head<2>().norm();
-  }
-  [[nodiscard]] bool IsAsStraightAs(const Way& other) const {
-    return along * other.across <= kAsStraight * other.along * across;
-  }
-};
 
 /// A stretch that GNSS has of another length.
 struct Stretch {
@@ -49,27 +34,29 @@ struct Stretch {
   }
 };
 
-std::optional<Stretch> AskStretch(std::span<const ImageId> images,
-                                  const std::map<ImageId, Eigen::Vector3d>& places,
-                                  const ImageManifest& manifest) {
-  if (images.size() < kFewest) return std::nullopt;
-  const auto prior = [&](ImageId id) -> const PosePrior& { return manifest.At(id).prior; };
-  const auto distance = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return (a - b).head<2>().norm();
+std::optional<Stretch> AskStretch(std::span<const DrivenFix> fixes) {
+  if (fixes.size() < kFewest) return std::nullopt;
+  const auto by_gnss = [](const DrivenFix& a, const DrivenFix& b) {
+    return (a.position_in_enu - b.position_in_enu).head<2>().norm();
   };
-  const ImageId first = images.front();
-  const ImageId last = images.back();
-  Way model{.across = distance(places.at(first), places.at(last))};
-  Way gnss{.across = DistanceBetween(prior(first), prior(last))};
-  for (size_t i = 0; i + 1 < images.size(); ++i) {
-    model.Add(places.at(images[i]), places.at(images[i + 1]));
-    gnss.Add(*prior(images[i]).position_in_enu, *prior(images[i + 1]).position_in_enu);
+  const auto in_model = [](const DrivenFix& a, const DrivenFix& b) {
+    return (a.centre_in_world - b.centre_in_world).head<2>().norm();
+  };
+  const DrivenFix& first = fixes.front();
+  const DrivenFix& last = fixes.back();
+  Stretch stretch{.in_model_m = in_model(first, last), .by_gnss_m = by_gnss(first, last)};
+  double along_model_m = 0.0;
+  double along_gnss_m = 0.0;
+  for (size_t i = 0; i + 1 < fixes.size(); ++i) {
+    along_model_m += in_model(fixes[i], fixes[i + 1]);
+    along_gnss_m += by_gnss(fixes[i], fixes[i + 1]);
   }
-  const Stretch stretch{{images.begin(), images.end()}, model.across, gnss.across};
-  const bool differs =
-      std::abs(gnss.across - model.across) > kSigmas * SigmaBetween(prior(first), prior(last));
-  if (!differs || stretch.Factor() < kOtherScale || !gnss.IsAsStraightAs(model))
-    return std::nullopt;
+  const double sigma_m = std::hypot(first.horizontal_sigma_m, last.horizontal_sigma_m);
+  const bool differs = std::abs(stretch.by_gnss_m - stretch.in_model_m) > kSigmas * sigma_m;
+  const bool is_as_straight =
+      along_gnss_m * stretch.in_model_m <= kAsStraight * along_model_m * stretch.by_gnss_m;
+  if (!differs || stretch.Factor() < kOtherScale || !is_as_straight) return std::nullopt;
+  for (const DrivenFix& fix : fixes) stretch.images.push_back(fix.image);
   return stretch;
 }
 
@@ -77,18 +64,13 @@ std::optional<Stretch> AskStretch(std::span<const ImageId> images,
 std::vector<Stretch> StretchesOf(const AdjustedModel& model, const ImageManifest& manifest) {
   const GnssReport& gnss = model.report.gnss;
   const std::set<std::string> contradicted(gnss.outliers.begin(), gnss.outliers.end());
-  std::map<ImageId, Eigen::Vector3d> places;
-  for (const auto& [id, image] : model.images) {
-    if (!image.loose && manifest.At(id).prior.position_in_enu)
-      places[id] = image.cam_from_world.Centre();
-  }
   std::vector<Stretch> stretches;
-  for (const DriveSequence& sequence : DriveSequences(places, manifest)) {
-    const std::span<const ImageId> images = sequence.images;
+  for (const GnssDrive& drive : GnssDrivesOf({.images = model.images}, manifest)) {
+    const std::span<const DrivenFix> fixes = drive.fixes;
     size_t first = 0;
-    for (size_t i = 0; i <= images.size(); ++i) {
-      if (i < images.size() && contradicted.contains(manifest.At(images[i]).name)) continue;
-      if (auto stretch = AskStretch(images.subspan(first, i - first), places, manifest))
+    for (size_t i = 0; i <= fixes.size(); ++i) {
+      if (i < fixes.size() && contradicted.contains(manifest.At(fixes[i].image).name)) continue;
+      if (auto stretch = AskStretch(fixes.subspan(first, i - first)))
         stretches.push_back(*std::move(stretch));
       first = i + 1;
     }

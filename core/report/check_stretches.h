@@ -13,7 +13,7 @@ namespace orbweave {
 /// half as long again or less than two thirds, it is the model that may have it of another scale: a
 /// street that hardly a point holds to the rest, whose positions, all together, count as outliers.
 ///
-/// Asked are runs of four contradicted panoramas or more in a row (DriveSequences), by the distance
+/// Asked are runs of four contradicted panoramas or more in a row (GnssDrivesOf), by the distance
 /// of the first from the last: it has to differ by three standard deviations of the stated
 /// positions, and by the factor; and GNSS has to go as straight as the model within a third, which
 /// positions that are each off in their own way do not. Of a town's side street of seven panoramas

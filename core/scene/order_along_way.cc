@@ -210,4 +210,9 @@ std::vector<uint32_t> OrderAlongWay(std::span<const Eigen::Vector3d> places) {
   return order;
 }
 
+std::optional<std::vector<uint32_t>> OrderIfInNone(std::span<const Eigen::Vector3d> places) {
+  if (VoteOnOrder(places).AreInOrder()) return std::nullopt;
+  return OrderAlongWay(places);
+}
+
 }  // namespace orbweave

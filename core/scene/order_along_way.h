@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,5 +36,9 @@ struct OrderVotes {
 /// at that of its two ends which comes first. Places one after the other may still be far apart,
 /// where the street forks. n log n.
 [[nodiscard]] std::vector<uint32_t> OrderAlongWay(std::span<const Eigen::Vector3d> places);
+
+/// That order where the given one is none (VoteOnOrder); nullopt where it may stay.
+[[nodiscard]] std::optional<std::vector<uint32_t>> OrderIfInNone(
+    std::span<const Eigen::Vector3d> places);
 
 }  // namespace orbweave

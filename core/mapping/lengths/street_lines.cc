@@ -40,10 +40,10 @@ bool Agrees(const MappingState& state, const LinkedPair& pair, double tolerance_
 void OrderDrive(const MappingState& state, std::span<ImageSlot> images) {
   std::vector<Eigen::Vector3d> places;
   for (const ImageSlot image : images) places.push_back(state.Centre(image));
-  if (VoteOnOrder(places).AreInOrder()) return;
+  const auto order = OrderIfInNone(places);
+  if (!order) return;
   const std::vector<ImageSlot> by_rank(images.begin(), images.end());
-  std::ranges::transform(
-      OrderAlongWay(places), images.begin(), [&](uint32_t i) { return by_rank[i]; });
+  std::ranges::transform(*order, images.begin(), [&](uint32_t i) { return by_rank[i]; });
 }
 
 /// Registered images drive by drive.

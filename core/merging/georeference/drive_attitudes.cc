@@ -35,40 +35,29 @@ Eigen::Matrix3d LevelFromCamera(const PosePrior& prior) {
   return RotationBetween(down, Eigen::Vector3d::UnitY()).toRotationMatrix();
 }
 
-// Of the angles of vectors in the plane, `fold` of which count as one turn.
-class ResultantLength {
- public:
-  explicit ResultantLength(double fold) : fold_(fold) {}
-
-  void Add(const Eigen::Vector2d& v) {
-    sum_ += std::polar(1.0, fold_ * std::atan2(v.y(), v.x()));
-    ++count_;
-  }
-  [[nodiscard]] double Get() const { return std::abs(sum_) / static_cast<double>(count_); }
-
- private:
-  double fold_;
-  std::complex<double> sum_{};
-  size_t count_ = 0;
-};
+// The direction of a vector in the plane, `fold` directions counting as one, to be summed up.
+std::complex<double> DirectionOf(const Eigen::Vector2d& v, double fold) {
+  return std::polar(1.0, fold * std::atan2(v.y(), v.x()));
+}
 
 bool KeepsHeading(const DriveAttitudes& attitudes) {
   Eigen::Vector3d down = Eigen::Vector3d::Zero();
   for (const Eigen::Matrix3d& R : attitudes.level_from_world) down += R.row(1).transpose();
   const Eigen::Matrix<double, 3, 2> ground = TangentBasis(down.stableNormalized());
-  ResultantLength headings(1.0);
-  ResultantLength ways(2.0);
+  std::complex<double> headings;
+  std::complex<double> ways;
   size_t num_moves = 0;
   for (size_t i = 0; i < attitudes.travel.size(); ++i) {
     if (attitudes.travel[i].isZero(0.0)) continue;
     const Eigen::Matrix3d& R = attitudes.level_from_world[i];
     const Eigen::Vector3d in_camera = R * attitudes.travel[i];
-    headings.Add(ground.transpose() * R.row(2).transpose());
-    ways.Add({in_camera.z(), in_camera.x()});
+    headings += DirectionOf(ground.transpose() * R.row(2).transpose(), 1.0);
+    ways += DirectionOf({in_camera.z(), in_camera.x()}, 2.0);
     ++num_moves;
   }
-  return num_moves >= kMinMoves && headings.Get() >= kMinHeadingLength &&
-         ways.Get() <= kMaxTravelLength;
+  const auto n = static_cast<double>(num_moves);
+  return num_moves >= kMinMoves && std::abs(headings) / n >= kMinHeadingLength &&
+         std::abs(ways) / n <= kMaxTravelLength;
 }
 
 DriveAttitudes AttitudesOf(const Reconstruction& reconstruction,

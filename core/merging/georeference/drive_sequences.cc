@@ -14,10 +14,11 @@ namespace {
 void OrderByPlace(const std::map<ImageId, Eigen::Vector3d>& places, DriveSequence& sequence) {
   std::vector<Eigen::Vector3d> in_order;
   for (const ImageId id : sequence.images) in_order.push_back(places.at(id));
-  if (VoteOnOrder(in_order).AreInOrder()) return;
+  const auto order = OrderIfInNone(in_order);
+  if (!order) return;
   sequence.is_by_place = true;
   const std::vector<ImageId> by_name = std::exchange(sequence.images, {});
-  for (const uint32_t i : OrderAlongWay(in_order)) sequence.images.push_back(by_name[i]);
+  for (const uint32_t i : *order) sequence.images.push_back(by_name[i]);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct DriveSequence {
   uint32_t drive = 0;
   std::vector<ImageId> images{};
   /// Neither times nor names tell the order; it is that of the way which the places make
-  /// (OrderAlongWay), and in which direction the carrier went is not known.
+  /// (OrderIfInNone), and in which direction the carrier went is not known.
   bool is_by_place = false;
 };
 

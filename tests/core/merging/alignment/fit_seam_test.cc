@@ -5,32 +5,18 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/merging/split_world.h"
+#include "tests/core/merging/alignment/seam_world.h"
 
 namespace orbweave {
 namespace {
 
+using testing::MakeSeam;
+using testing::SeamWorld;
+
 constexpr double kMaxError = 8.0;
 
-struct SeamWorld {
-  SeamEvidence evidence{};
-  Sim3 a_from_b{};
-};
-
-SeamWorld MakeSeam(double noise_m, uint64_t seed) {
-  Random random(seed);
-  const auto world = testing::Split(
-      testing::MakeStreet(testing::StraightLine(20, 2.0), random), 2, 6, 14, noise_m, random);
-  const Reconstruction& a = world.submodels[0].reconstruction;
-  const Reconstruction& b = world.submodels[1].reconstruction;
-  const auto index_a = IndexFeatures(a);
-  const CommonView view = FindCommonView(a, index_a, b, IndexFeatures(b));
-  return {GatherSeamEvidence(a, index_a, b, view),
-          world.submodel_from_street[0] * world.submodel_from_street[1].Inverse()};
-}
-
 TEST(FitSeam, RecoversTheSimilarity) {
-  const SeamWorld seam = MakeSeam(0.0, 1);
+  const SeamWorld seam = MakeSeam(20, 0.0, 1);
   const SeamFit fit = FitSeam(seam.evidence, kMaxError);
   EXPECT_LT(fit.chart.Of(seam.a_from_b).norm(), 1e-3);
   EXPECT_EQ(fit.inlier_tracks, seam.evidence.tracks.size());
@@ -40,7 +26,7 @@ TEST(FitSeam, RecoversTheSimilarity) {
 
 TEST(FitSeam, StatesItsErrorWithinItsCovariance) {
   for (uint64_t seed = 2; seed < 8; ++seed) {
-    const SeamWorld seam = MakeSeam(0.005, seed);
+    const SeamWorld seam = MakeSeam(20, 0.005, seed);
     const SeamFit fit = FitSeam(seam.evidence, kMaxError);
     const Vector7d error = fit.chart.Of(seam.a_from_b);
     EXPECT_LT(error.dot(fit.covariance.inverse() * error), 40.0);
@@ -48,7 +34,7 @@ TEST(FitSeam, StatesItsErrorWithinItsCovariance) {
 }
 
 TEST(FitSeam, FixesTheRollOfAStraightStreetByTracksAlone) {
-  SeamWorld seam = MakeSeam(0.0, 9);
+  SeamWorld seam = MakeSeam(20, 0.0, 9);
   Random random(10);
   for (size_t c = 1; c < seam.evidence.cameras.size(); ++c) {  // rotations are wrong but for one
     SeamCamera& camera = seam.evidence.cameras[c];
@@ -59,13 +45,13 @@ TEST(FitSeam, FixesTheRollOfAStraightStreetByTracksAlone) {
 }
 
 TEST(FitSeam, FindsTheScaleOfASingleCommonImageFromDistances) {
-  SeamWorld seam = MakeSeam(0.0, 11);
+  SeamWorld seam = MakeSeam(20, 0.0, 11);
   seam.evidence.cameras.resize(1);
   EXPECT_LT(FitSeam(seam.evidence, kMaxError).chart.Of(seam.a_from_b).norm(), 1e-2);
 }
 
 TEST(FitSeam, HoldsAgainstSixtyPercentWrongTracks) {
-  SeamWorld seam = MakeSeam(0.0, 12);
+  SeamWorld seam = MakeSeam(20, 0.0, 12);
   Random random(13);
   const size_t num_wrong = seam.evidence.tracks.size() * 6 / 10;
   for (size_t t = 0; t < num_wrong; ++t) {
@@ -79,7 +65,7 @@ TEST(FitSeam, HoldsAgainstSixtyPercentWrongTracks) {
 }
 
 TEST(FitSeam, AdmitsThatASingleImageAloneHasNoScale) {
-  SeamWorld seam = MakeSeam(0.0, 14);
+  SeamWorld seam = MakeSeam(20, 0.0, 14);
   seam.evidence.cameras.resize(1);
   seam.evidence.tracks.clear();
   EXPECT_GT(FitSeam(seam.evidence, kMaxError).condition_number, 1e12);

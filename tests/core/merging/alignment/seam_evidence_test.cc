@@ -5,28 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/merging/split_world.h"
+#include "tests/core/merging/alignment/seam_world.h"
 #include "tests/support/numeric_jacobian.h"
 
 namespace orbweave {
 namespace {
 
-struct SeamWorld {
-  SeamEvidence evidence{};
-  Sim3 a_from_b{};
-};
-
-SeamWorld MakeSeam(double noise_m, uint64_t seed) {
-  Random random(seed);
-  const auto world = testing::Split(
-      testing::MakeStreet(testing::StraightLine(16, 2.0), random), 2, 6, 10, noise_m, random);
-  const Reconstruction& a = world.submodels[0].reconstruction;
-  const Reconstruction& b = world.submodels[1].reconstruction;
-  const auto index_a = IndexFeatures(a);
-  const CommonView view = FindCommonView(a, index_a, b, IndexFeatures(b));
-  return {GatherSeamEvidence(a, index_a, b, view),
-          world.submodel_from_street[0] * world.submodel_from_street[1].Inverse()};
-}
+using testing::MakeSeam;
+using testing::SeamWorld;
 
 SimilarityChart ChartNear(const Sim3& a_from_b, Random& random) {
   SimilarityChart chart{.a_from_b = a_from_b,
@@ -51,7 +37,7 @@ auto CostAt(const SimilarityChart& chart, const Add& add) {
 }
 
 TEST(SeamEvidence, AgreesWithTheTrueSimilarity) {
-  const SeamWorld seam = MakeSeam(0.0, 1);
+  const SeamWorld seam = MakeSeam(16, 0.0, 1);
   ASSERT_GT(seam.evidence.tracks.size(), 50U);
   ASSERT_EQ(seam.evidence.cameras.size(), 4U);
   for (const SeamTrack& track : seam.evidence.tracks)
@@ -62,7 +48,7 @@ TEST(SeamEvidence, AgreesWithTheTrueSimilarity) {
 }
 
 TEST(SeamEvidence, HasTheGradientOfItsTracks) {
-  const SeamWorld seam = MakeSeam(0.01, 2);
+  const SeamWorld seam = MakeSeam(16, 0.01, 2);
   Random random(3);
   const CauchyLoss loss(3.0);
   for (size_t t = 0; t < 10; ++t) {
@@ -79,7 +65,7 @@ TEST(SeamEvidence, HasTheGradientOfItsTracks) {
 }
 
 TEST(SeamEvidence, HasTheGradientOfItsCameras) {
-  const SeamWorld seam = MakeSeam(0.01, 4);
+  const SeamWorld seam = MakeSeam(16, 0.01, 4);
   Random random(5);
   const CauchyLoss loss(3.0);
   for (const SeamCamera& camera : seam.evidence.cameras) {
@@ -96,7 +82,7 @@ TEST(SeamEvidence, HasTheGradientOfItsCameras) {
 }
 
 TEST(SeamEvidence, ForgivesAWrongObserver) {
-  const SeamWorld seam = MakeSeam(0.0, 6);
+  const SeamWorld seam = MakeSeam(16, 0.0, 6);
   SeamTrack track = seam.evidence.tracks.front();
   const double before = TrackError(track, seam.a_from_b);
   track.sightings.front().bearing *= -1.0;
