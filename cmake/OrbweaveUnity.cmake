@@ -1,8 +1,8 @@
-# A build from nothing spends most of the time of a test file, and of a command, on headers and templates that its
-# neighbours need as well. With this option files of one target are compiled several at a time; names of
+# A build from nothing spends most of the time of a test file, a command or a service on headers and templates that
+# its neighbours need as well. With this option files of one target are compiled several at a time; names of
 # files and lines in messages stay. The change of one then costs its neighbours too: the preset `dev` does without.
-# What computes is always compiled file by file, so that what the compiler folds never depends on the option.
-option(ORBWEAVE_UNITY "Compile files of a test program, and commands, several at a time" OFF)
+# What computes (core) is always compiled file by file, so that what the compiler folds never depends on the option.
+option(ORBWEAVE_UNITY "Compile files of what is not core several at a time" OFF)
 
 # orbweave_defined_names(RESULT FILE): what a file defines for itself (in its unnamed namespace) outside functions and
 # classes, that is what its lines without indentation name there before the first bracket, brace, `=` or `;`.
@@ -83,4 +83,6 @@ function(orbweave_compile_together target size)
     endif()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # g++ takes a file that another includes for a header, whose classes may not have what its unnamed namespace has.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()

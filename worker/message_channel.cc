@@ -26,7 +26,7 @@ struct Header {
 /// More than any message of ours; a header beyond it is none.
 constexpr uint64_t kMostBytes = uint64_t{1} << 30;
 /// Memory is taken as bytes come, so much at a time: a header alone is no reason to.
-constexpr size_t kPieceBytes = size_t{1} << 20;
+constexpr size_t kReceivedPieceBytes = size_t{1} << 20;
 
 union ControlBuffer {
   cmsghdr alignment;
@@ -123,7 +123,7 @@ absl::Status MessageChannel::ReceiveAll(void* bytes, size_t size) {
 absl::StatusOr<std::string> MessageChannel::ReceiveText(size_t size) {
   std::string text;
   while (text.size() < size) {
-    const size_t piece = std::min(size - text.size(), kPieceBytes);
+    const size_t piece = std::min(size - text.size(), kReceivedPieceBytes);
     text.resize(text.size() + piece);
     ORBWEAVE_RETURN_IF_ERROR(ReceiveAll(text.data() + text.size() - piece, piece));
   }
