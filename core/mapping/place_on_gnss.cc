@@ -58,7 +58,12 @@ double MeanHeightOffset(const Stations& stations, double scale) {
 }  // namespace
 
 std::vector<ImageSlot> ImagesNear(const MappingState& state, const Vector3d& place) {
-  std::vector<ImageSlot> images = state.Registered();
+  return ImagesNear(state, place, state.Registered());
+}
+
+std::vector<ImageSlot> ImagesNear(const MappingState& state,
+                                  const Vector3d& place,
+                                  std::vector<ImageSlot> images) {
   std::sort(images.begin(), images.end(), [&](ImageSlot x, ImageSlot y) {
     return std::tuple((state.Centre(x) - place).squaredNorm(), x) <
            std::tuple((state.Centre(y) - place).squaredNorm(), y);

@@ -11,10 +11,14 @@
 
 namespace orbweave {
 
-/// The registered images nearest to `place`, 30 at most, ascending: so many that GNSS carries the
-/// scale, and so few that drift along the street does not matter, nor a fold elsewhere.
+/// The registered images, or those of `images`, that are nearest to `place`, 30 at most,
+/// ascending: so many that GNSS carries the scale, and so few that drift along the street does not
+/// matter, nor a fold elsewhere.
 [[nodiscard]] std::vector<ImageSlot> ImagesNear(const MappingState& state,
                                                 const Eigen::Vector3d& place);
+[[nodiscard]] std::vector<ImageSlot> ImagesNear(const MappingState& state,
+                                                const Eigen::Vector3d& place,
+                                                std::vector<ImageSlot> images);
 
 /// Where a submodel stands by the GNSS of some of its images, as far as that is needed to tell
 /// which way the street goes on from there: the similarity to east, north, up that keeps the

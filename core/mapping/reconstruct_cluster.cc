@@ -10,6 +10,7 @@
 
 #include "core/bundle/bearing_error.h"
 #include "core/mapping/adapt_to_parallax.h"
+#include "core/mapping/cut_at_hinges.h"
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/find_small_motions.h"
@@ -71,7 +72,15 @@ void SortLargestFirst(std::vector<Reconstruction>& submodels) {
       });
 }
 
-/// Grows submodels until no images are left, then joins those that bridges hold together.
+std::vector<MappingState> CutAll(std::vector<MappingState> states, const MappingOptions& options) {
+  std::vector<MappingState> cut;
+  for (MappingState& state : states)
+    std::ranges::move(CutAtHinges(std::move(state), options), std::back_inserter(cut));
+  return cut;
+}
+
+/// Grows submodels until no images are left, cuts off what hangs elsewhere than GNSS has it, then
+/// joins those that bridges hold together.
 absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& problem,
                                                        const CorrespondenceGraph& graph,
                                                        const MappingOptions& options,
@@ -99,6 +108,7 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
     states.push_back(*std::move(submodel.state));
   }
   if (!ScheduleOf(options).relaxes_registration) return states;
+  states = CutAll(std::move(states), options);
   const size_t grown = states.size();
   ORBWEAVE_ASSIGN_OR_RETURN(
       states, JoinByBridges(std::move(states), problem, graph, options, log, context));

@@ -46,6 +46,13 @@ constexpr double kGrowth = 2.5;
 /// Planes that move by this share of their width leave matches out: they are looked for again.
 constexpr double kMoved = 0.5;
 constexpr int kMaxRounds = 3;
+/// Six degrees. Of 2,452 right pairs of a town's panoramas, which a program levelled, 119 leaned
+/// by more, and 93 of 203 wrong ones.
+constexpr double kStandsAlike_rad = 0.105;
+/// Of the evidence for cameras that lean, that those which stand alike must have to be taken. In
+/// that town 42 were: of 23 wrong pairs 19 came nearer to what is right, by up to 44 degrees, and of
+/// 19 right ones, that is to six degrees, none is off by more than ten.
+constexpr double kAsEvident = 0.8;
 
 /// Equation (8) for a pair: the coarser of the two panoramas sets the angle.
 double MaxErrorRad(const PairSide& a, const PairSide& b, double max_error_px) {
@@ -161,14 +168,23 @@ struct PairMatcher {
     any.max_log10_false_alarms = std::max(any.max_log10_false_alarms, kWorthALook);
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry best, Verify(matches, any));
     best.rung = MatchRung::kDescriptors;
-    if (hints.predicted || IsEvident(best) || any.solver != TwoViewSolver::kFivePoint) return best;
+    const bool is_settled = IsEvident(best) && StandsAlike(best);
+    if (hints.predicted || is_settled || any.solver != TwoViewSolver::kFivePoint) return best;
     any.solver = TwoViewSolver::kUprightThreePoint;
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry upright, Verify(matches, any));
     upright.rung = MatchRung::kUpright;
+    const double enough = best.log10_false_alarms * (StandsAlike(best) ? 1.0 : kAsEvident);
     const bool is_better =
-        upright.kind != TwoViewKind::kNone &&
-        (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < best.log10_false_alarms);
+        upright.kind != TwoViewKind::kNone && StandsAlike(upright) &&
+        (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < enough);
     return is_better ? upright : best;
+  }
+
+  /// Whether both cameras have one vertical. Matches of one facade, and clouds with it, fit a
+  /// camera that leans and stands elsewhere as well as the one that took the picture.
+  [[nodiscard]] static bool StandsAlike(const TwoViewGeometry& geometry) {
+    const Eigen::Vector3d down = Eigen::Vector3d::UnitY();
+    return AngleBetween(geometry.b_from_a.rotation * down, down) <= kStandsAlike_rad;
   }
 
   [[nodiscard]] std::vector<FeatureMatch> WithFacades(std::vector<FeatureMatch> matches) const {

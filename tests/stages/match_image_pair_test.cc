@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "tests/support/random_world.h"
 
@@ -193,6 +195,39 @@ TEST(MatchImagePair, BelievesNoPredictionThatMatchesDoNotBearOut) {
   PredictedPose wrong = PredictedOf(sides);
   wrong.first = wrong.last = -wrong.last;
   EXPECT_EQ(MatchAsPredicted(sides, wrong)->kind, TwoViewKind::kNone);
+}
+
+/// Small features in common, so many of each: those of a camera that stands as the first does, and
+/// those of one that leans by 30 degrees.
+std::pair<Rigid3, Rigid3> AddBoth(Sides& sides, size_t standing, size_t leaning) {
+  Random random(11);
+  const Rigid3 stands = {Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY())),
+                         Eigen::Vector3d::UnitX()};
+  const Rigid3 leans = {Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ())),
+                        Eigen::Vector3d(0.6, 0.8, 0.0)};
+  for (size_t i = 0; i < standing + leaning; ++i) {
+    const Eigen::Vector3d point = testing::RandomPoint(random, 2.0, 10.0);
+    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+    Append(sides.a, point.normalized(), kSmallScale_px, descriptor);
+    Append(sides.b,
+           testing::BearingOf(i < standing ? stands : leans, point),
+           kSmallScale_px,
+           descriptor);
+  }
+  return {stands, leans};
+}
+
+TEST(MatchImagePair, LetsACameraLeanOnlyWhereClearlyMoreSaysSo) {
+  for (const size_t leaning : {82, 160}) {
+    Sides sides = MakeSides(10, {});
+    const auto [stands, leans] = AddBoth(sides, 75, leaning);
+    const auto geometry =
+        MatchImagePair(kPair, PairSide(sides.a), PairSide(sides.b), {}, {}, {}, {.seed = 1});
+    ASSERT_TRUE(geometry.ok()) << geometry.status();
+    const Rigid3& right = leaning > 100 ? leans : stands;
+    EXPECT_EQ(geometry->rung, leaning > 100 ? MatchRung::kDescriptors : MatchRung::kUpright);
+    EXPECT_LT(testing::RotationError(geometry->b_from_a.rotation, right.rotation), 0.3 * kDegree);
+  }
 }
 
 TEST(MatchImagePair, NeedsFacadesOfBoth) {

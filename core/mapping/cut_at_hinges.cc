@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/cut_at_hinges.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/graph/disjoint_sets.h"
+#include "core/mapping/place_on_gnss.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMinAgreeing = 0.7;
+constexpr double kMaxSigmas = 3.0;
+
+/// Two registered images and how many points both see.
+struct Joint {
+  ImageSlot a = 0;
+  ImageSlot b = 0;
+  uint32_t points = 0;
+};
+
+std::vector<ImageSlot> ImagesOf(const MappingState& state, PointIndex point) {
+  std::vector<ImageSlot> images;
+  for (const Node node : state.Point(point).nodes)
+    images.push_back(state.Graph().image_of_node[node]);
+  std::ranges::sort(images);
+  return images;
+}
+
+/// All joints, those of most points first.
+std::vector<Joint> JointsOf(const MappingState& state) {
+  std::map<std::pair<ImageSlot, ImageSlot>, uint32_t> points;
+  for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
+    const std::vector<ImageSlot> images = ImagesOf(state, p);
+    for (size_t i = 0; i < images.size(); ++i) {
+      for (size_t j = i + 1; j < images.size(); ++j) ++points[{images[i], images[j]}];
+    }
+  }
+  std::vector<Joint> joints;
+  for (const auto& [images, count] : points) joints.push_back({images.first, images.second, count});
+  std::ranges::stable_sort(joints, std::greater<>(), &Joint::points);
+  return joints;
+}
+
+/// The joints of most points that hold a submodel together, in that order.
+std::vector<Joint> HoldingJoints(const MappingState& state) {
+  DisjointSets held(state.Graph().NumImages());
+  std::vector<Joint> holding;
+  std::ranges::copy_if(JointsOf(state), std::back_inserter(holding), [&](const Joint& joint) {
+    return held.Unite(joint.a, joint.b);
+  });
+  return holding;
+}
+
+/// What hangs at one of the holding joints: the smaller side of it, and the images at its ends.
+struct HungPiece {
+  std::vector<ImageSlot> images{};  ///< ascending
+  std::vector<ImageSlot> rest{};    ///< ascending
+  ImageSlot end_in_rest = 0;
+  ImageSlot end_in_piece = 0;
+};
+
+HungPiece PieceAt(const MappingState& state, const std::vector<Joint>& holding, size_t cut) {
+  DisjointSets held(state.Graph().NumImages());
+  for (size_t i = 0; i < holding.size(); ++i) {
+    if (i != cut) held.Unite(holding[i].a, holding[i].b);
+  }
+  const Joint& joint = holding[cut];
+  std::vector<ImageSlot> with_a;
+  std::vector<ImageSlot> others;
+  for (const ImageSlot image : state.Registered())
+    (held.Find(image) == held.Find(joint.a) ? with_a : others).push_back(image);
+  std::ranges::sort(with_a);
+  std::ranges::sort(others);
+  if (with_a.size() <= others.size()) return {with_a, others, joint.b, joint.a};
+  return {others, with_a, joint.a, joint.b};
+}
+
+/// Points that both sides see.
+uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
+  uint32_t common = 0;
+  for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
+    const std::vector<ImageSlot> images = ImagesOf(state, p);
+    const auto inside = std::ranges::count_if(images, [&](ImageSlot image) {
+      return std::ranges::binary_search(piece.images, image);
+    });
+    common += inside > 0 && static_cast<size_t>(inside) < images.size() ? 1U : 0U;
+  }
+  return common;
+}
+
+/// Whether positions of the piece agree with it by itself, but not as the rest has it.
+bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
+  const std::vector<ImageSlot> hung = ImagesNear(state, state.Centre(piece.end_in_piece), piece.images);
+  if (!PlaceOnGnss(state, hung)) return false;
+  const std::optional<Sim3> enu_from_world =
+      PlaceOnGnss(state, ImagesNear(state, state.Centre(piece.end_in_rest), piece.rest));
+  if (!enu_from_world) return false;
+  size_t asked = 0;
+  size_t agreeing = 0;
+  for (const ImageSlot image : hung) {
+    const PosePrior& prior = state.Problem().images[image].prior;
+    if (!prior.position_in_enu) continue;
+    const Vector3d error = *enu_from_world * state.Centre(image) - *prior.position_in_enu;
+    ++asked;
+    agreeing += error.head<2>().norm() <= kMaxSigmas * prior.horizontal_sigma_m ? 1U : 0U;
+  }
+  return static_cast<double>(agreeing) < kMinAgreeing * static_cast<double>(asked);
+}
+
+std::optional<HungPiece> FindHungPiece(const MappingState& state, const MappingOptions& options) {
+  const auto fewest = static_cast<uint32_t>(options.min_inliers);
+  const std::vector<Joint> holding = HoldingJoints(state);
+  for (size_t i = holding.size(); i-- > 0 && holding[i].points < fewest;) {
+    HungPiece piece = PieceAt(state, holding, i);
+    if (CountCommon(state, piece) < fewest && IsElsewhere(state, piece)) return piece;
+  }
+  return std::nullopt;
+}
+
+MappingState Without(MappingState state, const std::vector<ImageSlot>& images) {
+  for (const ImageSlot image : images) state.Deregister(image);
+  return state;
+}
+
+}  // namespace
+
+std::vector<MappingState> CutAtHinges(MappingState submodel, const MappingOptions& options) {
+  std::vector<MappingState> pieces;
+  std::vector<MappingState> uncut;
+  uncut.push_back(std::move(submodel));
+  while (!uncut.empty()) {
+    MappingState whole = std::move(uncut.back());
+    uncut.pop_back();
+    const std::optional<HungPiece> piece = FindHungPiece(whole, options);
+    if (!piece) {
+      pieces.push_back(std::move(whole));
+      continue;
+    }
+    uncut.push_back(Without(whole, piece->rest));
+    uncut.push_back(Without(std::move(whole), piece->images));
+  }
+  std::ranges::stable_sort(pieces, std::greater<>(), [](const MappingState& piece) {
+    return piece.Registered().size();
+  });
+  return pieces;
+}
+
+}  // namespace orbweave
