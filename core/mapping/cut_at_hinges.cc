@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -37,17 +36,21 @@ std::vector<ImageSlot> ImagesOf(const MappingState& state, PointIndex point) {
   return images;
 }
 
-/// All joints, those of most points first.
+/// All joints, those of most points first, then in order of their images.
 std::vector<Joint> JointsOf(const MappingState& state) {
-  std::map<std::pair<ImageSlot, ImageSlot>, uint32_t> points;
+  std::vector<std::pair<ImageSlot, ImageSlot>> seen_by_both;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesOf(state, p);
     for (size_t i = 0; i < images.size(); ++i) {
-      for (size_t j = i + 1; j < images.size(); ++j) ++points[{images[i], images[j]}];
+      for (size_t j = i + 1; j < images.size(); ++j) seen_by_both.emplace_back(images[i], images[j]);
     }
   }
+  std::ranges::sort(seen_by_both);
   std::vector<Joint> joints;
-  for (const auto& [images, count] : points) joints.push_back({images.first, images.second, count});
+  for (const auto& [a, b] : seen_by_both) {
+    if (joints.empty() || joints.back().a != a || joints.back().b != b) joints.push_back({a, b});
+    ++joints.back().points;
+  }
   std::ranges::stable_sort(joints, std::greater<>(), &Joint::points);
   return joints;
 }
