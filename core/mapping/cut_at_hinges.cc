@@ -42,7 +42,8 @@ std::vector<Joint> JointsOf(const MappingState& state) {
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesOf(state, p);
     for (size_t i = 0; i < images.size(); ++i) {
-      for (size_t j = i + 1; j < images.size(); ++j) seen_by_both.emplace_back(images[i], images[j]);
+      for (size_t j = i + 1; j < images.size(); ++j)
+        seen_by_both.emplace_back(images[i], images[j]);
     }
   }
   std::ranges::sort(seen_by_both);
@@ -94,9 +95,8 @@ uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
   uint32_t common = 0;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesOf(state, p);
-    const auto inside = std::ranges::count_if(images, [&](ImageSlot image) {
-      return std::ranges::binary_search(piece.images, image);
-    });
+    const auto inside = std::ranges::count_if(
+        images, [&](ImageSlot image) { return std::ranges::binary_search(piece.images, image); });
     common += inside > 0 && static_cast<size_t>(inside) < images.size() ? 1U : 0U;
   }
   return common;
@@ -104,7 +104,8 @@ uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
 
 /// Whether positions of the piece agree with it by itself, but not as the rest has it.
 bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
-  const std::vector<ImageSlot> hung = ImagesNear(state, state.Centre(piece.end_in_piece), piece.images);
+  const std::vector<ImageSlot> hung =
+      ImagesNear(state, state.Centre(piece.end_in_piece), piece.images);
   if (!PlaceOnGnss(state, hung)) return false;
   const std::optional<Sim3> enu_from_world =
       PlaceOnGnss(state, ImagesNear(state, state.Centre(piece.end_in_rest), piece.rest));

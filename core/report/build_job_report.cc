@@ -166,6 +166,7 @@ std::vector<ReportSeam> SeamRows(const JobResults& results) {
                     .rotation_jump_deg = seam.rotation_jump_deg,
                     .used = seam.used,
                     .contradicted = seam.contradicted,
+                    .drift_factor = seam.drift_factor,
                     .reason = seam.reason});
     if (seam.used) rows.back().after = FitAfter(results, rows.back());
   }

@@ -204,6 +204,15 @@ std::optional<CrossCheck> CheckSeamsInLoops(const JobReport& report) {
     check.sentence +=
         "; the others were switched off: places that look alike, or a cluster that is bent";
   }
+  const double drift = std::ranges::max(report.seams, {}, &ReportSeam::drift_factor).drift_factor;
+  if (drift > 1.0) {
+    check.level = CheckLevel::kDoubtful;
+    check.sentence += absl::StrFormat(
+        "; loops close only if clusters are bent by %.1f times as much as is expected of them: "
+        "weak "
+        "ones, or places that look alike",
+        drift);
+  }
   return check;
 }
 

@@ -172,6 +172,7 @@ absl::StatusOr<std::string> EncodeAlignment(const Alignment& alignment) {
     out->set_position_jump_m(seam.position_jump_m);
     out->set_rotation_jump_deg(seam.rotation_jump_deg);
     out->set_contradicted(seam.contradicted);
+    out->set_drift_factor(seam.drift_factor);
   }
   proto.set_submodels(codec::Pack(alignment.submodels));
   return codec::Serialize(proto, "alignment", codec::Empty::kIsLegal);
@@ -182,7 +183,8 @@ namespace {
 /// A condition of infinity is one that nobody used.
 bool IsSeamOf(const SeamReport& seam, size_t num_submodels) {
   return seam.submodel_a < seam.submodel_b && seam.submodel_b < num_submodels &&
-         seam.condition_number >= 0.0 && codec::IsAmount(seam.position_jump_m) &&
+         seam.condition_number >= 0.0 && seam.drift_factor >= 1.0 &&
+         codec::IsAmount(seam.drift_factor) && codec::IsAmount(seam.position_jump_m) &&
          codec::IsAmount(seam.rotation_jump_deg);
 }
 
@@ -226,6 +228,7 @@ absl::StatusOr<Alignment> DecodeAlignment(std::string_view bytes) {
                                .condition_number = seam.condition_number(),
                                .used = seam.used(),
                                .contradicted = seam.contradicted(),
+                               .drift_factor = seam.drift_factor(),
                                .reason = seam.reason(),
                                .position_jump_m = seam.position_jump_m(),
                                .rotation_jump_deg = seam.rotation_jump_deg()});

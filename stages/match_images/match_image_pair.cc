@@ -50,8 +50,8 @@ constexpr int kMaxRounds = 3;
 /// by more, and 93 of 203 wrong ones.
 constexpr double kStandsAlike_rad = 0.105;
 /// Of the evidence for cameras that lean, that those which stand alike must have to be taken. In
-/// that town 42 were: of 23 wrong pairs 19 came nearer to what is right, by up to 44 degrees, and of
-/// 19 right ones, that is to six degrees, none is off by more than ten.
+/// that town 42 were: of 23 wrong pairs 19 came nearer to what is right, by up to 44 degrees, and
+/// of 19 right ones, that is to six degrees, none is off by more than ten.
 constexpr double kAsEvident = 0.8;
 
 /// Equation (8) for a pair: the coarser of the two panoramas sets the angle.
@@ -174,9 +174,8 @@ struct PairMatcher {
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry upright, Verify(matches, any));
     upright.rung = MatchRung::kUpright;
     const double enough = best.log10_false_alarms * (StandsAlike(best) ? 1.0 : kAsEvident);
-    const bool is_better =
-        upright.kind != TwoViewKind::kNone && StandsAlike(upright) &&
-        (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < enough);
+    const bool is_better = upright.kind != TwoViewKind::kNone && StandsAlike(upright) &&
+                           (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < enough);
     return is_better ? upright : best;
   }
 

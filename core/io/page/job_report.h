@@ -99,6 +99,7 @@ struct ReportSeam {
   double rotation_jump_deg = 0.0;
   bool used = true;
   bool contradicted = false;  ///< by loops, hence not used
+  double drift_factor = 1.0;  ///< clusters bend by so many times what is expected to close loops
   std::string reason{};       ///< why it is not used
   ReportSeamFit after{};      ///< the global adjustment
 };

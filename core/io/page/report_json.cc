@@ -60,6 +60,7 @@ Json Seams(const JobReport& report) {
                     {"verdict", VerdictText(seam.after.Verdict())},
                     {"used", seam.used},
                     {"contradicted", seam.contradicted},
+                    {"drift_factor", seam.drift_factor},
                     {"reason", seam.reason}});
   }
   return list;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -25,6 +26,13 @@ constexpr double kMaxCondition = 1e6;
 // So many common tracks decide about a seam; with fewer the common images do.
 constexpr uint32_t kMinDecidingTracks = 16;
 constexpr double kMinAgreeingShare = 0.25;
+
+// Loops that do not close may ask for so many times the expected drift: eight degrees, and a sixth
+// of the extent, where a place that looks like another is as likely as a submodel that is bent.
+constexpr double kMostDrift = 16.0;
+// Seams that no loop contains fit exactly.
+constexpr double kFits = 1e-3;
+constexpr double kLeastSquares = 1e6;
 
 // A seam between submodels known by their position, and what becomes of it.
 struct Candidate {
@@ -108,13 +116,16 @@ absl::StatusOr<std::vector<Candidate>> FindCandidates(std::span<const SeamsOfClu
 }
 
 // Inverse of the fit's covariance plus what the submodels may bend and stretch.
-Matrix7d InformationWithDrift(const FittedSeam& seam, const AlignOptions& options) {
-  const double bend = options.drift_deg / kDegPerRad;
+Matrix7d InformationWithDrift(const FittedSeam& seam,
+                              double drift_factor,
+                              const AlignOptions& options) {
+  const double bend = drift_factor * options.drift_deg / kDegPerRad;
+  const double share = drift_factor * options.drift_share;
   const double stretch =
-      options.drift_share * std::max(seam.extent_a, seam.extent_b) / seam.fit.chart.length_in_a;
+      share * std::max(seam.extent_a, seam.extent_b) / seam.fit.chart.length_in_a;
   Vector7d variance;
   variance.head<3>().setConstant(bend * bend);
-  variance[3] = options.drift_share * options.drift_share;
+  variance[3] = share * share;
   variance.tail<3>().setConstant(stretch * stretch);
   Matrix7d covariance = seam.fit.covariance;
   covariance.diagonal() += variance;
@@ -135,10 +146,51 @@ SimilarityGraph MakeGraph(const Outlines& outlines,
         {.a = report.submodel_a,
          .b = report.submodel_b,
          .measured = seam->fit.chart,
-         .information = InformationWithDrift(*seam, options),
+         .information = InformationWithDrift(*seam, report.drift_factor, options),
          .strength = static_cast<double>(seam->fit.inlier_tracks + seam->fit.inlier_cameras)});
   }
   return graph;
+}
+
+absl::StatusOr<AveragedSimilarities> Average(const Outlines& outlines,
+                                             const std::vector<Candidate>& candidates,
+                                             const AlignOptions& options,
+                                             const StageContext& context) {
+  return AverageSimilarities(
+      MakeGraph(outlines, candidates, options), {.max_error = options.max_contradiction}, context);
+}
+
+// Takes submodels for as much more bent as their loops say, part by part of the graph where loops
+// contradict a seam: by the median of what all seams in loops are off when these share the error.
+// Both submodels of a seam have its images, so that their own shape is more in doubt than the seam.
+absl::Status WidenDrift(const Outlines& outlines,
+                        const AveragedSimilarities& averaged,
+                        const AlignOptions& options,
+                        const StageContext& context,
+                        std::vector<Candidate>& candidates) {
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const AveragedSimilarities shared,
+      AverageSimilarities(
+          MakeGraph(outlines, candidates, options),
+          {.loss_scale = kLeastSquares, .max_error = std::numeric_limits<double>::infinity()},
+          context));
+  std::map<uint32_t, std::vector<double>> errors_of_part;
+  std::set<uint32_t> contradicted;
+  size_t e = 0;
+  for (const auto& [report, seam] : candidates) {
+    if (!report.used) continue;
+    const uint32_t part = shared.part[report.submodel_a];
+    if (shared.error[e] > kFits) errors_of_part[part].push_back(shared.error[e]);
+    if (averaged.is_used[e] == 0) contradicted.insert(part);
+    ++e;
+  }
+  for (auto& [report, seam] : candidates) {
+    const uint32_t part = shared.part[report.submodel_a];
+    if (!report.used || !contradicted.contains(part)) continue;
+    const double drift = Quantile(errors_of_part[part], 0.5);
+    if (drift <= kMostDrift) report.drift_factor = std::max(1.0, drift);
+  }
+  return absl::OkStatus();
 }
 
 // Worlds in order of their number of images (then of their first submodel).
@@ -200,9 +252,11 @@ absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> cluster
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Candidate> candidates,
                             FindCandidates(clusters, outlines, options));
   ORBWEAVE_ASSIGN_OR_RETURN(AveragedSimilarities averaged,
-                            AverageSimilarities(MakeGraph(outlines, candidates, options),
-                                                {.max_error = options.max_contradiction},
-                                                context));
+                            Average(outlines, candidates, options, context));
+  if (std::ranges::count(averaged.is_used, 0) > 0) {
+    ORBWEAVE_RETURN_IF_ERROR(WidenDrift(outlines, averaged, options, context, candidates));
+    ORBWEAVE_ASSIGN_OR_RETURN(averaged, Average(outlines, candidates, options, context));
+  }
   SwitchOffContradicted(averaged, candidates);
   Alignment alignment{.world_from_submodel = std::move(averaged.world_from_node),
                       .world = RankWorlds(outlines, averaged.part)};

@@ -23,7 +23,10 @@ namespace orbweave {
 /// millimetres, the submodels between two seams bend and stretch by more: each seam's covariance is
 /// its own plus drift_deg and drift_share of the submodels' extent. Loops spread their error; a
 /// seam that loops contradict by more than max_contradiction such standard deviations is switched
-/// off.
+/// off. Before that, where seams in loops share the error and are off by more than expected in the
+/// median, submodels are taken for as much more bent (drift_factor), up to 16 times: both sides of
+/// a seam have the same images, and a street of plain walls bends by degrees. Where most loops
+/// close, one that does not makes nothing of this.
 ///
 /// World 0 holds most images; submodels that no used seam joins are worlds of their own. A world
 /// has the frame and scale of its submodel with most images. GNSS enters when they are joined.

@@ -20,7 +20,9 @@ struct SeamReport {
   double condition_number = 0.0;
   bool used = true;
   bool contradicted = false;  ///< by loops, hence not used
-  std::string reason{};       ///< why it is not used
+  /// By how many times more than expected the submodels bend and stretch, as their loops have it.
+  double drift_factor = 1.0;
+  std::string reason{};  ///< why it is not used
   double position_jump_m =
       0.0;  ///< median distance of common centres after alignment, units of the world
   double rotation_jump_deg = 0.0;  ///< median

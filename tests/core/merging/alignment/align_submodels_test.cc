@@ -101,17 +101,19 @@ TEST(AlignSubmodels, ClosesALoop) {
   EXPECT_TRUE(closing->used) << closing->reason;
 }
 
-TEST(AlignSubmodels, SpreadsTheDriftOfALoop) {
-  // Every submodel is bent by half a degree along its length.
-  SplitWorld world = LoopWorld(0.0, 9);
+/// A loop of six submodels, each bent by so much for every radian of the loop, as far as
+/// `reach_rad` from its middle, where it has no images in common with others.
+SplitWorld BentLoopWorld(double bend_rad, double reach_rad, uint64_t seed) {
+  SplitWorld world = LoopWorld(0.0, seed);
   for (size_t m = 0; m < world.submodels.size(); ++m) {
     Reconstruction& bent = world.submodels[m].reconstruction;
     bent = Transformed(world.submodel_from_street[m].Inverse(), std::move(bent));
     const auto bend = [&](const Eigen::Vector3d& point) {
-      const double along = std::remainder(
-          std::atan2(point.y(), point.x()) - static_cast<double>(m) * std::numbers::pi / 3.0,
-          2.0 * std::numbers::pi);
-      return Sim3{.rotation = RotationFromVector({0.0, 0.0, 0.008 * along})};
+      const double middle = (static_cast<double>(m) / 3.0 + 5.0 / 18.0) * std::numbers::pi;
+      const double along =
+          std::remainder(std::atan2(point.y(), point.x()) - middle, 2.0 * std::numbers::pi);
+      return Sim3{.rotation = RotationFromVector(
+                      {0.0, 0.0, bend_rad * std::clamp(along, -reach_rad, reach_rad)})};
     };
     for (auto& [id, image] : bent.images) {
       image.cam_from_world =
@@ -121,7 +123,10 @@ TEST(AlignSubmodels, SpreadsTheDriftOfALoop) {
       track.point_in_world = bend(track.point_in_world) * track.point_in_world;
     bent = Transformed(world.submodel_from_street[m], std::move(bent));
   }
-  const Alignment alignment = Aligned(world.submodels);
+  return world;
+}
+
+void ExpectSpread(const Alignment& alignment) {
   double smallest = 1e9;
   double largest = 0.0;
   for (const SeamReport& seam : alignment.seams) {
@@ -130,6 +135,20 @@ TEST(AlignSubmodels, SpreadsTheDriftOfALoop) {
     largest = std::max(largest, seam.rotation_jump_deg);
   }
   EXPECT_LT(largest, 3.0 * smallest + 0.05) << "one seam pays for all";
+}
+
+TEST(AlignSubmodels, SpreadsTheDriftOfALoop) {
+  // Every submodel is bent by half a degree along its length.
+  const Alignment alignment = Aligned(BentLoopWorld(0.008, std::numbers::pi, 9).submodels);
+  ExpectSpread(alignment);
+  for (const SeamReport& seam : alignment.seams) EXPECT_EQ(seam.drift_factor, 1.0);
+}
+
+TEST(AlignSubmodels, ClosesALoopOfSubmodelsThatAreBentByMoreThanIsExpected) {
+  // By six degrees, where half a degree is expected; what two have in common is rigid.
+  const Alignment alignment = Aligned(BentLoopWorld(0.35, 0.15, 9).submodels);
+  ExpectSpread(alignment);
+  for (const SeamReport& seam : alignment.seams) EXPECT_GT(seam.drift_factor, 2.0);
 }
 
 TEST(AlignSubmodels, SwitchesOffASeamThatTheLoopContradicts) {
@@ -156,6 +175,7 @@ TEST(AlignSubmodels, SwitchesOffASeamThatTheLoopContradicts) {
   EXPECT_FALSE(seam->used);
   EXPECT_NE(seam->reason.find("contradicted"), std::string::npos) << seam->reason;
   for (uint32_t m = 0; m + 1 < 6; ++m) EXPECT_TRUE(FindSeam(alignment, m, m + 1)->used);
+  EXPECT_EQ(seam->drift_factor, 1.0);
   EXPECT_LT(FindSeam(alignment, 2, 3)->position_jump_m, 0.1);
 }
 
