@@ -618,6 +618,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                              .submodel_b = 1,
                              .used = false,
                              .contradicted = true,
+                             .drift_factor = 7.5,
                              .reason = "loop",
                              .position_jump_m = 0.1});
   const auto alignment_out = DecodeAlignment(EncodeAlignment(alignment).value());
@@ -625,6 +626,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(alignment_out->world_from_submodel[0].scale, 2.0);
   EXPECT_FALSE(alignment_out->seams[0].used);
   EXPECT_TRUE(alignment_out->seams[0].contradicted);
+  EXPECT_EQ(alignment_out->seams[0].drift_factor, 7.5);
   EXPECT_EQ(alignment_out->seams[0].reason, "loop");
   EXPECT_EQ(alignment_out->submodels[0].cluster, 4U);
   EXPECT_EQ(alignment_out->submodels[0].num_images, 7U);

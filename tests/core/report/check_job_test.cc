@@ -277,6 +277,14 @@ TEST(JudgeModel, ASeamThatLoopsContradictIsDoubted) {
             CheckLevel::kDoubtful);
 }
 
+TEST(JudgeModel, LoopsThatBendClustersByMoreThanIsExpectedAreDoubted) {
+  JobReport report = WithSeams({1.0, 1.0, 1.0});
+  report.seams[1].drift_factor = 7.9;
+  const auto check = Find(CheckJob(Street(40, {{0, 40}}), report), "seams_in_loops");
+  EXPECT_EQ(check->level, CheckLevel::kDoubtful);
+  EXPECT_NE(check->sentence.find("bent by 7.9 times"), std::string::npos) << check->sentence;
+}
+
 /// Two models on earth of a street in two parts, with a check each.
 TEST(CheckJob, DoubtsASmallerModelThatItsPositionsPutWhereMostOfThemAreNot) {
   JobResults results = Street(60, {{0, 40}, {40, 60}}, true);
