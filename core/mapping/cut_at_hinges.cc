@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMinAgreeing = 0.7;
-constexpr double kMaxSigmas = 3.0;
+/// Points that more images see hold together those that are next to each other among them.
+constexpr size_t kAllPairs = 12;
 
 /// Two registered images and how many points both see.
 struct Joint {
@@ -41,8 +41,9 @@ std::vector<Joint> JointsOf(const MappingState& state) {
   std::vector<std::pair<ImageSlot, ImageSlot>> seen_by_both;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesOf(state, p);
+    const size_t reach = images.size() <= kAllPairs ? images.size() : 1;
     for (size_t i = 0; i < images.size(); ++i) {
-      for (size_t j = i + 1; j < images.size(); ++j)
+      for (size_t j = i + 1; j < std::min(images.size(), i + 1 + reach); ++j)
         seen_by_both.emplace_back(images[i], images[j]);
     }
   }
@@ -117,9 +118,9 @@ bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
     if (!prior.position_in_enu) continue;
     const Vector3d error = *enu_from_world * state.Centre(image) - *prior.position_in_enu;
     ++asked;
-    agreeing += error.head<2>().norm() <= kMaxSigmas * prior.horizontal_sigma_m ? 1U : 0U;
+    agreeing += error.head<2>().norm() <= kMaxFixSigmas * prior.horizontal_sigma_m ? 1U : 0U;
   }
-  return static_cast<double>(agreeing) < kMinAgreeing * static_cast<double>(asked);
+  return static_cast<double>(agreeing) < kMinAgreeingFixes * static_cast<double>(asked);
 }
 
 std::optional<HungPiece> FindHungPiece(const MappingState& state, const MappingOptions& options) {

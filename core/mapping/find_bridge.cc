@@ -23,7 +23,6 @@ constexpr double kMinAgreeingMatches = 0.5;
 constexpr double kMaxLogScaleSigma = 0.2;
 constexpr double kMaxPlaceSigma = 0.5;  ///< share of the shortest baseline
 constexpr double kMinAgreeingSights = 0.5;
-constexpr double kMinAgreeingFixes = 0.7;
 constexpr double kMaxSigmas = 3.0;
 constexpr double kEndsShare = 0.5;
 constexpr size_t kPairsWithoutGnss = 3;
@@ -246,7 +245,7 @@ class Bridging {
     size_t agreeing = 0;
     for (const BridgeFix& fix : terms_.fixes) {
       const Vector3d error = *enu_from_a_ * (a_from_b * fix.centre_in_b) - fix.position_in_enu;
-      agreeing += error.head<2>().norm() <= kMaxSigmas * fix.sigma_m.x() ? 1U : 0U;
+      agreeing += error.head<2>().norm() <= kMaxFixSigmas * fix.sigma_m.x() ? 1U : 0U;
     }
     return static_cast<double>(agreeing) >=
            kMinAgreeingFixes * static_cast<double>(terms_.fixes.size());

@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 
 constexpr size_t kMaxImages = 30;
 constexpr size_t kMinPositions = 4;
-constexpr double kMinAgreeing = 0.7;
-constexpr double kMaxSigmas = 3.0;
 /// The scale is then good to a tenth with 25 positions, to a quarter with 4.
 constexpr double kMinExtentSigmas = 2.0;
 
@@ -83,8 +81,8 @@ std::optional<Sim3> PlaceOnGnss(const MappingState& state, std::span<const Image
   if (!(scale > 0.0) || !(fit.extent_sigmas >= kMinExtentSigmas)) return std::nullopt;
   size_t agreeing = 0;
   for (const PlanStation& each : stations.plan)
-    agreeing += fit.ErrorSigmas(each) <= kMaxSigmas ? 1U : 0U;
-  if (static_cast<double>(agreeing) < kMinAgreeing * static_cast<double>(stations.plan.size()))
+    agreeing += fit.ErrorSigmas(each) <= kMaxFixSigmas ? 1U : 0U;
+  if (static_cast<double>(agreeing) < kMinAgreeingFixes * static_cast<double>(stations.plan.size()))
     return std::nullopt;
   const Eigen::Quaterniond heading(Eigen::AngleAxisd(std::arg(fit.turn), Vector3d::UnitZ()));
   return Sim3{scale,

@@ -11,6 +11,11 @@
 
 namespace orbweave {
 
+/// Positions agree with a model when so large a share of them lies within so many sigmas of where
+/// it has them.
+inline constexpr double kMinAgreeingFixes = 0.7;
+inline constexpr double kMaxFixSigmas = 3.0;
+
 /// The registered images, or those of `images`, that are nearest to `place`, 30 at most,
 /// ascending: so many that GNSS carries the scale, and so few that drift along the street does not
 /// matter, nor a fold elsewhere.

@@ -208,9 +208,8 @@ std::optional<CrossCheck> CheckSeamsInLoops(const JobReport& report) {
   if (drift > 1.0) {
     check.level = CheckLevel::kDoubtful;
     check.sentence += absl::StrFormat(
-        "; loops close only if clusters are bent by %.1f times as much as is expected of them: "
-        "weak "
-        "ones, or places that look alike",
+        "; loops close only if clusters are bent by %.1f times as much as is expected: they are "
+        "weak, or places look alike",
         drift);
   }
   return check;

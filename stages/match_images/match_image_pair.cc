@@ -173,8 +173,9 @@ struct PairMatcher {
     any.solver = TwoViewSolver::kUprightThreePoint;
     ORBWEAVE_ASSIGN_OR_RETURN(TwoViewGeometry upright, Verify(matches, any));
     upright.rung = MatchRung::kUpright;
-    const double enough = best.log10_false_alarms * (StandsAlike(best) ? 1.0 : kAsEvident);
-    const bool is_better = upright.kind != TwoViewKind::kNone && StandsAlike(upright) &&
+    const bool leans_less = !StandsAlike(best) && StandsAlike(upright);
+    const double enough = best.log10_false_alarms * (leans_less ? kAsEvident : 1.0);
+    const bool is_better = upright.kind != TwoViewKind::kNone &&
                            (best.kind == TwoViewKind::kNone || upright.log10_false_alarms < enough);
     return is_better ? upright : best;
   }
