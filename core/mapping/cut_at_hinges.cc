@@ -20,6 +20,8 @@ using Eigen::Vector3d;
 
 /// Points that more images see hold together those that are next to each other among them.
 constexpr size_t kAllPairs = 12;
+/// Of the way from the joint: pieces that are bent by less, ten degrees, are not elsewhere.
+constexpr double kElsewhere = 0.2;
 
 /// Two registered images and how many points both see.
 struct Joint {
@@ -111,14 +113,18 @@ bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
   const std::optional<Sim3> enu_from_world =
       PlaceOnGnss(state, ImagesNear(state, state.Centre(piece.end_in_rest), piece.rest));
   if (!enu_from_world) return false;
+  const Vector3d joint = *enu_from_world * state.Centre(piece.end_in_rest);
   size_t asked = 0;
   size_t agreeing = 0;
   for (const ImageSlot image : hung) {
     const PosePrior& prior = state.Problem().images[image].prior;
     if (!prior.position_in_enu) continue;
     const Vector3d error = *enu_from_world * state.Centre(image) - *prior.position_in_enu;
+    const Vector3d way = *prior.position_in_enu - joint;
+    const double allowed =
+        std::max(kMaxFixSigmas * prior.horizontal_sigma_m, kElsewhere * way.head<2>().norm());
     ++asked;
-    agreeing += error.head<2>().norm() <= kMaxFixSigmas * prior.horizontal_sigma_m ? 1U : 0U;
+    agreeing += error.head<2>().norm() <= allowed ? 1U : 0U;
   }
   return static_cast<double>(agreeing) < kMinAgreeingFixes * static_cast<double>(asked);
 }

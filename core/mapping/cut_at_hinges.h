@@ -18,8 +18,9 @@ namespace orbweave {
 /// smaller side of a weak joint is cut off when
 ///   - no more points are seen from both sides together,
 ///   - its positions agree with it as it is by itself (PlaceOnGnss), and
-///   - less than seven tenths of them lie within three sigmas of where the images of the other side
-///     near the joint (ImagesNear) have them, as bridges ask (FindBridge).
+///   - less than seven tenths of them lie where the images of the other side near the joint
+///     (ImagesNear) have them, within three sigmas, as bridges ask (FindBridge), or a fifth of the
+///     way from the joint: what is bent by some degrees is worth more in one piece.
 /// Bridges may join the pieces again, as GNSS has them; else each is a submodel of its own. The
 /// larger piece first; one piece, the submodel as it is, where nothing is cut.
 [[nodiscard]] std::vector<MappingState> CutAtHinges(MappingState submodel,

@@ -71,6 +71,17 @@ TEST(CutAtHinges, LeavesWhatGnssBearsOut) {
   EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 1.0, 6), {})), ElementsAre(24U));
 }
 
+TEST(CutAtHinges, LeavesWhatIsHardlyBentHoweverExactPositionsAre) {
+  BrokenStreet street({.pairs_between = 4});
+  for (uint32_t i = 0; i < BrokenStreet::kImages; ++i) {
+    PosePrior& prior = street.World().problem.images[i].prior;
+    prior.position_in_enu = street.PlaceInEnu(i);
+    prior.horizontal_sigma_m = 0.5;
+  }
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.9, 6), {})), ElementsAre(24U));
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.7, 6), {})), ElementsAre(12U, 12U));
+}
+
 TEST(CutAtHinges, LeavesWhatPointsHold) {
   const BrokenStreet street({.pairs_between = 4});
   EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.28, 40), {})), ElementsAre(24U));
