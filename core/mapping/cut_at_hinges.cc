@@ -89,8 +89,9 @@ HungPiece PieceAt(const MappingState& state, const std::vector<Joint>& holding, 
     (held.Find(image) == held.Find(joint.a) ? with_a : others).push_back(image);
   std::ranges::sort(with_a);
   std::ranges::sort(others);
-  if (with_a.size() <= others.size()) return {with_a, others, joint.b, joint.a};
-  return {others, with_a, joint.a, joint.b};
+  if (with_a.size() <= others.size())
+    return {std::move(with_a), std::move(others), joint.b, joint.a};
+  return {std::move(others), std::move(with_a), joint.a, joint.b};
 }
 
 /// Points that both sides see.

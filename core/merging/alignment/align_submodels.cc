@@ -163,11 +163,12 @@ absl::StatusOr<AveragedSimilarities> Average(const Outlines& outlines,
 // Takes submodels for as much more bent as their loops say, part by part of the graph where loops
 // contradict a seam: by the median of what all seams in loops are off when these share the error.
 // Both submodels of a seam have its images, so that their own shape is more in doubt than the seam.
-absl::Status WidenDrift(const Outlines& outlines,
-                        const AveragedSimilarities& averaged,
-                        const AlignOptions& options,
-                        const StageContext& context,
-                        std::vector<Candidate>& candidates) {
+// Whether any was.
+absl::StatusOr<bool> WidenDrift(const Outlines& outlines,
+                                const AveragedSimilarities& averaged,
+                                const AlignOptions& options,
+                                const StageContext& context,
+                                std::vector<Candidate>& candidates) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const AveragedSimilarities shared,
       AverageSimilarities(
@@ -184,13 +185,16 @@ absl::Status WidenDrift(const Outlines& outlines,
     if (averaged.is_used[e] == 0) contradicted.insert(part);
     ++e;
   }
+  bool is_wider = false;
   for (auto& [report, seam] : candidates) {
     const uint32_t part = shared.part[report.submodel_a];
     if (!report.used || !contradicted.contains(part)) continue;
     const double drift = Quantile(errors_of_part[part], 0.5);
-    if (drift <= kMostDrift) report.drift_factor = std::max(1.0, drift);
+    if (!(drift > 1.0 && drift <= kMostDrift)) continue;
+    report.drift_factor = drift;
+    is_wider = true;
   }
-  return absl::OkStatus();
+  return is_wider;
 }
 
 // Worlds in order of their number of images (then of their first submodel).
@@ -254,8 +258,11 @@ absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> cluster
   ORBWEAVE_ASSIGN_OR_RETURN(AveragedSimilarities averaged,
                             Average(outlines, candidates, options, context));
   if (std::ranges::count(averaged.is_used, 0) > 0) {
-    ORBWEAVE_RETURN_IF_ERROR(WidenDrift(outlines, averaged, options, context, candidates));
-    ORBWEAVE_ASSIGN_OR_RETURN(averaged, Average(outlines, candidates, options, context));
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_wider,
+                              WidenDrift(outlines, averaged, options, context, candidates));
+    if (is_wider) {
+      ORBWEAVE_ASSIGN_OR_RETURN(averaged, Average(outlines, candidates, options, context));
+    }
   }
   SwitchOffContradicted(averaged, candidates);
   Alignment alignment{.world_from_submodel = std::move(averaged.world_from_node),
