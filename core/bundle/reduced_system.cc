@@ -15,12 +15,17 @@ namespace {
 
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
+// A point's observation by a pose that moves.
+struct SeenBy {
+  uint32_t local;
+  Eigen::Matrix3d M;  // J_X^T J_X
+  Eigen::Vector3d d;
+};
+
 // A pose's part in the elimination of one point.
 struct PosePart {
-  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();  // J_X^T J_X
-  Eigen::Vector3d d = Eigen::Vector3d::Zero();
-  Matrix63 Y = Matrix63::Zero();  // W G with W = J_pose^T J_X = [[d]x; -I] M
-  uint32_t local = kHeld;
+  uint32_t local;
+  Matrix63 Y;  // W G with W = J_pose^T J_X = [[d]x; -I] M
 };
 
 // [d]x A
@@ -89,7 +94,7 @@ class ChunkReducer {
   PointFactor Reduce(const PackedPoint& point) {
     PointFactor factor;
     Eigen::Matrix3d V = Eigen::Matrix3d::Zero();
-    parts_.clear();
+    seen_by_.clear();
     for (uint32_t k = point.first; k < point.end; ++k) {
       AddObservation(layout_.observations[k], state_.points[point.point], V, factor.gradient);
     }
@@ -117,25 +122,22 @@ class ChunkReducer {
     AddPoseHessian(
         term.d, M, sums_.triangle[PairIndex(seen.local, seen.local)], sums_.trace[seen.local]);
     sums_.gradient[seen.local] += PoseGradient(term.d, term.gradient);
-    PosePart& part = parts_.emplace_back();
-    part.M = M;
-    part.d = term.d;
-    part.local = seen.local;
+    seen_by_.push_back({seen.local, M, term.d});
   }
 
   void Eliminate(const PointFactor& factor) {
     const Eigen::Matrix3d G = factor.G();
     const Eigen::Vector3d h = G.transpose() * factor.gradient;
-    size_t count = 0;  // parts of the same pose become one
-    for (const PosePart& part : parts_) {
-      const Eigen::Matrix3d MG = part.M * G;
+    if (parts_.size() < seen_by_.size()) parts_.resize(seen_by_.size());
+    size_t count = 0;  // observations by the same pose become one part
+    for (const SeenBy& seen : seen_by_) {
+      const Eigen::Matrix3d MG = seen.M * G;
       Matrix63 Y;
-      Y << CrossColumns(part.d, MG), -MG;
-      if (count > 0 && parts_[count - 1].local == part.local) {
+      Y << CrossColumns(seen.d, MG), -MG;
+      if (count > 0 && parts_[count - 1].local == seen.local) {
         parts_[count - 1].Y += Y;
       } else {
-        parts_[count].local = part.local;
-        parts_[count++].Y = Y;
+        parts_[count++] = {seen.local, Y};
       }
     }
     for (size_t j = 0; j < count; ++j) {
@@ -152,6 +154,7 @@ class ChunkReducer {
   const RobustLoss& loss_;
   double lambda_;
   ChunkSums& sums_;
+  std::vector<SeenBy> seen_by_{};
   std::vector<PosePart> parts_{};
 };
 

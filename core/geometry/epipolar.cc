@@ -20,23 +20,32 @@ double EpipolarAngle(const Eigen::Matrix3d& E, const Vector3d& p_a, const Vector
 }
 
 double SymmetricEpipolarAngle(const Rigid3& b_from_a, const Vector3d& p_a, const Vector3d& p_b) {
-  const Vector3d& T = b_from_a.translation;
-  const Vector3d q = b_from_a.rotation * p_a;
-  const double f = p_b.dot(T.cross(q));  // p_b^T E p_a
-  const double along_a = T.dot(q);       // |E p_a|^2 = 1 - along_a^2, |E^T p_b|^2 = 1 - along_b^2
-  const double along_b = T.dot(p_b);
-  const double squared = 1.0 - 0.5 * (along_a * along_a + along_b * along_b);
-  if (!(squared > 0.0)) return pi / 2.0;
-  return std::asin(std::min(1.0, std::abs(f) / std::sqrt(squared)));
+  return PoseOfRays(b_from_a)(p_a, p_b).SymmetricEpipolarAngle();
 }
 
 bool IsInFrontOfBoth(const Rigid3& b_from_a, const Vector3d& p_a, const Vector3d& p_b) {
+  return PoseOfRays(b_from_a)(p_a, p_b).IsInFrontOfBoth();
+}
+
+double RayPair::SymmetricEpipolarAngle() const {
+  // |E p_a|^2 = 1 - along_a^2, |E^T p_b|^2 = 1 - along_b^2
+  const double squared = 1.0 - 0.5 * (along_a * along_a + along_b * along_b);
+  if (!(squared > 0.0)) return pi / 2.0;
+  return std::asin(std::min(1.0, std::abs(lift) / std::sqrt(squared)));
+}
+
+bool RayPair::IsWithin(double max_rad) const {
+  const double squared = 1.0 - 0.5 * (along_a * along_a + along_b * along_b);
+  // e - e^3 / 6 <= sin e <= e, and so e^2 (1 - e^2 / 3) <= sin^2 e.
+  const double most = max_rad * max_rad * squared;
+  if (lift * lift <= most * (1.0 - max_rad * max_rad / 3.0) && squared > 0.0) return true;
+  if (lift * lift > most && squared > 0.0) return false;
+  return SymmetricEpipolarAngle() <= max_rad;
+}
+
+bool RayPair::IsInFrontOfBoth() const {
   // lambda_b p_b = lambda_a q + T in least squares, times 1 - (q.p_b)^2 >= 0.
-  const Vector3d q = b_from_a.rotation * p_a;
-  const double c = q.dot(p_b);
-  const double along_a = b_from_a.translation.dot(q);
-  const double along_b = b_from_a.translation.dot(p_b);
-  return c * along_b - along_a > 0.0 && along_b - c * along_a > 0.0;
+  return cosine * along_b - along_a > 0.0 && along_b - cosine * along_a > 0.0;
 }
 
 }  // namespace orbweave

@@ -28,4 +28,34 @@ namespace orbweave {
                                    const Eigen::Vector3d& p_a,
                                    const Eigen::Vector3d& p_b);
 
+/// Two rays under a pose, for both of the above at once.
+struct RayPair {
+  double lift = 0.0;     ///< p_b^T E p_a
+  double along_a = 0.0;  ///< T . R p_a
+  double along_b = 0.0;  ///< T . p_b
+  double cosine = 0.0;   ///< R p_a . p_b
+
+  [[nodiscard]] double SymmetricEpipolarAngle() const;
+  /// SymmetricEpipolarAngle() <= max_rad, at a fraction of its cost but for angles that are close.
+  [[nodiscard]] bool IsWithin(double max_rad) const;
+  [[nodiscard]] bool IsInFrontOfBoth() const;
+};
+
+/// Many pairs of rays under one pose.
+class PoseOfRays {
+ public:
+  explicit PoseOfRays(const Rigid3& b_from_a)
+      : R_(b_from_a.rotation.toRotationMatrix()), T_(b_from_a.translation) {}
+
+  /// p_a, p_b unit.
+  [[nodiscard]] RayPair operator()(const Eigen::Vector3d& p_a, const Eigen::Vector3d& p_b) const {
+    const Eigen::Vector3d q = R_ * p_a;
+    return {p_b.dot(T_.cross(q)), T_.dot(q), T_.dot(p_b), q.dot(p_b)};
+  }
+
+ private:
+  Eigen::Matrix3d R_;
+  Eigen::Vector3d T_;
+};
+
 }  // namespace orbweave

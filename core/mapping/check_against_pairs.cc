@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/quantile.h"
-#include "core/geometry/epipolar.h"
 #include "core/graph/disjoint_sets.h"
+#include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/model/reconstructed_share.h"
 #include "core/mapping/positioning/position_agreement.h"
 #include "core/mapping/registration/register_image.h"
@@ -30,22 +30,13 @@ std::vector<LinkedPair> RegisteredPairs(const MappingState& state) {
 }
 
 bool Agrees(const MappingState& state, const LinkedPair& pair, double max_error_px) {
-  Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
-  b_from_a.translation.normalize();
-  const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
   size_t agreeing = 0;
-  for (const FeatureMatch& match : geometry.inliers) {
-    const Node a = state.Graph().node_of_feature[pair.a][match.a];
-    const Node b = state.Graph().node_of_feature[pair.b][match.b];
-    const Eigen::Vector3d& p_a = state.Graph().bearing_of_node[a];
-    const Eigen::Vector3d& p_b = state.Graph().bearing_of_node[b];
-    if (SymmetricEpipolarAngle(b_from_a, p_a, p_b) <= AngleFromPixels(state, a, max_error_px) &&
-        IsInFrontOfBoth(b_from_a, p_a, p_b)) {
-      ++agreeing;
-    }
-  }
+  VisitMatches(state, pair, max_error_px, [&](bool agrees, const auto&, const auto&) {
+    agreeing += agrees ? 1 : 0;
+  });
   return static_cast<double>(agreeing) >=
-         kMinAgreeingMatches * static_cast<double>(geometry.inliers.size());
+         kMinAgreeingMatches *
+             static_cast<double>(state.Problem().pairs[pair.index].inliers.size());
 }
 
 double JoinedShare(const MappingState& state, const std::vector<LinkedPair>& pairs) {

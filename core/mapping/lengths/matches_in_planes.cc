@@ -18,13 +18,14 @@ void VisitMatches(
   const CorrespondenceGraph& graph = state.Graph();
   Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
   b_from_a.translation.normalize();
+  const PoseOfRays rays_of(b_from_a);
   for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
     const Node a = graph.node_of_feature[pair.a][match.a];
     const Eigen::Vector3d& p_a = graph.bearing_of_node[a];
     const Eigen::Vector3d& p_b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
-    const bool is_in_plane =
-        SymmetricEpipolarAngle(b_from_a, p_a, p_b) <= AngleFromPixels(state, a, tolerance_px);
-    visit(is_in_plane && IsInFrontOfBoth(b_from_a, p_a, p_b), p_a, p_b);
+    const RayPair rays = rays_of(p_a, p_b);
+    visit(
+        rays.IsWithin(AngleFromPixels(state, a, tolerance_px)) && rays.IsInFrontOfBoth(), p_a, p_b);
   }
 }
 

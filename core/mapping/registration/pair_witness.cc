@@ -44,17 +44,17 @@ MatchCount CountMatches(const Rigid3& cam_from_world,
   Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
   const bool has_baseline = cam_from_view.translation.norm() > 0.0;
   cam_from_view.translation.normalize();
+  const PoseOfRays rays_of(cam_from_view);
   const double min_cos_far = std::cos(2.0 * max_error_rad);
   MatchCount count;
   for (size_t i = 0; i < matches.in_view.size(); ++i) {
-    const Vector3d& a = matches.in_view[i];
-    const Vector3d& b = matches.in_image[i];
-    const bool is_far = b.dot(cam_from_view.rotation * a) > min_cos_far;
+    const RayPair rays = rays_of(matches.in_view[i], matches.in_image[i]);
+    const bool is_far = rays.cosine > min_cos_far;
     count.near += is_far ? 0U : 1U;
-    if (!has_baseline || !(SymmetricEpipolarAngle(cam_from_view, a, b) <= max_error_rad)) continue;
+    if (!has_baseline || !rays.IsWithin(max_error_rad)) continue;
     if (is_far) {
       ++count.far_agreeing;
-    } else if (IsInFrontOfBoth(cam_from_view, a, b)) {
+    } else if (rays.IsInFrontOfBoth()) {
       ++count.near_agreeing;
     }
   }

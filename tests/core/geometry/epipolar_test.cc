@@ -87,6 +87,26 @@ TEST(SymmetricEpipolarAngle, StaysAtTheNoiseLevelNearTheEpipole) {
   }
 }
 
+TEST(RayPair, IsWithinWhatItsAngleIsWithin) {
+  Random random(6);
+  const auto world = MakeTwoViewWorld(6, 200);
+  const PoseOfRays rays_of(world.b_from_a);
+  for (size_t i = 0; i < 200; ++i) {
+    const double noise_rad = i % 2 == 0 ? 1e-3 : 0.3;
+    const RayPair rays =
+        rays_of(world.bearings_a[i], WithNoise(random, world.bearings_b[i], noise_rad));
+    const double angle = rays.SymmetricEpipolarAngle();
+    for (const double factor : {0.0, 0.5, 0.95, 0.999999, 1.000001, 1.05, 2.0, 1000.0})
+      EXPECT_EQ(rays.IsWithin(factor * angle), factor > 1.0) << angle << " times " << factor;
+  }
+}
+
+TEST(RayPair, HasARightAngleAtBothEpipoles) {
+  const RayPair rays = PoseOfRays(kSideways)(Vector3d::UnitX(), Vector3d::UnitX());
+  EXPECT_FALSE(rays.IsWithin(1.5));
+  EXPECT_TRUE(rays.IsWithin(1.6));
+}
+
 TEST(IsInFrontOfBoth, HoldsForPointsInEveryDirection) {
   const auto world = MakeTwoViewWorld(5, 500);
   const Rigid3 wrong_side = {world.b_from_a.rotation, -world.b_from_a.translation};
