@@ -9,7 +9,8 @@ namespace orbweave {
 
 /// "told_steps": whether anything says how long steps between panoramas are. Two panoramas alone
 /// say which way one lies from the other; how far, only what a third one sees as well: of all rays
-/// of the pairs that lead across a step, those that pairs beside it share
+/// of the pairs that lead across a step, those that pairs beside it share, and those that tie its
+/// two ends to neighbours off the line, where a camera was carried about a room
 /// (GapLength::telling_rays). Far apart, twelve metres in a street, hardly any are left, and
 /// lengths are what noise and houses that look alike make of them. Asked are steps across which 100
 /// rays lead; where fewer than 25 tell, and GNSS does not bear the length out

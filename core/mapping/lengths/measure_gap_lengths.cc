@@ -14,6 +14,7 @@
 #include "core/mapping/lengths/gap_votes.h"
 #include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/tying_rays.h"
 
 namespace orbweave {
 namespace {
@@ -69,6 +70,7 @@ LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
 
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
   std::vector<GapLength> gaps;
+  const std::map<ImageSlot, uint32_t> tying_rays = CountTyingRays(asked);
   for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
     const Side behind = SideOf(votes, votes.behind, asked);
@@ -79,7 +81,8 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.elsewhere = wants_another.length.elsewhere;
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
-    gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
+    gap.telling_rays = tying_rays.at(votes.image) +
+                       static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     gap.is_borne_out = gnss != nullptr && IsBorneOut(asked, votes, *gnss, wants_another.shift);
   }
   return gaps;

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "core/mapping/lengths/asked_rays.h"
+
+namespace orbweave {
+
+/// As long as a pair is at most, in steps, to say where an image at the step stands.
+inline constexpr double kMaxTie = 2.0;
+
+/// By the first of the two images of a step along a line (FindStreetLines), the rays that tie its
+/// ends together past the step: a camera that was carried about a room, or came by again, has
+/// neighbours that its own line does not know of.
+///
+/// A ray of an image k ties an image j, within kReachAlongLine places of the step, where a pair of
+/// k and j of kMaxTie steps at most is as long in the model (kCloseTolerance) as the others of
+/// k's pairs that share the ray have it - those with images of k's side of the step, where k lies
+/// further along the same line, or of k's line, where that is another one. The other line ties the
+/// step by as many rays as tie the one of its sides that it knows less of; of several lines that
+/// counts which ties it best.
+[[nodiscard]] std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked);
+
+}  // namespace orbweave
