@@ -60,7 +60,7 @@ class TrackSmoother {
         typical_sigma_m_(Quantile({track.sigmas_m.begin(), track.sigmas_m.end()}, 0.5)),
         weights_(Eigen::VectorXd::Ones(track.sigmas_m.size())),
         speed_m_s_(Eigen::VectorXd::Zero(track.sigmas_m.size())),
-        apart_m_(speed_m_s_) {}
+        ratio_(Eigen::VectorXd::Ones(speed_m_s_.size())) {}
 
   void Run() {
     for (int i = 0; i < kIterations; ++i) {
@@ -78,28 +78,45 @@ class TrackSmoother {
     return scale_ <= kLargestSoundScale && Quantile(std::move(speeds), 0.5) <= kMaxSpeed_m_s &&
            static_cast<double>(off) <= kMaxShareOff * static_cast<double>(errors_.size());
   }
+  /// Of the image, which was taken at a time that may be known to a second only: what was measured
+  /// is where it was, give or take what measurements are off, and the others say so less well the
+  /// less is known of its time.
   [[nodiscard]] Eigen::VectorXd Position(Eigen::Index i) const {
-    return smoothed_.positions.row(i).transpose();
+    const Eigen::VectorXd measured = track_.values.row(i).transpose();
+    const Eigen::VectorXd smoothed = smoothed_.positions.row(i).transpose();
+    if (!std::isfinite(given_[i])) return smoothed;
+    return measured + ShareOfOthers(i) * ratio_[i] * (smoothed - measured);
   }
   /// Neighbours share what their smoothed positions are off. So that who takes them for independent
   /// does not believe more than was measured, none is better than one measurement. And where a
   /// measurement and the motion are apart, but not so far that it is clear which is wrong, both may
   /// be: at the end of a drive one cannot tell.
   [[nodiscard]] double Sigma_m(Eigen::Index i) const {
-    const double smoothed_m =
-        std::max(std::sqrt(smoothed_.variances[i]), scale_ * typical_sigma_m_);
-    const double apart_m = weights_[i] > kRejected ? apart_m_[i] : 0.0;
-    return std::hypot(std::max(smoothed_m, apart_m), SigmaByTime(i));
+    const double told_m = std::sqrt(ShareOfOthers(i) * VarianceAtImage(i));
+    const bool is_apart = std::isfinite(given_[i]) && weights_[i] > kRejected;
+    const double apart_m = is_apart ? (track_.values.row(i).transpose() - Position(i)).norm() : 0.0;
+    return std::max({told_m, scale_ * typical_sigma_m_, apart_m});
   }
   /// Whether the others alone tell the place about as well as a measurement is said to.
   [[nodiscard]] bool IsToldByOthers(Eigen::Index i) const {
     const double measured_m = std::max(scale_, 1.0) * typical_sigma_m_;
-    return std::sqrt(variance_by_others_[i]) <= kAboutAsWell * measured_m;
+    return std::sqrt(VarianceAtImage(i)) <= kAboutAsWell * measured_m;
   }
 
  private:
   [[nodiscard]] double SigmaByTime(Eigen::Index i) const {
     return track_.sigma_of_times_s * speed_m_s_[i];
+  }
+  /// Of where the others have the image.
+  [[nodiscard]] double VarianceAtImage(Eigen::Index i) const {
+    return variance_by_others_[i] + SigmaByTime(i) * SigmaByTime(i);
+  }
+  /// What they weigh against the measurement, whose error has what was given to both it and its
+  /// time, less the time's.
+  [[nodiscard]] double ShareOfOthers(Eigen::Index i) const {
+    if (!std::isfinite(given_[i])) return 1.0;
+    const double measured = std::max(given_[i] - SigmaByTime(i) * SigmaByTime(i), 0.0);
+    return measured / (measured + VarianceAtImage(i));
   }
   [[nodiscard]] Eigen::VectorXd Variances() const {
     Eigen::VectorXd variances(track_.sigmas_m.size());
@@ -116,25 +133,37 @@ class TrackSmoother {
   void Reweight() {
     const Eigen::VectorXd variances = Variances();
     variance_by_others_ = smoothed_.variances;
+    given_ = variances.cwiseQuotient(weights_);
     errors_.clear();
     for (Eigen::Index i = 0; i < variances.size(); ++i) {
       if (!std::isfinite(variances[i])) continue;
-      const double given = variances[i] / weights_[i];
-      const double ratio = given / std::max(given - smoothed_.variances[i], 1e-6 * given);
-      apart_m_[i] = (track_.values.row(i) - smoothed_.positions.row(i)).norm();
-      variance_by_others_[i] *= ratio;
-      const double error = ratio * apart_m_[i] / std::sqrt(variances[i] + variance_by_others_[i]);
+      ratio_[i] = given_[i] / std::max(given_[i] - smoothed_.variances[i], 1e-6 * given_[i]);
+      variance_by_others_[i] *= ratio_[i];
+      const double apart_m = (track_.values.row(i) - smoothed_.positions.row(i)).norm();
+      const double error = ratio_[i] * apart_m / std::sqrt(variances[i] + variance_by_others_[i]);
       weights_[i] = kLoss.Weight(error * error);
       errors_.push_back(error);
     }
     scale_ *= Quantile(errors_, 0.5) / MedianLength(track_.values.cols());
-    scale_ = std::clamp(scale_, errors_.size() < kMany ? 1.0 : kSmallestScale, kLargestScale);
+    scale_ = std::clamp(scale_, SmallestScale(), kLargestScale);
+  }
+
+  /// Measurements are no better than their errors prove: the variance of n errors is known to
+  /// sqrt(2 / n), and where coarse times make most of it, so is what is left for measurements.
+  [[nodiscard]] double SmallestScale() const {
+    if (errors_.size() < kMany) return 1.0;
+    const auto n = static_cast<double>(track_.values.cols()) * static_cast<double>(errors_.size());
+    const double by_time_m =
+        track_.sigma_of_times_s * Quantile({speed_m_s_.begin(), speed_m_s_.end()}, 0.5);
+    const double proven_m = std::sqrt(kProvenSigmas * std::sqrt(2.0 / n)) * by_time_m;
+    return std::clamp(proven_m / typical_sigma_m_, kSmallestScale, 1.0);
   }
 
   /// The last position of a drive, which one neighbour contradicts, must not pull that along.
   static constexpr GemanMcClureLoss kLoss{3.0};
   static constexpr double kRejected = 0.05;
   static constexpr double kAboutAsWell = 3.0;
+  static constexpr double kProvenSigmas = 2.0;
   const Track& track_;
   double density_;
   double typical_sigma_m_;
@@ -142,7 +171,8 @@ class TrackSmoother {
   SmoothedMotion smoothed_{};
   Eigen::VectorXd weights_;
   Eigen::VectorXd speed_m_s_;
-  Eigen::VectorXd apart_m_;
+  Eigen::VectorXd given_{};  ///< variances of measurements, times' and weights' part included
+  Eigen::VectorXd ratio_;    ///< how many times as far from the measurement the others have it
   Eigen::VectorXd variance_by_others_{};
   std::vector<double> errors_{};
 };

@@ -22,7 +22,9 @@ struct PositionByMotion {
 ///
 /// Of each drive, horizontally and in height for itself: its sigmas are as many times those
 /// stated as they prove (reweighted, Geman-McClure, so that single ones may be wrong): a tenth at
-/// least, or 1 for fewer than 20. Times in whole seconds tell the place at speed v to v / sqrt(12).
+/// least, or 1 for fewer than 20. Times in whole seconds tell the place at speed v to v / sqrt(12):
+/// positions that are better than that stay about as they are, and count as good as their errors
+/// prove beside those of times.
 ///
 /// Priors stay as they are of images without a time, and where a drive has fewer than five
 /// positions at known times, speeds beyond 60 m/s, positions ten times worse than stated, or three

@@ -139,15 +139,35 @@ TEST(PositionsByMotion, TwoDrivesAreWhatEachIs) {
   }
 }
 
-TEST(PositionsByMotion, WholeSecondsAreBelievedAsFarAsTheyTell) {
-  Street street(0.2);
+/// A camera at 8 m/s is anywhere within 8 m at a time in whole seconds.
+void KnowWholeSecondsOnly(Street& street) {
   for (ImageRecord& image : street.manifest.images)
     image.capture_time_s =
         std::floor(*image.capture_time_s + (image.id.value % 3 == 0 ? 0.9 : 0.0));
+}
+
+TEST(PositionsByMotion, ExactPositionsAreNotSmoothedToWholeSeconds) {
+  Street street(0.2);
+  KnowWholeSecondsOnly(street);
   const std::vector<PositionByMotion> positions = PositionsByMotion(street.manifest);
   for (uint32_t i = 0; i < 30; ++i) {
-    EXPECT_LT(street.Error(positions, i), 3.0 * positions[i].prior.horizontal_sigma_m) << i;
-    EXPECT_GT(positions[i].prior.horizontal_sigma_m, 2.0) << i;
+    const double sigma_m = positions[i].prior.horizontal_sigma_m;
+    const bool is_corner = i == 15;  // which is no motion of a carrier
+    EXPECT_LT(street.Error(positions, i), is_corner ? 3.0 : 1.0) << i;
+    EXPECT_LT(street.Error(positions, i), 3.0 * sigma_m) << i;
+    EXPECT_GT(sigma_m, 1.0) << i;
+  }
+}
+
+TEST(PositionsByMotion, APositionThatJumpsIsFoundByWholeSeconds) {
+  Street street(0.5);
+  KnowWholeSecondsOnly(street);
+  street.Move(7, {-30.0, 6.0, 0.0});
+  street.Move(22, {3.0, 40.0, 0.0});
+  const std::vector<PositionByMotion> positions = PositionsByMotion(street.manifest);
+  for (const uint32_t image : {7U, 22U}) {
+    EXPECT_LT(street.Error(positions, image), 9.0) << image;
+    EXPECT_LT(street.Error(positions, image), 3.0 * positions[image].prior.horizontal_sigma_m);
   }
 }
 
