@@ -3,6 +3,8 @@
 
 #include "core/merging/finalise_adjustment.h"
 
+#include <absl/strings/str_format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "core/base/status.h"
@@ -103,16 +106,42 @@ SupportVerdicts JudgeSupports(const SupportsOfSubproblems& of_subproblems) {
   return verdicts;
 }
 
-/// Takes out what its own observations do not place, until those of all that are left do.
-/// `verdicts`: of `supports`.
+/// Images that two witnesses have elsewhere which have nothing to do with each other: others, that
+/// see from either side what they should see (ImagesThatMissPoints), and their own GNSS position
+/// (JudgeGnss). Hundreds of points that one neighbour alone shares may put an image there, where
+/// houses repeat.
+std::map<ImageId, std::string> FindMisplaced(const std::vector<SeenBetween>& seen_between,
+                                             const GnssReport& gnss,
+                                             const std::map<ImageId, RegisteredImage>& images,
+                                             const ImageManifest& manifest) {
+  std::map<ImageId, std::string> reasons;
+  for (const SeenBetween& count : ImagesThatMissPoints(seen_between, images)) {
+    const std::string& name = manifest.At(count.image).name;
+    if (std::ranges::find(gnss.outliers, name) == gnss.outliers.end()) continue;
+    reasons[count.image] = absl::StrFormat(
+        "points put it elsewhere than its GNSS position does, and it sees %d of %d that others see "
+        "from either side of there: misplaced",
+        count.seen,
+        count.asked);
+  }
+  return reasons;
+}
+
+/// Takes out what is misplaced and what its own observations do not place, until those of all that
+/// are left do. `verdicts`: of `supports`.
 absl::Status TakeOutWeak(const AdjustedWorld& adjusted,
                          SupportsOfSubproblems supports,
                          SupportVerdicts verdicts,
+                         const std::map<ImageId, std::string>& misplaced,
                          const ImageManifest& manifest,
                          Reconstruction& poses,
                          GlobalAdjustReport& report) {
   const SupportVerdict unsupported = JudgeSupport({});
   std::set<ImageId> weak;
+  for (const auto& [id, reason] : misplaced) {
+    weak.insert(id);
+    report.weak_images.push_back({manifest.At(id).name, reason});
+  }
   for (size_t known = 0;; known = weak.size()) {
     for (const auto& [id, image] : poses.images) {
       if (image.loose || weak.contains(id)) continue;
@@ -169,8 +198,18 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
                     std::back_inserter(world.report.checks));
   LoosenUnobserved(summaries, manifest, poses, world.report);
-  ORBWEAVE_RETURN_IF_ERROR(TakeOutWeak(
-      adjusted, std::move(supports), std::move(verdicts), manifest, poses, world.report));
+  std::map<ImageId, std::string> misplaced;
+  if (georeference.enu_from_world) {
+    const GnssReport gnss = JudgeGnss(problem, biases_m, manifest, poses.images);
+    misplaced = FindMisplaced(seen_between, gnss, poses.images, manifest);
+  }
+  ORBWEAVE_RETURN_IF_ERROR(TakeOutWeak(adjusted,
+                                       std::move(supports),
+                                       std::move(verdicts),
+                                       misplaced,
+                                       manifest,
+                                       poses,
+                                       world.report));
   if (georeference.enu_from_world) {
     world.report.gnss = JudgeGnss(problem, biases_m, manifest, poses.images);
     world.report.gnss.deformation_m = georeference.deformation_m;

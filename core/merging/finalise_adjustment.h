@@ -40,9 +40,10 @@ struct AdjustedWorld {
 /// What only the whole world tells: which images nobody observes any more (they become loose),
 /// which ones their own observations do not place (JudgeSupport; they are no more in the world, for
 /// AttachLooseImages to put where GNSS says), nor once those that do not are left out, as what two
-/// see alone is no support where one of them goes, how GNSS fits the others (JudgeGnss), residuals,
-/// the uncertainty of poses, how `seams` (of the partition) fit, cross checks, and the frame of the
-/// model. Errors are those of `support_without`.
+/// see alone is no support where one of them goes, which ones stand neither where GNSS has them nor
+/// where others look (ImagesThatMissPoints; left out alike), how GNSS fits the others (JudgeGnss),
+/// residuals, the uncertainty of poses, how `seams` (of the partition) fit, cross checks, and the
+/// frame of the model. Errors are those of `support_without`.
 [[nodiscard]] absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
                                                                 const std::vector<Seam>& seams,
                                                                 const Georeference& georeference,

@@ -105,9 +105,10 @@ struct GlobalAdjustReport {
   uint32_t removed_observations = 0;
   uint32_t removed_tracks = 0;
   std::vector<std::string>
-      unobserved_images{};               ///< names of images left without observations; now loose
-  std::vector<Exclusion> weak_images{};  ///< taken out for want of support, and why (JudgeSupport)
-  double residual_px_mean = 0.0;         ///< angle x W / 2pi
+      unobserved_images{};  ///< names of images left without observations; now loose
+  std::vector<Exclusion>
+      weak_images{};  ///< taken out for want of support (JudgeSupport) or as misplaced, and why
+  double residual_px_mean = 0.0;  ///< angle x W / 2pi
   double residual_px_rms = 0.0;
   double pattern_px = 0.0;           ///< what repeats in every panorama (ResidualPattern)
   std::vector<CrossCheck> checks{};  ///< in the order in which they were made

@@ -38,6 +38,13 @@ std::vector<SeenBetween> Summed(const std::vector<SeenBetween>& counts,
   return summed;
 }
 
+/// The least share that is not doubted; of some.
+double LeastShare(const std::vector<SeenBetween>& summed) {
+  std::vector<double> shares;
+  for (const SeenBetween& count : summed) shares.push_back(ShareOf(count));
+  return std::max(kLeastShare, kOfUsual * Quantile(std::move(shares), 0.5));
+}
+
 }  // namespace
 
 CrossCheck CheckMissedPoints(const std::vector<SeenBetween>& counts,
@@ -49,9 +56,7 @@ CrossCheck CheckMissedPoints(const std::vector<SeenBetween>& counts,
     check.sentence = "no panorama stands between others that see what it should see";
     return check;
   }
-  std::vector<double> shares;
-  for (const SeenBetween& count : summed) shares.push_back(ShareOf(count));
-  check.limit = std::max(kLeastShare, kOfUsual * Quantile(shares, 0.5));
+  check.limit = LeastShare(summed);
   const SeenBetween& worst = *std::ranges::min_element(summed, {}, ShareOf);
   check.value = ShareOf(worst);
   if (check.IsWithinLimit()) {
@@ -70,6 +75,15 @@ CrossCheck CheckMissedPoints(const std::vector<SeenBetween>& counts,
                    " points; it may stand elsewhere: compare it with its neighbours, or leave it "
                    "out";
   return check;
+}
+
+std::vector<SeenBetween> ImagesThatMissPoints(const std::vector<SeenBetween>& counts,
+                                              const std::map<ImageId, RegisteredImage>& images) {
+  std::vector<SeenBetween> summed = Summed(counts, images);
+  if (summed.empty()) return {};
+  const double least = LeastShare(summed);
+  std::erase_if(summed, [&](const SeenBetween& count) { return ShareOf(count) >= least; });
+  return summed;
 }
 
 }  // namespace orbweave

@@ -25,4 +25,8 @@ namespace orbweave {
                                            const std::map<ImageId, RegisteredImage>& images,
                                            const ImageManifest& manifest);
 
+/// Those of `images` that it doubts, sorted.
+[[nodiscard]] std::vector<SeenBetween> ImagesThatMissPoints(
+    const std::vector<SeenBetween>& counts, const std::map<ImageId, RegisteredImage>& images);
+
 }  // namespace orbweave

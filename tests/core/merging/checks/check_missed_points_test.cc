@@ -48,6 +48,18 @@ TEST(CheckMissedPoints, NamesWhoSeesHardlyAnything) {
   EXPECT_THAT(check.sentence, HasSubstr("first 8.jpg: 3 of 308 points"));
 }
 
+TEST(ImagesThatMissPoints, AreThoseThatTheCheckDoubts) {
+  Model model;
+  EXPECT_TRUE(ImagesThatMissPoints(model.counts, model.images).empty());
+  model.counts[5].seen = 11;
+  model.counts[8].seen = 3;
+  const std::vector<SeenBetween> missing = ImagesThatMissPoints(model.counts, model.images);
+  ASSERT_EQ(missing.size(), 2U);
+  EXPECT_EQ(missing[0].image, ImageId(5));
+  EXPECT_EQ(missing[1].image, ImageId(8));
+  EXPECT_EQ(missing[1].seen, 3U);
+}
+
 TEST(CheckMissedPoints, IsNoneTheBetterForAllOthersSeeingAsLittle) {
   Model model;
   for (SeenBetween& count : model.counts) count.seen = 0;
