@@ -14,6 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Of a pair's matches. Where the camera stood between two pictures, those with parallax are what
+/// moved: 1 in 100 on a windless day.
+constexpr double kTellingParallax = 0.1;
+
 ViewMatches MatchesOf(const MappingState& state, ImageSlot image, const LinkedPair& pair) {
   const CorrespondenceGraph& graph = state.Graph();
   const ImageSlot view = pair.a == image ? pair.b : pair.a;
@@ -105,7 +109,8 @@ bool ContradictsStrongPair(const Rigid3& cam_from_world,
   return std::ranges::any_of(views, [&](const ViewMatches& view) {
     if (2 * view.in_view.size() < views.front().in_view.size()) return false;
     const MatchCount count = CountMatches(cam_from_world, view, kPairSlack * max_error_rad);
-    return count.near_agreeing < kAgreeingPairShare * count.near;
+    return count.near >= kTellingParallax * static_cast<double>(view.in_view.size()) &&
+           count.near_agreeing < kAgreeingPairShare * count.near;
   });
 }
 

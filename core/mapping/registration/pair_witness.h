@@ -33,9 +33,10 @@ inline constexpr uint32_t kFewestTelling = 4;
                                             double max_error_rad);
 
 /// Whether a strong pair speaks against the pose: one with half as many matches as the strongest or
-/// more, and of those that show parallax fewer than half agree. Windows that repeat let an image
-/// see points a whole window further on, more of them than where it is; but two that stand next to
-/// each other see which of them is in front.
+/// more, and of those that show parallax, a tenth or more of them all, fewer than half agree.
+/// Windows that repeat let an image see points a whole window further on, more of them than where
+/// it is; but two that stand next to each other see which of them is in front. A camera that stood
+/// sees neither.
 [[nodiscard]] bool ContradictsStrongPair(const Rigid3& cam_from_world,
                                          std::span<const ViewMatches> views,
                                          double max_error_rad);

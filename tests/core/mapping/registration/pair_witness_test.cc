@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/core/mapping/true_state.h"
+#include "tests/support/random_world.h"
 
 namespace orbweave {
 namespace {
@@ -59,6 +62,20 @@ TEST(ContradictsStrongPair, SpeaksAgainstTheOtherSideOfTheNeighbourOnly) {
             CountAgreeingMatches(behind, walk.views, kMaxErrorRad));
   // Along the street a pair of directions says nothing of the length.
   EXPECT_FALSE(ContradictsStrongPair(walk.MovedTo(nearest + 2.0 * step), walk.views, kMaxErrorRad));
+}
+
+/// What has parallax then is what moved.
+TEST(ContradictsStrongPair, IsFalseWhereTheCameraStood) {
+  const Rigid3 pose = Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {0.01, 0.0, 0.0});
+  for (const auto& [movers, contradicts] : {std::pair(5, false), std::pair(30, true)}) {
+    Random random(8);
+    ViewMatches view;
+    for (int i = 0; i < 200; ++i) {
+      view.in_view.push_back(testing::RandomDirection(random));
+      view.in_image.push_back(i < movers ? testing::RandomDirection(random) : view.in_view.back());
+    }
+    EXPECT_EQ(ContradictsStrongPair(pose, {&view, 1}, kMaxErrorRad), contradicts) << movers;
+  }
 }
 
 TEST(ContradictsStrongPair, IsFalseWithoutPairs) {
