@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a pair's matches. Where the camera stood between two pictures, those with parallax are what
-/// moved: 1 in 100 on a windless day.
+/// Of a pair's matches: where a camera stood between two pictures those with parallax are what
+/// moved, and a street is not mostly traffic; of two that stand apart most have it.
 constexpr double kTellingParallax = 0.1;
 
 ViewMatches MatchesOf(const MappingState& state, ImageSlot image, const LinkedPair& pair) {
