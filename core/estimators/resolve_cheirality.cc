@@ -11,20 +11,17 @@
 
 namespace orbweave {
 
-using Eigen::Vector3d;
-
 std::vector<uint32_t> InFrontOfBoth(const BearingPairs& pairs,
                                     std::span<const uint32_t> candidates,
                                     const Rigid3& b_from_a,
                                     double max_error_rad) {
   const double min_cos = std::cos(2.0 * max_error_rad);
+  const PoseOfRays rays_of(b_from_a);
   std::vector<uint32_t> in_front;
   in_front.reserve(candidates.size());
   for (const uint32_t i : candidates) {
-    const Vector3d a = pairs.A(i);
-    const Vector3d b = pairs.B(i);
-    const bool is_far = b.dot(b_from_a.rotation * a) > min_cos;
-    if (is_far || IsInFrontOfBoth(b_from_a, a, b)) in_front.push_back(i);
+    const RayPair rays = rays_of(pairs.A(i), pairs.B(i));
+    if (rays.cosine > min_cos || rays.IsInFrontOfBoth()) in_front.push_back(i);
   }
   return in_front;
 }

@@ -26,15 +26,17 @@ struct TiesOfLine {
 
 class Counter {
  public:
-  explicit Counter(const AskedRays& asked)
+  Counter(const AskedRays& asked, const std::set<ImageSlot>& steps)
       : asked_(asked),
         places_(asked.state, kMatchTolerance * asked.max_error_px),
+        is_asked_(places_.size()),
         along_(places_.size()),
         by_line_(places_.size()) {
     for (size_t place = 0; place + 1 < places_.size(); ++place) {
       const Eigen::Vector3d step =
           asked.state.Centre(places_.At(place + 1)) - asked.state.Centre(places_.At(place));
       log_steps_.push_back(std::log(step.norm()));
+      is_asked_[place] = steps.contains(places_.At(place)) ? 1 : 0;
     }
   }
 
@@ -57,6 +59,7 @@ class Counter {
   [[nodiscard]] std::map<ImageSlot, uint32_t> Take() const {
     std::map<ImageSlot, uint32_t> counts;
     for (size_t step = 0; step < along_.size(); ++step) {
+      if (is_asked_[step] == 0) continue;
       uint32_t of_line = 0;
       for (const auto& [line, ties] : by_line_[step])
         of_line = std::max(of_line, std::min(ties.before, ties.behind));
@@ -83,6 +86,7 @@ class Counter {
     const size_t first = sight.other - std::min(sight.other, kReachAlongLine);
     const size_t last = std::min(sight.other + kReachAlongLine, log_steps_.size());
     for (size_t step = first; step < last; ++step) {
+      if (is_asked_[step] == 0) continue;
       const bool is_behind = sight.other > step;
       if (LineAt(step) != LineAt(sight.other) || LineAt(step + 1) != LineAt(sight.other)) continue;
       if (sight.log_length > std::log(kMaxTie) + log_steps_[step]) continue;
@@ -116,6 +120,7 @@ class Counter {
   const AskedRays& asked_;
   RegisteredSequence places_;
   std::vector<double> log_steps_{};  ///< from each place to the next
+  std::vector<uint8_t> is_asked_;    ///< the step behind each place
   std::vector<uint32_t> along_;      ///< of images further along the same line
   std::vector<std::map<uint32_t, TiesOfLine>> by_line_;
   // Of the ray at hand; kept for their memory.
@@ -125,8 +130,10 @@ class Counter {
 
 }  // namespace
 
-std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked) {
-  Counter counter(asked);
+std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked,
+                                             const std::set<ImageSlot>& steps) {
+  if (steps.empty()) return {};
+  Counter counter(asked, steps);
   ForEachRay(asked.depths, [&](std::span<const RayDepth> ray) { counter.Add(ray); });
   return counter.Take();
 }

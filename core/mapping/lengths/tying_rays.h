@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 
 #include "core/mapping/lengths/asked_rays.h"
 
@@ -12,7 +13,7 @@ namespace orbweave {
 /// As long as a pair is at most, in steps, to say where an image at the step stands.
 inline constexpr double kMaxTie = 2.0;
 
-/// By the first of the two images of a step along a line (FindStreetLines), the rays that tie its
+/// Of steps along lines (FindStreetLines), each named by its first image, the rays that tie the
 /// ends together past the step: a camera that was carried about a room, or came by again, has
 /// neighbours that its own line does not know of.
 ///
@@ -22,6 +23,7 @@ inline constexpr double kMaxTie = 2.0;
 /// further along the same line, or of k's line, where that is another one. The other line ties the
 /// step by as many rays as tie the one of its sides that it knows less of; of several lines that
 /// counts which ties it best.
-[[nodiscard]] std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked);
+[[nodiscard]] std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked,
+                                                           const std::set<ImageSlot>& steps);
 
 }  // namespace orbweave

@@ -38,8 +38,10 @@ class TwoDrives {
   StreetFixture street_;
 };
 
+/// Of the steps behind all images.
 std::map<ImageSlot, uint32_t> TiesIn(const MappingState& state) {
-  return CountTyingRays({state, {}});
+  const std::vector<ImageSlot>& images = state.Registered();
+  return CountTyingRays({state, {}}, {images.begin(), images.end()});
 }
 
 TEST(TyingRays, AreNoneWhereACameraPassesOnce) {
@@ -61,6 +63,15 @@ TEST(TyingRays, AreThoseOfTheWayBack) {
   const auto ties = TiesIn(street.StateWith(FirstImages(kImages)));
   for (const ImageSlot image : {0U, 1U, 2U, 3U, 11U, 12U, 13U, 14U})
     EXPECT_GT(ties.at(image), 25U) << image;
+}
+
+TEST(TyingRays, AreCountedWhereTheyAreAskedFor) {
+  const TwoDrives street;
+  const MappingState state = street.With(FirstImages(kImages));
+  const auto all = TiesIn(state);
+  const auto some = CountTyingRays({state, {}}, {4, 7});
+  EXPECT_EQ(some, (std::map<ImageSlot, uint32_t>{{4, all.at(4)}, {7, all.at(7)}}));
+  EXPECT_TRUE(CountTyingRays({state, {}}, {}).empty());
 }
 
 /// What is behind a tear of one drive stands beside the other one as it should not.
