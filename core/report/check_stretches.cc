@@ -19,9 +19,7 @@ namespace orbweave {
 namespace {
 
 constexpr size_t kFewest = 4;
-// Twenty panoramas of a camera on a dashboard went on over 1.45 times as much by their positions as
-// in the model, which had them 38 m off at the end.
-constexpr double kOtherScale = 4.0 / 3.0;
+constexpr double kOtherScale = 1.5;
 constexpr double kSigmas = 3.0;
 constexpr double kAsStraight = 4.0 / 3.0;
 

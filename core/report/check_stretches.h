@@ -9,8 +9,8 @@ namespace orbweave {
 
 /// "stretch_lengths": whether stretches whose positions contradict the model are as long in it as
 /// these have them. A receiver that is off by some street says wrong where a stretch is, and hardly
-/// how long it is; where its positions go on as evenly as before, but the model has the stretch a
-/// third longer or three quarters as long, it is the model that may have it of another scale: a
+/// how long it is; where its positions go on as evenly as before, but the model has the stretch
+/// half as long again or less than two thirds, it is the model that may have it of another scale: a
 /// street that hardly a point holds to the rest, whose positions, all together, count as outliers.
 ///
 /// Asked are runs of four contradicted panoramas or more in a row (GnssDrivesOf), by the distance
