@@ -27,15 +27,19 @@ bool IsInFrontOfBoth(const Rigid3& b_from_a, const Vector3d& p_a, const Vector3d
   return PoseOfRays(b_from_a)(p_a, p_b).IsInFrontOfBoth();
 }
 
-double RayPair::SymmetricEpipolarAngle() const {
+double RayPair::SquaredNormal() const {
   // |E p_a|^2 = 1 - along_a^2, |E^T p_b|^2 = 1 - along_b^2
-  const double squared = 1.0 - 0.5 * (along_a * along_a + along_b * along_b);
+  return 1.0 - 0.5 * (along_a * along_a + along_b * along_b);
+}
+
+double RayPair::SymmetricEpipolarAngle() const {
+  const double squared = SquaredNormal();
   if (!(squared > 0.0)) return pi / 2.0;
   return std::asin(std::min(1.0, std::abs(lift) / std::sqrt(squared)));
 }
 
 bool RayPair::IsWithin(double max_rad) const {
-  const double squared = 1.0 - 0.5 * (along_a * along_a + along_b * along_b);
+  const double squared = SquaredNormal();
   // e - e^3 / 6 <= sin e <= e, and so e^2 (1 - e^2 / 3) <= sin^2 e.
   const double most = max_rad * max_rad * squared;
   if (lift * lift <= most * (1.0 - max_rad * max_rad / 3.0) && squared > 0.0) return true;

@@ -35,6 +35,8 @@ struct RayPair {
   double along_b = 0.0;  ///< T . p_b
   double cosine = 0.0;   ///< R p_a . p_b
 
+  /// Of the normals E p_a and E^T p_b, the mean.
+  [[nodiscard]] double SquaredNormal() const;
   [[nodiscard]] double SymmetricEpipolarAngle() const;
   /// SymmetricEpipolarAngle() <= max_rad, at a fraction of its cost but for angles that are close.
   [[nodiscard]] bool IsWithin(double max_rad) const;

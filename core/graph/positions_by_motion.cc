@@ -84,7 +84,6 @@ class TrackSmoother {
   [[nodiscard]] Eigen::VectorXd Position(Eigen::Index i) const {
     const Eigen::VectorXd measured = track_.values.row(i).transpose();
     const Eigen::VectorXd smoothed = smoothed_.positions.row(i).transpose();
-    if (!std::isfinite(given_[i])) return smoothed;
     return measured + ShareOfOthers(i) * ratio_[i] * (smoothed - measured);
   }
   /// Neighbours share what their smoothed positions are off. So that who takes them for independent

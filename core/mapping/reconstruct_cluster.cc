@@ -20,6 +20,7 @@
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/measure_gap_lengths.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
+#include "core/mapping/lengths/tying_rays.h"
 #include "core/mapping/model/mapping_schedule.h"
 #include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/split_by_gnss.h"
@@ -150,7 +151,9 @@ void TakeSubmodel(const MappingState& state,
   const AskedRays asked(state, options);
   std::ranges::copy(MeasurePairLengths(asked), std::back_inserter(result.pair_lengths));
   const GnssWays gnss(state, kMatchTolerance * options.max_error_px);
-  std::ranges::copy(MeasureGapLengths(asked, &gnss), std::back_inserter(result.gap_lengths));
+  std::vector<GapLength> gaps = MeasureGapLengths(asked, &gnss);
+  AddTyingRays(asked, gaps);
+  std::ranges::move(gaps, std::back_inserter(result.gap_lengths));
 }
 
 }  // namespace

@@ -106,10 +106,7 @@ class Collector {
     for (const Sight& sight : sights_) {
       if (!sight.LeadsAcross(gap, here)) reaches_.push_back(sight.reach);
     }
-    if (reaches_.empty()) return std::nullopt;
-    const auto middle = reaches_.begin() + static_cast<std::ptrdiff_t>((reaches_.size() - 1) / 2);
-    std::ranges::nth_element(reaches_, middle);
-    return *middle;
+    return MedianReach(reaches_);
   }
 
   const AskedRays& asked_;

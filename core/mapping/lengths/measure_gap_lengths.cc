@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -15,13 +14,9 @@
 #include "core/mapping/lengths/gap_votes.h"
 #include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
-#include "core/mapping/lengths/tying_rays.h"
 
 namespace orbweave {
 namespace {
-
-/// More tell a step well enough.
-constexpr size_t kManyTelling = 100;
 
 /// What one side of a gap says of it.
 struct Side {
@@ -61,20 +56,6 @@ bool WantsAnotherMore(const GapLength& one, const GapLength& other) {
   return wish(one) > wish(other);
 }
 
-/// Rays of the side that tells more.
-size_t CountTelling(const GapVotes& votes) {
-  return std::max(votes.before.size(), votes.behind.size());
-}
-
-std::map<ImageSlot, uint32_t> TyingRaysWhereFewTell(const AskedRays& asked,
-                                                    std::span<const GapVotes> all_votes) {
-  std::set<ImageSlot> steps;
-  for (const GapVotes& votes : all_votes) {
-    if (CountTelling(votes) < kManyTelling) steps.insert(votes.image);
-  }
-  return CountTyingRays(asked, steps);
-}
-
 }  // namespace
 
 LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
@@ -88,9 +69,7 @@ LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
 
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
   std::vector<GapLength> gaps;
-  const std::vector<GapVotes> all_votes = CollectGapVotes(asked);
-  const std::map<ImageSlot, uint32_t> tying_rays = TyingRaysWhereFewTell(asked, all_votes);
-  for (const GapVotes& votes : all_votes) {
+  for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
     const Side behind = SideOf(votes, votes.behind, asked);
     const Side& wants_another = WantsAnotherMore(behind.length, before.length) ? behind : before;
@@ -100,9 +79,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.elsewhere = wants_another.length.elsewhere;
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
-    gap.telling_rays = static_cast<uint32_t>(CountTelling(votes));
-    if (const auto tying = tying_rays.find(votes.image); tying != tying_rays.end())
-      gap.telling_rays += tying->second;
+    gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     gap.is_borne_out = gnss != nullptr && IsBorneOut(asked, votes, *gnss, wants_another.shift);
   }
   return gaps;

@@ -38,8 +38,8 @@ struct GapLength {
   /// sides stand and turn to each other (AgreementOfMatches).
   LengthAgreement matches{};
   /// Rays of all pairs that lead across, and those of the side that tells more that say how long
-  /// these are, because pairs that stay on their side share them; with them, where these are fewer
-  /// than a hundred, those that tie its ends together past it (CountTyingRays).
+  /// these are, because pairs that stay on their side share them; with them, once they are
+  /// added (AddTyingRays), those that tie its ends together past it.
   uint32_t rays = 0;
   uint32_t telling_rays = 0;
   bool is_borne_out = false;  ///< by GNSS, which refutes what else rays say (IsBorneOut)

@@ -52,6 +52,14 @@ std::vector<RayDepth> MeasureRayDepths(const ClusterProblem& problem,
   return SortedByNode(depths, graph.NumNodes());
 }
 
+std::optional<double> MedianReach(std::span<double> log_reaches) {
+  if (log_reaches.empty()) return std::nullopt;
+  const auto middle =
+      log_reaches.begin() + static_cast<std::ptrdiff_t>((log_reaches.size() - 1) / 2);
+  std::ranges::nth_element(log_reaches, middle);
+  return *middle;
+}
+
 LengthsOnRay::LengthsOnRay(std::span<const RayDepth> ray, std::span<const double> log_lengths) {
   reaches_.reserve(ray.size());
   for (const RayDepth& depth : ray)

@@ -38,6 +38,10 @@ void ForEachRay(std::span<const RayDepth> depths, const Visit& visit) {
   }
 }
 
+/// How far a ray reaches as several pairs have it: the lower median of the logarithms, which are
+/// put in another order; nullopt of none.
+[[nodiscard]] std::optional<double> MedianReach(std::span<double> log_reaches);
+
 /// What the pairs that share one ray, whose lengths are known, say of each other's.
 class LengthsOnRay {
  public:

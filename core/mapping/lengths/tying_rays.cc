@@ -18,6 +18,9 @@
 namespace orbweave {
 namespace {
 
+/// More tell a step well enough.
+constexpr uint32_t kManyTelling = 100;
+
 /// Rays of another line that tie the images before a step, and those behind it.
 struct TiesOfLine {
   uint32_t before = 0;
@@ -110,11 +113,8 @@ class Counter {
       const bool is_split = LineAt(here) == LineAt(step) && (sight.other > step) != (here > step);
       if (!is_split) log_reaches_.push_back(sight.log_reach);
     }
-    if (log_reaches_.empty()) return false;
-    const auto middle =
-        log_reaches_.begin() + static_cast<std::ptrdiff_t>((log_reaches_.size() - 1) / 2);
-    std::ranges::nth_element(log_reaches_, middle);
-    return std::abs(*middle - asked.log_reach) <= kCloseTolerance;
+    const std::optional<double> reach = MedianReach(log_reaches_);
+    return reach && std::abs(*reach - asked.log_reach) <= kCloseTolerance;
   }
 
   const AskedRays& asked_;
@@ -136,6 +136,21 @@ std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked,
   Counter counter(asked, steps);
   ForEachRay(asked.depths, [&](std::span<const RayDepth> ray) { counter.Add(ray); });
   return counter.Take();
+}
+
+void AddTyingRays(const AskedRays& asked, std::span<GapLength> gaps) {
+  const auto image_of = [&](const GapLength& gap) {
+    return SlotOf(asked.state.Problem(), gap.between.a).value();
+  };
+  std::set<ImageSlot> steps;
+  for (const GapLength& gap : gaps) {
+    if (gap.telling_rays < kManyTelling) steps.insert(image_of(gap));
+  }
+  const std::map<ImageSlot, uint32_t> tying_rays = CountTyingRays(asked, steps);
+  for (GapLength& gap : gaps) {
+    if (const auto tying = tying_rays.find(image_of(gap)); tying != tying_rays.end())
+      gap.telling_rays += tying->second;
+  }
 }
 
 }  // namespace orbweave

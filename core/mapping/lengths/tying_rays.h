@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 
 #include "core/mapping/lengths/asked_rays.h"
+#include "core/mapping/lengths/pair_length.h"
 
 namespace orbweave {
 
@@ -25,5 +27,9 @@ inline constexpr double kMaxTie = 2.0;
 /// counts which ties it best.
 [[nodiscard]] std::map<ImageSlot, uint32_t> CountTyingRays(const AskedRays& asked,
                                                            const std::set<ImageSlot>& steps);
+
+/// Adds them to the telling rays of steps of which fewer than a hundred tell how long they are
+/// (GapLength::telling_rays). `gaps`: of MeasureGapLengths.
+void AddTyingRays(const AskedRays& asked, std::span<GapLength> gaps);
 
 }  // namespace orbweave
