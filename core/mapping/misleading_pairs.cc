@@ -4,6 +4,7 @@
 #include "core/mapping/misleading_pairs.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -22,6 +23,12 @@ constexpr int kNeighbours = 2;
 // Right pairs of ten metres and more were 0.05 to 1 degree off the model, 1.5 where they are weak.
 constexpr double kTurnsOtherwise_rad = 2.0 * kDegree_rad;
 constexpr double kTurnsAlike_rad = 0.75 * kDegree_rad;
+constexpr double kHardlyParts = 0.25;   // of the angles of either way
+constexpr size_t kTimesTheMatches = 2;  // the pair may have of those of either way
+
+ImageSlot OtherImage(const LinkedPair& pair, ImageSlot image) {
+  return pair.a == image ? pair.b : pair.a;
+}
 
 }  // namespace
 
@@ -47,16 +54,12 @@ std::optional<ImageSlot> MisleadingPairs::At(ImageSlot image, int places_on) con
 
 bool MisleadingPairs::LeadsBack(uint32_t pair) const {
   const LinkedPair& link = state_.Graph().pairs[pair];
-  const TwoViewGeometry& geometry = state_.Problem().pairs[link.index];
-  if (!HasBaseline(geometry.kind)) return false;
+  if (!HasBaseline(state_.Problem().pairs[link.index].kind)) return false;
   const bool is_forward = place_[link.a] < place_[link.b];
   const auto [first, last] = is_forward ? std::pair(link.a, link.b) : std::pair(link.b, link.a);
   if (At(first, 1) != last && At(first, kNeighbours) != last) return false;
   const Vector3d step = state_.Centre(last) - state_.Centre(first);
-  const Vector3d from_a_to_b =
-      state_.CamFromWorld(link.a).rotation.conjugate() * geometry.b_from_a.Centre();
-  if (AngleBetween(is_forward ? from_a_to_b : Vector3d(-from_a_to_b), step) <= kBack_rad)
-    return false;
+  if (AngleBetween(WayInWorld(pair, first), step) <= kBack_rad) return false;
   const std::optional<ImageSlot> before = At(first, -1);
   const std::optional<ImageSlot> behind = At(last, 1);
   const auto goes_on = [&](ImageSlot from, ImageSlot to) {
@@ -89,7 +92,7 @@ bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
     std::vector<ImageSlot> others;
     for (const uint32_t p : graph.pairs_of_image[image]) {
       if (!IsBorneOut(p, matches)) continue;
-      others.push_back(graph.pairs[p].a == image ? graph.pairs[p].b : graph.pairs[p].a);
+      others.push_back(OtherImage(graph.pairs[p], image));
     }
     std::ranges::sort(others);
     return others;
@@ -97,6 +100,35 @@ bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
   const std::vector<ImageSlot> of_a = others_of(link.a);
   const std::vector<ImageSlot> of_b = others_of(link.b);
   return std::ranges::find_first_of(of_a, of_b) != of_a.end();
+}
+
+Vector3d MisleadingPairs::WayInWorld(uint32_t pair, ImageSlot image) const {
+  const LinkedPair& link = state_.Graph().pairs[pair];
+  const Vector3d from_a_to_b = state_.CamFromWorld(link.a).rotation.conjugate() *
+                               state_.Problem().pairs[link.index].b_from_a.Centre();
+  return link.a == image ? from_a_to_b : Vector3d(-from_a_to_b);
+}
+
+bool MisleadingPairs::StandsStill(uint32_t pair) const {
+  const CorrespondenceGraph& graph = state_.Graph();
+  const LinkedPair& link = graph.pairs[pair];
+  const TwoViewGeometry& geometry = state_.Problem().pairs[link.index];
+  const auto moves_on = [&](uint32_t p) {
+    const TwoViewGeometry& other = state_.Problem().pairs[graph.pairs[p].index];
+    return is_explained_[p] != 0 && HasBaseline(other.kind) &&
+           kTimesTheMatches * other.inliers.size() >= geometry.inliers.size() &&
+           geometry.median_angle_rad <= kHardlyParts * other.median_angle_rad;
+  };
+  std::map<ImageSlot, uint32_t> ways_to_third;  // from a
+  for (const uint32_t p : graph.pairs_of_image[link.a]) {
+    if (moves_on(p)) ways_to_third.emplace(OtherImage(graph.pairs[p], link.a), p);
+  }
+  return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t p) {
+    const auto before = ways_to_third.find(OtherImage(graph.pairs[p], link.b));
+    if (before == ways_to_third.end() || !moves_on(p)) return false;
+    const auto& [third, way] = *before;
+    return AngleBetween(WayInWorld(way, link.a), WayInWorld(p, third)) <= kOnward_rad;
+  });
 }
 
 }  // namespace orbweave

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,7 @@ class MisleadingPairs {
   MisleadingPairs(const MappingState& state, std::vector<uint8_t> is_explained);
 
   [[nodiscard]] bool IsMisleading(uint32_t pair) const {
-    return LeadsBack(pair) || TurnsOtherwise(pair);
+    return LeadsBack(pair) || TurnsOtherwise(pair) || StandsStill(pair);
   }
 
  private:
@@ -32,6 +33,14 @@ class MisleadingPairs {
   /// as many matches or more each, by way of a third image as the model does (to 0.75 degrees).
   /// Lengths that are wrong turn nothing, and where the model is askew no pairs across agree.
   [[nodiscard]] bool TurnsOtherwise(uint32_t pair) const;
+  /// The rays of the pair hardly part, as if no way lay between its images, and two explained
+  /// pairs, of half as many matches or more each, lead from the one by way of a third to the other,
+  /// in directions of their own that go on (60 degrees or less), with rays that part four times as
+  /// much and more: then the pair's baseline is longer than either. A camera that stands or comes
+  /// back has no such ways. Windows one step apart make such pairs, each taken for the next.
+  [[nodiscard]] bool StandsStill(uint32_t pair) const;
+  /// By the pair's own geometry, from `image`, one of its two, to the other; not a unit vector.
+  [[nodiscard]] Eigen::Vector3d WayInWorld(uint32_t pair, ImageSlot image) const;
   [[nodiscard]] bool IsBorneOut(uint32_t pair, size_t min_matches) const;
   /// Between the pair's rotation and the model's.
   [[nodiscard]] double TurnErrorOf(uint32_t pair) const;

@@ -15,6 +15,8 @@ namespace {
 constexpr double kWithinSigmas = 2.0;
 constexpr double kOffBySigmas = 3.0;
 constexpr double kKnownShare = 0.2;
+constexpr double kRoughlyKnownShare = 0.4;
+constexpr double kWithinRoughSigmas = 1.0;
 constexpr auto kFewestRays = static_cast<double>(kFewestRaysOfPair);
 
 }  // namespace
@@ -37,13 +39,17 @@ std::vector<double> ShiftsByGnss(const AskedRays& asked, const GapVotes& gap, co
 bool IsBorneOut(const AskedRays& asked,
                 const GapVotes& gap,
                 const GnssWays& gnss,
-                double elsewhere) {
+                const WishOfRays& wish) {
   const GnssWay* const way = gnss.WayToNext(gap.image, gap.next);
   if (way == nullptr) return false;
   const double misfit = way->Misfit(asked.state);
-  const bool is_refuted = std::abs(misfit + elsewhere / way->sigma) > kOffBySigmas;
-  return way->sigma <= kKnownShare * way->length && std::abs(misfit) <= kWithinSigmas &&
-         (elsewhere == 0.0 || is_refuted);
+  const bool is_refuted = std::abs(misfit + wish.elsewhere / way->sigma) > kOffBySigmas;
+  if (wish.elsewhere != 0.0 && !is_refuted) return false;
+  const auto has_it = [&](double known_share, double sigmas) {
+    return way->sigma <= known_share * way->length && std::abs(misfit) <= sigmas;
+  };
+  return has_it(kKnownShare, kWithinSigmas) ||
+         (wish.here >= 2.0 * kFewestRays && has_it(kRoughlyKnownShare, kWithinRoughSigmas));
 }
 
 }  // namespace orbweave

@@ -18,12 +18,21 @@ namespace orbweave {
                                                const GapVotes& gap,
                                                const GnssWay& way);
 
+/// What rays say of a way: how many say closely what the model has, and the shift that clearly more
+/// of them want, or 0 (FindGapShift).
+struct WishOfRays {
+  double here = 0.0;
+  double elsewhere = 0.0;
+};
+
 /// Whether GNSS knows a way to a fifth of its length, has it as it is up to two sigmas, and would
-/// have it off by more than three if it were longer by `elsewhere`, the shift that clearly more
-/// rays want, where that is not 0.
+/// have it off by more than three if it were longer by the shift that rays want, where they want
+/// one. Where rays crowd at the model's length, those of two pairs at least (16), GNSS may know it
+/// to two fifths, and has it up to one sigma: either way it is off by less than half a step, which
+/// is as near as places that look alike usually are.
 [[nodiscard]] bool IsBorneOut(const AskedRays& asked,
                               const GapVotes& gap,
                               const GnssWays& gnss,
-                              double elsewhere);
+                              const WishOfRays& wish);
 
 }  // namespace orbweave

@@ -80,7 +80,9 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
-    gap.is_borne_out = gnss != nullptr && IsBorneOut(asked, votes, *gnss, wants_another.shift);
+    gap.is_borne_out =
+        gnss != nullptr &&
+        IsBorneOut(asked, votes, *gnss, {.here = gap.here, .elsewhere = wants_another.shift});
   }
   return gaps;
 }

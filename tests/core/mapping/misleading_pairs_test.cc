@@ -88,5 +88,38 @@ TEST(MisleadingPairs, WeakPairsDoNotOutweighAStrongOne) {
   EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}));
 }
 
+/// A walk whose pair of images 2 and 4 has rays that hardly part, those of others by 20 degrees.
+struct StillWalk : Walk {
+  StillWalk() {
+    for (TwoViewGeometry& geometry : street.world.problem.pairs) geometry.median_angle_rad = 0.35;
+    PairOf(2, 4).median_angle_rad = 0.02;
+  }
+  bool StandsStill() const { return IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}); }
+};
+
+TEST(MisleadingPairs, AreThoseThatStandStillWhereTwoExplainedOnesGoOn) {
+  StillWalk walk;
+  EXPECT_TRUE(walk.StandsStill());
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3)}));
+  EXPECT_FALSE(walk.IsMisleading(2, 4));
+  walk.PairOf(2, 4).median_angle_rad = 0.1;
+  EXPECT_FALSE(walk.StandsStill());
+}
+
+TEST(MisleadingPairs, ACameraThatComesBackSeesTheSame) {
+  StillWalk walk;
+  walk.PairOf(3, 4).b_from_a.translation *= -1.0;
+  EXPECT_FALSE(walk.StandsStill());
+}
+
+TEST(MisleadingPairs, NeitherAStopNorWeakPairsSayThatItWentOn) {
+  StillWalk stop;
+  stop.PairOf(3, 4).median_angle_rad = 0.03;
+  EXPECT_FALSE(stop.StandsStill());
+  StillWalk weak;
+  weak.PairOf(2, 3).inliers.resize(weak.PairOf(2, 4).inliers.size() / 2 - 1);
+  EXPECT_FALSE(weak.StandsStill());
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 #include <vector>
 
 #include "core/geometry/sim3.h"
+#include "core/mapping/lengths/ask_gnss_of_ways.h"
 #include "core/mapping/lengths/find_gap_shift.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
@@ -237,11 +239,29 @@ TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
 
 TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
   TornStreet street;
-  street.GivePositions(3, 3.0, 3.0);
+  street.GivePositions(3, 5.0, 5.0);
   const MappingState state = street.Right();
   const AskedRays asked(state, {});
   const GnssWays gnss(state, 4.0 * kMatchTolerance);
   for (const GapLength& gap : MeasureGapLengths(asked, &gnss)) EXPECT_FALSE(gap.is_borne_out);
+}
+
+TEST(GapLengths, WhereRaysCrowdGnssNeedKnowThemButRoughly) {
+  TornStreet street;
+  street.GivePositions(3, 2.0, 2.0);
+  const MappingState state = street.Right();
+  const AskedRays asked(state, {});
+  const GnssWays gnss(state, 4.0 * kMatchTolerance);
+  const std::vector<GapVotes> gaps = CollectGapVotes(asked);
+  const auto count = [&](const WishOfRays& wish) {
+    return std::ranges::count_if(
+        gaps, [&](const GapVotes& gap) { return IsBorneOut(asked, gap, gnss, wish); });
+  };
+  EXPECT_GE(count({.here = 16.0}), std::ssize(gaps) / 2);
+  EXPECT_LT(count({.here = 16.0}), std::ssize(gaps)) << "those that GNSS has otherwise";
+  EXPECT_EQ(count({.here = 15.0}), 0);
+  EXPECT_EQ(count({.here = 16.0, .elsewhere = 3.0}), 0) << "what GNSS does not refute";
+  EXPECT_EQ(count({.here = 16.0, .elsewhere = 16.0}), count({.here = 16.0}));
 }
 
 TEST(GapLengths, CountTheRaysThatTell) {
