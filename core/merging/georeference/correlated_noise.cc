@@ -112,22 +112,6 @@ Eigen::MatrixXd Squares(const std::vector<NoiseRun>& runs) {
   return sum;
 }
 
-std::vector<double> LengthsToTry(const std::vector<NoiseRun>& runs) {
-  std::vector<double> steps;
-  double longest = 0.0;
-  for (const NoiseRun& run : runs) {
-    for (size_t i = 1; i < run.places.size(); ++i)
-      steps.push_back(run.places[i] - run.places[i - 1]);
-    if (!run.places.empty()) longest = std::max(longest, run.places.back() - run.places.front());
-  }
-  std::vector<double> lengths;
-  const double step = std::max(Quantile(std::move(steps), 0.5), 1e-3 * longest);
-  for (double length = 2.0 * step; length > 0.0 && length <= kLongest * longest;
-       length *= kLengthStep)
-    lengths.push_back(length);
-  return lengths;
-}
-
 Evidence EvidenceOf(const NoiseAxis& axis, const Hypothesis& hypothesis) {
   Whitening whitening(axis.information.size());
   for (const NoiseRun& run : axis.runs) whitening.Add(run, hypothesis);
@@ -187,6 +171,24 @@ class ToldAxis {
   Eigen::MatrixXd inverse_;
   Eigen::VectorXd independent_;
 };
+
+std::vector<double> LengthsToTry(const std::vector<ToldAxis>& axes) {
+  std::vector<double> steps;
+  double longest = 0.0;
+  for (const ToldAxis& axis : axes) {
+    for (const NoiseRun& run : axis.Axis().runs) {
+      for (size_t i = 1; i < run.places.size(); ++i)
+        steps.push_back(run.places[i] - run.places[i - 1]);
+      if (!run.places.empty()) longest = std::max(longest, run.places.back() - run.places.front());
+    }
+  }
+  std::vector<double> lengths;
+  const double step = std::max(Quantile(std::move(steps), 0.5), 1e-3 * longest);
+  for (double length = 2.0 * step; length > 0.0 && length <= kLongest * longest;
+       length *= kLengthStep)
+    lengths.push_back(length);
+  return lengths;
+}
 
 // Hypotheses, their likelihood and what they make of the unknowns of each axis.
 class Posterior {
@@ -265,7 +267,7 @@ std::vector<CorrelatedNoise> EstimateCorrelatedNoise(const std::vector<NoiseAxis
     axis_of_told.push_back(noises.size() - 1);
   }
   if (told.empty()) return noises;
-  const std::vector<double> lengths = LengthsToTry(told.front().Axis().runs);
+  const std::vector<double> lengths = LengthsToTry(told);
   if (lengths.empty()) return noises;
   Posterior posterior(told);
   // As likely at first as all others together.

@@ -5,36 +5,36 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "core/base/quantile.h"
 #include "core/merging/georeference/correlated_noise.h"
+#include "core/merging/georeference/drive_regression.h"
 
 namespace orbweave {
 namespace {
 
-constexpr size_t kMinFixes = 12;       // twice the unknowns of a regression
+constexpr size_t kMinFixes = 12;  // twice the unknowns of a regression
+// Where more positions are off, something else is wrong with them, as a mirror: what two legs of a
+// street make of that looks like a shift of one of them.
+constexpr double kMinAgreeingShare = 0.7;
 constexpr size_t kMinOffsetFixes = 5;  // two that are far off do not carry a median of so many away
-// Estimates over their sigmas are normal to 10 % (960 corridors without such errors, independent
-// and alike over 50 to 400 m: none above 2.9 ahead, 3.8 to the side).
+// Deviations (FitUncertainty::Bound). Estimates over their sigmas are normal to 10 % along
+// corridors (960 without such errors, independent and alike over 50 to 400 m: none above 2.9
+// ahead, 3.8 to the side), to 30 % of drives that are three or four stretches of six positions.
 constexpr double kBelievedSigmas = 4.0;
 constexpr double kDoubtedSigmas = 3.0;
-constexpr int kReweightings = 10;
-// Sigma of shifts and errors before anything is measured: no receiver is worse.
-constexpr double kAnything_m = 1000.0;
 // Receivers of one datum stay within this of each other on average over a drive: four sigmas of
 // the difference of two offsets of 2 m, which is what a street canyon makes of a drive.
 constexpr double kSameDatum_m = 12.0;
 constexpr double kMadToSigma = 1.4826;
 // From here on an undetermined shift along the street is worth a word.
 constexpr double kTellingShift_m = 2.0;
-
-// Unknowns of a drive's regression.
-enum Unknown { kEast, kNorth, kTurn, kStretch, kAhead, kLeft, kNumUnknowns };
-using Row = Eigen::Matrix<double, 2, kNumUnknowns>;
 
 Eigen::Vector2d LeftOf(const Eigen::Vector3d& travel) {
   const double length = travel.head<2>().norm();
@@ -56,132 +56,17 @@ std::string PositionsOf(const GnssDrive& drive) {
   return "GNSS positions of drive " + std::to_string(drive.drive);
 }
 
-// The regression of one drive.
-class Regression {
- public:
-  Regression(const GnssDrive& drive, const Sim3& enu_from_world) : drive_(drive) {
-    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const DrivenFix& fix : drive.fixes)
-      centres_.emplace_back((enu_from_world * fix.centre_in_world).head<2>());
-    for (const Eigen::Vector2d& centre : centres_) middle += centre;
-    middle /= static_cast<double>(centres_.size());
-    for (size_t i = 0; i < centres_.size(); ++i) extent_m_ += (centres_[i] - middle).squaredNorm();
-    extent_m_ = std::max(std::sqrt(extent_m_ / static_cast<double>(centres_.size())), 1e-6);
-    for (size_t i = 0; i < centres_.size(); ++i) {
-      const DrivenFix& fix = drive.fixes[i];
-      const Eigen::Vector2d at = (centres_[i] - middle) / extent_m_;
-      const Eigen::Vector2d travel = TravelInEnu(fix, drive.has_times, enu_from_world).head<2>();
-      const Eigen::Vector2d left =
-          LeftOf(fix.travel.isZero() ? fix.travel : enu_from_world.rotation * fix.travel);
-      Row row;
-      row << 1.0, 0.0, -at.y(), at.x(), travel.x(), left.x(),  //
-          0.0, 1.0, at.x(), at.y(), travel.y(), left.y();
-      rows_.push_back(row);
-      residuals_.emplace_back(fix.position_in_enu.head<2>() - centres_[i]);
-      speeds_.push_back(travel.norm());
-      sigmas_m_.push_back(fix.horizontal_sigma_m);
-    }
-    speed_ = std::max(Quantile(speeds_, 0.5), 1e-9);
-    prior_.setConstant(1.0 / (kAnything_m * kAnything_m));
-    prior_[kAhead] *= speed_ * speed_;
-  }
-
-  // The unknowns in `free`, the others zero; Cauchy's weights at the scatter found.
-  Eigen::VectorXd Solve(const std::vector<int>& free) {
-    Eigen::VectorXd solution = Eigen::VectorXd::Zero(kNumUnknowns);
-    for (int iteration = 0; iteration < kReweightings; ++iteration) {
-      const std::vector<double> errors = Errors(solution);
-      scale_m_ = std::max(Quantile(errors, 0.5) / 1.1774, 1e-6);  // median of Rayleigh's
-      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kNumUnknowns, kNumUnknowns);
-      Eigen::VectorXd b = Eigen::VectorXd::Zero(kNumUnknowns);
-      for (size_t i = 0; i < rows_.size(); ++i) {
-        const double weight = 1.0 / (scale_m_ * scale_m_ + errors[i] * errors[i]);
-        A += weight * rows_[i].transpose() * rows_[i];
-        b += weight * rows_[i].transpose() * residuals_[i];
-      }
-      A.diagonal() += prior_;
-      const auto n = static_cast<Eigen::Index>(free.size());
-      Eigen::MatrixXd small(n, n);
-      Eigen::VectorXd rhs(n);
-      for (Eigen::Index j = 0; j < n; ++j) {
-        rhs[j] = b[free[static_cast<size_t>(j)]];
-        for (Eigen::Index k = 0; k < n; ++k)
-          small(j, k) = A(free[static_cast<size_t>(j)], free[static_cast<size_t>(k)]);
-      }
-      const Eigen::VectorXd found = small.ldlt().solve(rhs);
-      for (Eigen::Index j = 0; j < n; ++j) solution[free[static_cast<size_t>(j)]] = found[j];
-    }
-    return solution;
-  }
-
-  // Sigmas of all unknowns about `solution`, errors as correlated as they are.
-  [[nodiscard]] Eigen::VectorXd Sigmas(const Eigen::VectorXd& solution) const {
-    std::vector<NoiseRun> runs(2);
-    const std::vector<double> errors = Errors(solution);
-    std::vector<size_t> kept;
-    for (size_t i = 0; i < errors.size(); ++i) {
-      if (errors[i] <= 3.5 * scale_m_) kept.push_back(i);
-    }
-    const auto m = static_cast<Eigen::Index>(kept.size());
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kNumUnknowns, kNumUnknowns);
-    double squares = 0.0;
-    const double claimed_m = Quantile(sigmas_m_, 0.5);
-    for (int axis = 0; axis < 2; ++axis) {
-      NoiseRun& run = runs[static_cast<size_t>(axis)];
-      run.design.resize(m, kNumUnknowns);
-      run.residuals.resize(m);
-      for (Eigen::Index j = 0; j < m; ++j) {
-        const size_t i = kept[static_cast<size_t>(j)];
-        run.places.push_back(drive_.fixes[i].way);
-        run.design.row(j) = rows_[i].row(axis) / claimed_m;
-        run.residuals[j] = (residuals_[i] - rows_[i] * solution)[axis] / claimed_m;
-      }
-      A += run.design.transpose() * run.design;
-      squares += run.residuals.squaredNorm();
-    }
-    const double redundancy = std::max(2.0 * static_cast<double>(m - kNumUnknowns / 2), 1.0);
-    const double variance = squares / redundancy;
-    const Eigen::VectorXd information = std::max(variance, 1e-12) * prior_;
-    const CorrelatedNoise noise =
-        EstimateCorrelatedNoise({{.runs = std::move(runs), .information = information}}).front();
-    A.diagonal() += information;
-    const Eigen::MatrixXd covariance =
-        variance * A.ldlt().solve(Eigen::MatrixXd::Identity(kNumUnknowns, kNumUnknowns));
-    return covariance.diagonal().cwiseMax(0.0).cwiseProduct(noise.inflations).cwiseSqrt();
-  }
-
-  [[nodiscard]] double speed() const { return speed_; }
-
- private:
-  [[nodiscard]] std::vector<double> Errors(const Eigen::VectorXd& solution) const {
-    std::vector<double> errors;
-    for (size_t i = 0; i < rows_.size(); ++i)
-      errors.push_back((residuals_[i] - rows_[i] * solution).norm());
-    return errors;
-  }
-
-  const GnssDrive& drive_;
-  std::vector<Eigen::Vector2d> centres_{};  // of the model
-  std::vector<Row> rows_{};
-  std::vector<Eigen::Vector2d> residuals_{};
-  std::vector<double> speeds_{};
-  std::vector<double> sigmas_m_{};
-  Eigen::Matrix<double, kNumUnknowns, 1> prior_{};
-  double extent_m_ = 0.0;
-  double speed_ = 1.0;
-  double scale_m_ = 1.0;
-};
-
 // What the regression says of a shift along the way.
 struct Shift {
   double ahead = 0.0;
   double sigma = 0.0;
-  double speed = 1.0;  // of a carrier as usual: m per unit of both
+  double believed = 0.0;  // beyond this
+  double doubted = 0.0;
+  double speed = 1.0;  // of a carrier as usual: m per unit of all these
 
-  [[nodiscard]] bool IsBelieved() const { return std::abs(ahead) > kBelievedSigmas * sigma; }
+  [[nodiscard]] bool IsBelieved() const { return std::abs(ahead) > believed; }
   [[nodiscard]] bool IsDoubted() const {
-    return !IsBelieved() && std::abs(ahead) > kDoubtedSigmas * sigma &&
-           std::abs(ahead) * speed > kTellingShift_m;
+    return !IsBelieved() && std::abs(ahead) > doubted && std::abs(ahead) * speed > kTellingShift_m;
   }
   [[nodiscard]] bool IsUnknown() const { return sigma * speed > kTellingShift_m; }
 };
@@ -191,10 +76,8 @@ CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) 
   const std::string size = Fixed(std::abs(ahead), unit) + (ahead < 0.0 ? " late" : " early") +
                            " along the way (sigma " + Fixed(shift.sigma, unit) + ")";
   const std::string cause = ": a clock that is off, or an antenna before or behind the camera";
-  CrossCheck check{.name = "gnss_clock",
-                   .value = std::abs(ahead),
-                   .limit = kDoubtedSigmas * shift.sigma,
-                   .unit = unit};
+  CrossCheck check{
+      .name = "gnss_clock", .value = std::abs(ahead), .limit = shift.doubted, .unit = unit};
   if (shift.IsBelieved()) {
     check.limit = 0.0;  // none for what is taken off
     check.sentence = PositionsOf(drive) + " are " + size + cause + "; this is taken off";
@@ -219,33 +102,71 @@ CrossCheck LeverCheck(const GnssDrive& drive, double left_m, double sigma_m) {
                       Fixed(sigma_m, "m") + "): an antenna beside the camera; this is taken off"};
 }
 
-// Clock and lever arm of one drive.
-void FindAlongTheWay(const GnssDrive& drive,
-                     const Sim3& enu_from_world,
+// A drive whose shift can be asked for, and what it says of it.
+struct AskedDrive {
+  size_t drive = 0;  // position in the list
+  DriveRegression regression;
+  DriveRegression::Fit fit{};
+};
+
+constexpr std::array<int, 4> kFrameAlone = {DriveRegression::kEast,
+                                            DriveRegression::kNorth,
+                                            DriveRegression::kTurn,
+                                            DriveRegression::kStretch};
+
+// `known`: how far the unknowns of the drive's fit are.
+void TakeAlongTheWay(const GnssDrive& drive,
+                     const AskedDrive& asked,
+                     const FitUncertainty& known,
                      DriveErrors& errors,
                      std::vector<CrossCheck>& checks) {
-  if (drive.fixes.size() < kMinFixes) return;
-  Regression regression(drive, enu_from_world);
-  const std::vector<int> plain = {kEast, kNorth, kTurn, kStretch};
-  std::vector<int> all = plain;
-  all.insert(all.end(), {kAhead, kLeft});
-  const Eigen::VectorXd found = regression.Solve(all);
-  const Eigen::VectorXd sigmas = regression.Sigmas(found);
-  const Shift shift{found[kAhead], sigmas[kAhead], regression.speed()};
-  const bool is_beside = std::abs(found[kLeft]) > kBelievedSigmas * sigmas[kLeft];
+  constexpr int kAhead = DriveRegression::kAhead;
+  constexpr int kLeft = DriveRegression::kLeft;
+  const Shift shift{.ahead = asked.fit.solution[kAhead],
+                    .sigma = known.sigmas[kAhead],
+                    .believed = known.Bound(kAhead, kBelievedSigmas),
+                    .doubted = known.Bound(kAhead, kDoubtedSigmas),
+                    .speed = asked.regression.speed()};
+  const bool is_beside = std::abs(asked.fit.solution[kLeft]) > known.Bound(kLeft, kBelievedSigmas);
   if (shift.IsBelieved() || is_beside) {
-    std::vector<int> believed = plain;
+    std::vector<int> believed(kFrameAlone.begin(), kFrameAlone.end());
     if (shift.IsBelieved()) believed.push_back(kAhead);
     if (is_beside) believed.push_back(kLeft);
-    const Eigen::VectorXd alone = regression.Solve(believed);
+    const Eigen::VectorXd alone = asked.regression.Solve(believed).solution;
     errors.ahead = alone[kAhead];
     errors.left_m = alone[kLeft];
-    errors.ahead_sigma = shift.IsBelieved() ? sigmas[kAhead] : 0.0;
-    errors.left_sigma_m = is_beside ? sigmas[kLeft] : 0.0;
+    errors.ahead_sigma = shift.IsBelieved() ? known.sigmas[kAhead] : 0.0;
+    errors.left_sigma_m = is_beside ? known.sigmas[kLeft] : 0.0;
   }
   if (shift.IsBelieved() || shift.IsDoubted() || shift.IsUnknown())
     checks.push_back(ClockCheck(drive, shift, shift.IsBelieved() ? errors.ahead : shift.ahead));
-  if (is_beside) checks.push_back(LeverCheck(drive, errors.left_m, sigmas[kLeft]));
+  if (is_beside) checks.push_back(LeverCheck(drive, errors.left_m, known.sigmas[kLeft]));
+}
+
+// Clocks and lever arms. What makes errors of neighbours alike does so in all drives: a few short
+// stretches of one cannot tell, as an offset of each is most of what they would show.
+void FindAlongTheWay(std::span<const GnssDrive> drives,
+                     const Sim3& enu_from_world,
+                     std::vector<DriveErrors>& errors,
+                     std::vector<CrossCheck>& checks) {
+  std::vector<int> all(DriveRegression::kNumUnknowns);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<AskedDrive> asked;
+  std::vector<NoiseAxis> noise;
+  for (size_t i = 0; i < drives.size(); ++i) {
+    if (drives[i].fixes.size() < kMinFixes) continue;
+    AskedDrive drive{.drive = i, .regression = DriveRegression(drives[i], enu_from_world)};
+    drive.fit = drive.regression.Solve(all);
+    if (drive.fit.kept_share < kMinAgreeingShare) continue;
+    noise.push_back(drive.regression.NoiseOf(drive.fit));
+    asked.push_back(std::move(drive));
+  }
+  const std::vector<CorrelatedNoise> correlated = EstimateCorrelatedNoise(noise);
+  for (size_t a = 0; a < asked.size(); ++a) {
+    const size_t drive = asked[a].drive;
+    TakeAlongTheWay(
+        drives[drive], asked[a], UncertaintyOf(noise[a], correlated[a]), errors[drive], checks);
+  }
 }
 
 // Median of GNSS minus model, without what is known of the way, per axis; along z of known heights.
@@ -419,11 +340,9 @@ std::vector<Eigen::Matrix3d> CovariancesOfErrors(std::span<const DriveErrors> er
 FoundDriveErrors FindDriveErrors(std::span<const GnssDrive> drives, const Sim3& enu_from_world) {
   FoundDriveErrors found;
   std::vector<DriveErrors> errors;
-  for (const GnssDrive& drive : drives) {
-    DriveErrors& of_drive =
-        errors.emplace_back(DriveErrors{.drive = drive.drive, .has_times = drive.has_times});
-    FindAlongTheWay(drive, enu_from_world, of_drive, found.checks);
-  }
+  for (const GnssDrive& drive : drives)
+    errors.push_back({.drive = drive.drive, .has_times = drive.has_times});
+  FindAlongTheWay(drives, enu_from_world, errors, found.checks);
   FindDatum(drives, enu_from_world, errors, found.checks);
   for (const DriveErrors& of_drive : errors) {
     if (of_drive.ahead != 0.0 || of_drive.left_m != 0.0 || !of_drive.offset_m.isZero())

@@ -45,7 +45,8 @@ struct FoundDriveErrors {
 
 /// Clock and lever arm: per drive a robust regression of GNSS minus model on velocity and on the
 /// direction to the left of it, beside shift, turn and scale of that drive. Both are believed from
-/// four sigmas on, errors of neighbours taken as correlated as they are (EstimateCorrelatedNoise);
+/// four deviations on (FitUncertainty::Bound), errors of neighbours taken as correlated as those of
+/// all drives together or of their own say, whichever claims less (EstimateCorrelatedNoise);
 /// a clock between three and four that matters is doubtful. A shift along a street that goes one
 /// way at one speed, or along a circle, is not to be told from an offset or a turn of all
 /// positions, and the check says so ("gnss_clock", "gnss_lever_arm").

@@ -17,8 +17,9 @@ struct MoveAlong {
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();  ///< zero where it does not move
 };
 
-/// Of places one after the other. A carrier that went less than 0.3 of its usual way between
-/// neighbours stands.
+/// Of places one after the other. A carrier that went less than 0.3 of its usual step (UsualStep)
+/// between neighbours stands. A step of more than three usual ones and three of either beside it is
+/// a gap, behind which it was taken up elsewhere, and tells nothing of where it goes.
 [[nodiscard]] std::vector<MoveAlong> MovesAlong(std::span<const Eigen::Vector3d> places);
 
 }  // namespace orbweave

@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/merging/georeference/drive_regression.h"
 #include "core/merging/georeference/georeference.h"
 #include "core/merging/georeference/georeference_reconstruction.h"
 #include "core/merging/georeference/gnss_smoothness.h"
+#include "core/synthetic/make_street.h"
+#include "core/synthetic/realistic_street.h"
 #include "tests/core/merging/driven_street.h"
 
 namespace orbweave {
@@ -278,6 +281,68 @@ TEST(GeoreferenceReconstruction, BlamesAModelThatFoldsWhereGnssRunsOn) {
   EXPECT_EQ(georeference.checks[0].level, CheckLevel::kBad);
   EXPECT_NE(georeference.reason.find("the model contradicts GNSS"), std::string::npos)
       << georeference.reason;
+}
+
+// Two days in stretches of six panoramas round a block; what a receiver does between houses.
+FoundDriveErrors OfRealisticStreet(uint64_t seed, double late_s) {
+  StreetOptions options;
+  options.panoramas = 60;
+  options.spacing_m = 8.0;
+  options.seed = seed;
+  options = RealisticStreet(options);
+  options.hardships.gnss_late_s = late_s;
+  options.hardships.gnss_datum_m = 0.0;
+  const Street street = MakeStreet(options);
+  Reconstruction model;
+  ImageManifest manifest;
+  for (uint32_t i = 0; i < street.names.size(); ++i) {
+    ImageRecord& image = manifest.images.emplace_back();
+    image.id = ImageId(i);
+    image.name = street.names[i];
+    image.drive = street.on_second_day[i] ? 1 : 0;
+    image.capture_time_s = street.capture_times_s[i];
+    image.prior.position_in_enu = street.measured_in_enu[i];
+    image.prior.horizontal_sigma_m = options.gnss_sigma_m;
+    image.prior.vertical_sigma_m = 2.0 * options.gnss_sigma_m;
+    model.images[image.id].cam_from_world = street.cams_from_enu[i];
+  }
+  return FindDriveErrors(GnssDrivesOf(model, manifest), Sim3{});
+}
+
+TEST(FindDriveErrors, ClocksOfStretchesAreRightWhereErrorsOfNeighboursAreAlike) {
+  int doubted = 0;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    const FoundDriveErrors found = OfRealisticStreet(seed, 0.0);
+    EXPECT_TRUE(found.drives.empty()) << seed;
+    for (const CrossCheck& check : found.checks)
+      doubted += check.level == CheckLevel::kDoubtful ? 1 : 0;
+  }
+  EXPECT_LE(doubted, 2) << "of 120 drives";
+}
+
+TEST(FindDriveErrors, FindsALateClockOfStretches) {
+  int told = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    const FoundDriveErrors found = OfRealisticStreet(seed, 1.0);
+    for (const DriveErrors& errors : found.drives)
+      EXPECT_NEAR(errors.ahead, -1.0, 4.0 * errors.ahead_sigma) << seed;
+    told += static_cast<int>(found.drives.size());
+    for (const CrossCheck& check : found.checks)
+      told += check.level == CheckLevel::kDoubtful ? 1 : 0;
+  }
+  EXPECT_GE(told, 12) << "of 20 drives";
+}
+
+// t of 0.99865 and of 0.99997: tables of Student's distribution.
+TEST(FitUncertainty, BoundsAreStudentsQuantiles) {
+  const auto bound = [](double freedoms, double deviations) {
+    const double sigma = std::sqrt(freedoms / (freedoms - 2.0));
+    return FitUncertainty{Eigen::VectorXd::Constant(1, sigma), freedoms}.Bound(0, deviations);
+  };
+  EXPECT_NEAR(bound(6.0, 3.0), 4.90, 0.1);
+  EXPECT_NEAR(bound(10.0, 3.0), 3.96, 0.03);
+  EXPECT_NEAR(bound(30.0, 4.0), 4.63, 0.03);
+  EXPECT_NEAR(bound(1e6, 4.0), 4.0, 1e-3);
 }
 
 }  // namespace

@@ -32,6 +32,25 @@ TEST(MovesAlong, LeadNowhereWhereACarrierStands) {
   EXPECT_TRUE(moves[12].moved.isZero());
 }
 
+TEST(MovesAlong, DoNotLeadAcrossAGap) {
+  std::vector<Vector3d> places;
+  for (int i = 0; i < 5; ++i) places.emplace_back(3.0 * i, 0.0, 0.0);
+  for (int i = 0; i < 5; ++i) places.emplace_back(80.0, 60.0 + 3.0 * i, 0.0);
+  const std::vector<MoveAlong> moves = MovesAlong(places);
+  EXPECT_EQ(moves[4].moved, Vector3d(3, 0, 0));
+  EXPECT_EQ(moves[4].last, 4U);
+  EXPECT_EQ(moves[5].moved, Vector3d(0, 3, 0));
+  EXPECT_EQ(moves[5].first, 5U);
+}
+
+TEST(MovesAlong, AFastStretchIsNoGap) {
+  std::vector<Vector3d> places;
+  for (int i = 0; i < 10; ++i) places.emplace_back(2.0 * i, 0.0, 0.0);
+  for (int i = 0; i < 5; ++i) places.emplace_back(20.0 + 14.0 * i, 0.0, 0.0);
+  const std::vector<MoveAlong> moves = MovesAlong(places);
+  EXPECT_EQ(moves[11].moved, Vector3d(28, 0, 0));
+}
+
 TEST(MovesAlong, NeedTwoPlaces) {
   EXPECT_TRUE(MovesAlong({}).empty());
   const std::vector<Vector3d> one = {Vector3d::Ones()};
