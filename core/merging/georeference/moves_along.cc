@@ -4,41 +4,78 @@
 #include "core/merging/georeference/moves_along.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
+#include "core/base/quantile.h"
 #include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
 
 constexpr double kStandingShare = 0.3;
-constexpr double kUsualSteps = 3.0;  // as in LeftOffBehind
+constexpr double kJump = 3.0;  // times either step beside it, as a gap (LeftOffBehind) at least is
+constexpr double kMinOnwardCos =
+    0.5;  // of most steps of a carrier that moves; what trembles turns back
 
-/// Per step whether the carrier was elsewhere in between: it is longer than three usual ones and
-/// than three of either beside it.
-std::vector<uint8_t> FindGaps(const std::vector<double>& steps, double usual_step) {
-  std::vector<uint8_t> is_gap(steps.size(), 0);
-  for (size_t i = 0; i < steps.size(); ++i) {
-    const double before = i > 0 ? steps[i - 1] : 0.0;
-    const double behind = i + 1 < steps.size() ? steps[i + 1] : 0.0;
-    is_gap[i] = steps[i] > kUsualSteps * std::max({usual_step, before, behind}) ? 1 : 0;
+/// The steps between places, and which of them are gaps.
+class Steps {
+ public:
+  explicit Steps(std::span<const Eigen::Vector3d> places) {
+    for (size_t i = 1; i < places.size(); ++i) {
+      steps_.emplace_back(places[i] - places[i - 1]);
+      lengths_.push_back(steps_.back().norm());
+    }
+    FindJumps();
+    if (!LeadOn()) std::ranges::fill(is_gap_, uint8_t{0});
   }
-  return is_gap;
-}
+
+  [[nodiscard]] bool IsGap(size_t step) const { return is_gap_[step] != 0; }
+  [[nodiscard]] size_t Count() const { return lengths_.size(); }
+  [[nodiscard]] double Usual() const {
+    std::vector<double> lengths;
+    for (size_t i = 0; i < lengths_.size(); ++i) {
+      if (!IsGap(i)) lengths.push_back(lengths_[i]);
+    }
+    return UsualStep(std::move(lengths));
+  }
+
+ private:
+  void FindJumps() {
+    for (size_t i = 0; i < lengths_.size(); ++i) {
+      const double before = i > 0 ? lengths_[i - 1] : 0.0;
+      const double behind = i + 1 < lengths_.size() ? lengths_[i + 1] : 0.0;
+      is_gap_.push_back(lengths_[i] > kJump * std::max(before, behind) ? 1 : 0);
+    }
+  }
+
+  /// Whether steps that follow each other, but for jumps, mostly lead on. Of a camera that is
+  /// carried from stand to stand they do not, and the jumps are its way.
+  [[nodiscard]] bool LeadOn() const {
+    std::vector<double> cosines;
+    for (size_t i = 1; i < steps_.size(); ++i) {
+      if (IsGap(i - 1) || IsGap(i) || lengths_[i - 1] * lengths_[i] == 0.0) continue;
+      cosines.push_back(steps_[i - 1].dot(steps_[i]) / (lengths_[i - 1] * lengths_[i]));
+    }
+    return !cosines.empty() && Quantile(std::move(cosines), 0.5) > kMinOnwardCos;
+  }
+
+  std::vector<Eigen::Vector3d> steps_{};
+  std::vector<double> lengths_{};
+  std::vector<uint8_t> is_gap_{};
+};
 
 }  // namespace
 
 std::vector<MoveAlong> MovesAlong(std::span<const Eigen::Vector3d> places) {
   std::vector<MoveAlong> moves(places.size());
   if (places.size() < 2) return moves;
-  std::vector<double> steps;
-  for (size_t i = 1; i < places.size(); ++i) steps.push_back((places[i] - places[i - 1]).norm());
-  const double usual_step = UsualStep(steps);
-  const std::vector<uint8_t> is_gap = FindGaps(steps, usual_step);
-  const double least = kStandingShare * usual_step;
+  const Steps steps(places);
+  const double least = kStandingShare * steps.Usual();
   for (size_t i = 0; i < places.size(); ++i) {
     MoveAlong& move = moves[i];
-    move.first = i > 0 && !is_gap[i - 1] ? i - 1 : i;
-    move.last = i < is_gap.size() && !is_gap[i] ? i + 1 : i;
+    move.first = i > 0 && !steps.IsGap(i - 1) ? i - 1 : i;
+    move.last = i < steps.Count() && !steps.IsGap(i) ? i + 1 : i;
     const Eigen::Vector3d moved = places[move.last] - places[move.first];
     if (moved.norm() > static_cast<double>(move.last - move.first) * least) move.moved = moved;
   }

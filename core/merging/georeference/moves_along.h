@@ -18,8 +18,9 @@ struct MoveAlong {
 };
 
 /// Of places one after the other. A carrier that went less than 0.3 of its usual step (UsualStep)
-/// between neighbours stands. A step of more than three usual ones and three of either beside it is
-/// a gap, behind which it was taken up elsewhere, and tells nothing of where it goes.
+/// between neighbours stands. A step of more than three times either beside it is a gap, behind
+/// which it was taken up elsewhere, and tells nothing of where it goes, if the others mostly lead
+/// on where they follow each other: those of a camera that is carried from stand to stand do not.
 [[nodiscard]] std::vector<MoveAlong> MovesAlong(std::span<const Eigen::Vector3d> places);
 
 }  // namespace orbweave

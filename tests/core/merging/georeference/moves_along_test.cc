@@ -43,6 +43,25 @@ TEST(MovesAlong, DoNotLeadAcrossAGap) {
   EXPECT_EQ(moves[5].first, 5U);
 }
 
+TEST(MovesAlong, DoNotLeadAcrossAnyOfManyGaps) {
+  std::vector<Vector3d> places;
+  for (int stretch = 0; stretch < 5; ++stretch) {
+    for (int i = 0; i < 4; ++i) places.emplace_back(8.0 * i, 400.0 * stretch, 0.0);
+  }
+  const std::vector<MoveAlong> moves = MovesAlong(places);
+  for (const MoveAlong& move : moves) EXPECT_EQ(move.moved.normalized(), Vector3d::UnitX());
+}
+
+TEST(MovesAlong, ACameraCarriedFromStandToStandGoesAllTheWay) {
+  std::vector<Vector3d> places;
+  for (int stand = 0; stand < 8; ++stand) {
+    for (const double tremble : {0.0, 0.02, -0.01}) places.emplace_back(8.0 * stand, tremble, 0.0);
+  }
+  const std::vector<MoveAlong> moves = MovesAlong(places);
+  EXPECT_GT(moves[5].moved.x(), 7.9);
+  EXPECT_TRUE(moves[4].moved.isZero());
+}
+
 TEST(MovesAlong, AFastStretchIsNoGap) {
   std::vector<Vector3d> places;
   for (int i = 0; i < 10; ++i) places.emplace_back(2.0 * i, 0.0, 0.0);
