@@ -13,7 +13,7 @@
 namespace orbweave {
 
 /// A robust regression of GNSS minus model along one drive, in the plane, on what all its positions
-/// may have wrong in common (ErrorAt of drive_errors.h) beside shift, turn and scale of the drive:
+/// may have wrong in common (ErrorAt) beside shift, turn and scale of the drive:
 ///   position - centre = (east, north) + turn J at + stretch at + ahead travel + left (left of it)
 /// with `at` from the middle of the drive over its extent, and J a quarter turn.
 class DriveRegression {

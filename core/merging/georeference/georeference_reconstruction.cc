@@ -16,6 +16,7 @@
 #include "core/geometry/rotation.h"
 #include "core/merging/georeference/cluster_spreads.h"
 #include "core/merging/georeference/estimate_gravity.h"
+#include "core/merging/georeference/find_drive_errors.h"
 #include "core/merging/georeference/find_gravity.h"
 #include "core/merging/georeference/gnss_smoothness.h"
 #include "core/merging/georeference/gnss_track.h"

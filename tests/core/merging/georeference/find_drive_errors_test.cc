@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/merging/georeference/drive_errors.h"
+#include "core/merging/georeference/find_drive_errors.h"
 
 #include <gtest/gtest.h>
 
