@@ -9,6 +9,6 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 ran=build/release/ran.xml
 rm -f "$ran"
-# One more than processors: many tests wait, for who was killed to be missed, or for a store that does not answer.
-ctest --preset release -j "$(($(nproc) + 1))" --output-junit "$root/$ran" "$@"
+# Two more than processors: many tests wait, for who was killed to be missed, or for a store that does not answer.
+ctest --preset release -j "$(($(nproc) + 2))" --output-junit "$root/$ran" "$@"
 tests/check_skips.sh "$ran"
