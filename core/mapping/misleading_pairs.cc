@@ -26,10 +26,6 @@ constexpr double kTurnsAlike_rad = 0.75 * kDegree_rad;
 constexpr double kHardlyParts = 0.25;   // of the angles of either way
 constexpr size_t kTimesTheMatches = 2;  // the pair may have of those of either way
 
-ImageSlot OtherImage(const LinkedPair& pair, ImageSlot image) {
-  return pair.a == image ? pair.b : pair.a;
-}
-
 }  // namespace
 
 MisleadingPairs::MisleadingPairs(const MappingState& state, std::vector<uint8_t> is_explained)
@@ -92,7 +88,7 @@ bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
     std::vector<ImageSlot> others;
     for (const uint32_t p : graph.pairs_of_image[image]) {
       if (!IsBorneOut(p, matches)) continue;
-      others.push_back(OtherImage(graph.pairs[p], image));
+      others.push_back(graph.pairs[p].Other(image));
     }
     std::ranges::sort(others);
     return others;
@@ -121,10 +117,10 @@ bool MisleadingPairs::StandsStill(uint32_t pair) const {
   };
   std::map<ImageSlot, uint32_t> ways_to_third;  // from a
   for (const uint32_t p : graph.pairs_of_image[link.a]) {
-    if (moves_on(p)) ways_to_third.emplace(OtherImage(graph.pairs[p], link.a), p);
+    if (moves_on(p)) ways_to_third.emplace(graph.pairs[p].Other(link.a), p);
   }
   return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t p) {
-    const auto before = ways_to_third.find(OtherImage(graph.pairs[p], link.b));
+    const auto before = ways_to_third.find(graph.pairs[p].Other(link.b));
     if (before == ways_to_third.end() || !moves_on(p)) return false;
     const auto& [third, way] = *before;
     return AngleBetween(WayInWorld(way, link.a), WayInWorld(p, third)) <= kOnward_rad;

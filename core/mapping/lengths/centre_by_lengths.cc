@@ -69,7 +69,7 @@ std::vector<ToldStep> StepsTo(const MappingState& state, ImageSlot image, double
   std::vector<ToldStep> steps;
   for (const uint32_t p : state.Graph().pairs_of_image[image]) {
     const LinkedPair& pair = state.Graph().pairs[p];
-    const Approach approach{p, pair.a == image ? pair.b : pair.a};
+    const Approach approach{p, pair.Other(image)};
     if (!HasRotationOfModel(state, pair)) continue;
     std::vector<double> log_lengths = LengthsOf(state, image, approach, min_angle_rad);
     if (log_lengths.size() < kFewestRaysOfPair) continue;

@@ -76,7 +76,7 @@ class Collector {
     sights_.clear();
     for (const RayDepth& depth : depths) {
       const LinkedPair& pair = asked_.state.Graph().pairs[asked_.pairs[depth.pair]];
-      const ImageSlot other = pair.a == own ? pair.b : pair.a;
+      const ImageSlot other = pair.Other(own);
       if (places_.LineOf(other) != places_.LineOf(own)) continue;
       sights_.push_back({.pair = depth.pair,
                          .other = places_.PlaceOf(other),

@@ -39,7 +39,7 @@ std::optional<ImageSlot> LinePieces::NearestOf(uint32_t line, ImageSlot image) c
   size_t most = 0;
   for (const uint32_t p : state_.Graph().pairs_of_image[image]) {
     const LinkedPair& pair = state_.Graph().pairs[p];
-    const ImageSlot other = pair.a == image ? pair.b : pair.a;
+    const ImageSlot other = pair.Other(image);
     if (!state_.IsRegistered(other) || places_.LineOf(other) != line ||
         !LogLengthOfPair(state_, pair))
       continue;

@@ -92,14 +92,14 @@ class Apartness {
   [[nodiscard]] bool HavePair(ImageSlot a, ImageSlot b) const {
     return std::ranges::any_of(state_.Graph().pairs_of_image[a], [&](uint32_t p) {
       const LinkedPair& pair = state_.Graph().pairs[p];
-      return (pair.a == a ? pair.b : pair.a) == b;
+      return pair.Other(a) == b;
     });
   }
   [[nodiscard]] size_t CountWithin(double distance, ImageSlot image) const {
     const auto& pairs = state_.Graph().pairs_of_image[image];
     return static_cast<size_t>(std::ranges::count_if(pairs, [&](uint32_t p) {
       const LinkedPair& pair = state_.Graph().pairs[p];
-      const ImageSlot other = pair.a == image ? pair.b : pair.a;
+      const ImageSlot other = pair.Other(image);
       if (!state_.IsRegistered(other) ||
           !((state_.Centre(image) - state_.Centre(other)).norm() < distance))
         return false;

@@ -52,9 +52,8 @@ class Counter {
     for (const RayDepth& depth : depths) {
       const LinkedPair& pair = asked_.state.Graph().pairs[asked_.pairs[depth.pair]];
       const double log_length = asked_.log_lengths[depth.pair];
-      sights_.push_back({places_.PlaceOf(pair.a == own ? pair.b : pair.a),
-                         log_length,
-                         log_length + depth.log_depth});
+      sights_.push_back(
+          {places_.PlaceOf(pair.Other(own)), log_length, log_length + depth.log_depth});
     }
     for (const Sight& sight : sights_) Tie(here, sight);
   }

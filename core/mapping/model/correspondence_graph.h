@@ -26,6 +26,9 @@ struct LinkedPair {
   ImageSlot a = 0;
   ImageSlot b = 0;
   uint32_t index = 0;  ///< into ClusterProblem::pairs
+
+  /// The image beside `image`, one of the two.
+  [[nodiscard]] ImageSlot Other(ImageSlot image) const { return image == a ? b : a; }
 };
 
 /// The verified matches of a cluster as a graph over rays, in compressed rows. Pairs of kind

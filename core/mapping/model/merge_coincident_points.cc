@@ -58,7 +58,7 @@ class NearbyPoints {
     std::vector<PointIndex> points;
     for (const uint32_t p : graph.pairs_of_image[image]) {
       const LinkedPair& pair = graph.pairs[p];
-      const ImageSlot other = pair.a == image ? pair.b : pair.a;
+      const ImageSlot other = pair.Other(image);
       for (Node node = graph.first_node[other]; node < graph.first_node[other + 1]; ++node) {
         const PointIndex point = state.PointOf(node);
         if (point == kNoPoint || std::exchange(last_image_[point], image) == image) continue;

@@ -20,7 +20,7 @@ constexpr double kTellingParallax = 0.1;
 
 ViewMatches MatchesOf(const MappingState& state, ImageSlot image, const LinkedPair& pair) {
   const CorrespondenceGraph& graph = state.Graph();
-  const ImageSlot view = pair.a == image ? pair.b : pair.a;
+  const ImageSlot view = pair.Other(image);
   ViewMatches matches{.view_from_world = state.CamFromWorld(view)};
   const std::vector<FeatureMatch>& inliers = state.Problem().pairs[pair.index].inliers;
   matches.in_view.reserve(inliers.size());
@@ -71,7 +71,7 @@ std::vector<uint32_t> PairsWithRegistered(const MappingState& state, ImageSlot i
   std::vector<uint32_t> pairs;
   for (const uint32_t p : state.Graph().pairs_of_image[image]) {
     const LinkedPair& pair = state.Graph().pairs[p];
-    if (state.IsRegistered(pair.a == image ? pair.b : pair.a)) pairs.push_back(p);
+    if (state.IsRegistered(pair.Other(image))) pairs.push_back(p);
   }
   const auto matches = [&](uint32_t p) {
     return state.Problem().pairs[state.Graph().pairs[p].index].inliers.size();

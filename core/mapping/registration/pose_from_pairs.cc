@@ -36,7 +36,7 @@ struct PairHypothesis {
 
 PairHypothesis HypothesisOf(const MappingState& state, ImageSlot image, const LinkedPair& pair) {
   const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
-  const ImageSlot neighbour = pair.a == image ? pair.b : pair.a;
+  const ImageSlot neighbour = pair.Other(image);
   const Rigid3 cam_from_neighbour =
       pair.a == image ? geometry.b_from_a.Inverse() : geometry.b_from_a;
   PairHypothesis hypothesis;

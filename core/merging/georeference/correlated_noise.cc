@@ -118,12 +118,6 @@ Evidence EvidenceOf(const NoiseAxis& axis, const Hypothesis& hypothesis) {
   return whitening.Finish(axis.information);
 }
 
-Eigen::Index CountOf(const NoiseAxis& axis) {
-  Eigen::Index count = 0;
-  for (const NoiseRun& run : axis.runs) count += run.residuals.size();
-  return count;
-}
-
 // An axis that says something, and what hypotheses make of the variances of its unknowns.
 class ToldAxis {
  public:
@@ -253,6 +247,12 @@ std::vector<Eigen::VectorXd> CorrelatedOf(const std::vector<ToldAxis>& axes, dou
 
 }  // namespace
 
+Eigen::Index NoiseAxis::Count() const {
+  Eigen::Index count = 0;
+  for (const NoiseRun& run : runs) count += run.residuals.size();
+  return count;
+}
+
 std::vector<CorrelatedNoise> EstimateCorrelatedNoise(const std::vector<NoiseAxis>& axes) {
   std::vector<CorrelatedNoise> noises;
   std::vector<ToldAxis> told;
@@ -260,7 +260,7 @@ std::vector<CorrelatedNoise> EstimateCorrelatedNoise(const std::vector<NoiseAxis
   for (const NoiseAxis& axis : axes) {
     const Eigen::Index p = axis.information.size();
     noises.push_back({.inflations = Eigen::VectorXd::Ones(p)});
-    if (CountOf(axis) < p + 3) continue;
+    if (axis.Count() < p + 3) continue;
     const Evidence white = EvidenceOf(axis, {});
     if (white.variance <= kLeastVariance) continue;
     told.emplace_back(axis, white);

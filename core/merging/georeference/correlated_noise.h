@@ -32,6 +32,9 @@ struct NoiseAxis {
   /// What is known of each unknown besides: 1 / sigma^2 in units of the residuals' variance, p; 0
   /// is allowed.
   Eigen::VectorXd information{};
+
+  /// Measurements of all runs.
+  [[nodiscard]] Eigen::Index Count() const;
 };
 
 /// Noise is white noise and an Ornstein-Uhlenbeck process, with covariance

@@ -23,16 +23,10 @@ constexpr double kAnything_m = 1000.0;
 // Student's variance is finite from here on.
 constexpr double kFewestFreedoms = 2.5;
 
-double CountOf(const NoiseAxis& axis) {
-  double count = 0.0;
-  for (const NoiseRun& run : axis.runs) count += static_cast<double>(run.residuals.size());
-  return count;
-}
-
 double VarianceOf(const NoiseAxis& axis) {
   double squares = 0.0;
   for (const NoiseRun& run : axis.runs) squares += run.residuals.squaredNorm();
-  return squares / std::max(CountOf(axis) - double{DriveRegression::kNumUnknowns}, 1.0);
+  return squares / std::max(static_cast<double>(axis.Count() - DriveRegression::kNumUnknowns), 1.0);
 }
 
 }  // namespace
@@ -151,7 +145,8 @@ FitUncertainty UncertaintyOf(const NoiseAxis& axis, const CorrelatedNoise& noise
   Eigen::MatrixXd A = axis.information.asDiagonal();
   for (const NoiseRun& run : axis.runs) A += run.design.transpose() * run.design;
   const double freedoms =
-      std::max(CountOf(axis) / noise.inflation - static_cast<double>(p), kFewestFreedoms);
+      std::max(static_cast<double>(axis.Count()) / noise.inflation - static_cast<double>(p),
+               kFewestFreedoms);
   const double variance = VarianceOf(axis) * freedoms / (freedoms - 2.0);
   const Eigen::MatrixXd covariance = variance * A.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
   return {.sigmas = covariance.diagonal().cwiseMax(0.0).cwiseProduct(noise.inflations).cwiseSqrt(),

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kStandingShare = 0.3;
 constexpr double kJump = 3.0;  // times either step beside it, as a gap (LeftOffBehind) at least is
-constexpr double kMinOnwardCos =
-    0.5;  // of most steps of a carrier that moves; what trembles turns back
+// Between most steps of a carrier that moves; what trembles turns back.
+constexpr double kMinOnwardCos = 0.5;
 
 /// The steps between places, and which of them are gaps.
 class Steps {

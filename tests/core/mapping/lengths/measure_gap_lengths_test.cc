@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -218,19 +219,25 @@ TEST(GapLengths, ThereAreNoneOfNoModel) {
   EXPECT_TRUE(MeasureGapLengths({street.Fixture().StateWith({}), {}}).empty());
 }
 
-/// With positions as they are, stated to so many metres.
-std::vector<GapLength> GapsWithGnss(double sigma_m, double torn_by_m) {
-  TornStreet street;
-  street.GivePositions(1, 0.0, sigma_m);
-  const MappingState state = Torn(street, torn_by_m);
-  const AskedRays asked(state, {});
-  const GnssWays gnss(state, 4.0 * kMatchTolerance);
-  return MeasureGapLengths(asked, &gnss);
-}
+/// A street with positions that are off, and stated to so many metres.
+struct MeasuredStreet {
+  MeasuredStreet(double error_m, double sigma_m, double torn_by_m) {
+    street.GivePositions(3, error_m, sigma_m);
+    state.emplace(Torn(street, torn_by_m));
+    asked.emplace(*state, MappingOptions{});
+    gnss.emplace(*state, 4.0 * kMatchTolerance);
+  }
+  std::vector<GapLength> Gaps() const { return MeasureGapLengths(*asked, &*gnss); }
+
+  TornStreet street{};
+  std::optional<MappingState> state{};
+  std::optional<AskedRays> asked{};
+  std::optional<GnssWays> gnss{};
+};
 
 TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
-  for (const GapLength& gap : GapsWithGnss(0.5, 0.0)) EXPECT_TRUE(gap.is_borne_out);
-  const std::vector<GapLength> torn = GapsWithGnss(0.5, 4.0);
+  for (const GapLength& gap : MeasuredStreet(0.0, 0.5, 0.0).Gaps()) EXPECT_TRUE(gap.is_borne_out);
+  const std::vector<GapLength> torn = MeasuredStreet(0.0, 0.5, 4.0).Gaps();
   for (size_t i = 0; i < torn.size(); ++i) EXPECT_EQ(torn[i].is_borne_out, i != 6) << i;
   const TornStreet without;
   for (const GapLength& gap : MeasureGapLengths({without.Right(), {}}))
@@ -238,24 +245,16 @@ TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
 }
 
 TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
-  TornStreet street;
-  street.GivePositions(3, 5.0, 5.0);
-  const MappingState state = street.Right();
-  const AskedRays asked(state, {});
-  const GnssWays gnss(state, 4.0 * kMatchTolerance);
-  for (const GapLength& gap : MeasureGapLengths(asked, &gnss)) EXPECT_FALSE(gap.is_borne_out);
+  for (const GapLength& gap : MeasuredStreet(5.0, 5.0, 0.0).Gaps()) EXPECT_FALSE(gap.is_borne_out);
 }
 
 TEST(GapLengths, WhereRaysCrowdGnssNeedKnowThemButRoughly) {
-  TornStreet street;
-  street.GivePositions(3, 2.0, 2.0);
-  const MappingState state = street.Right();
-  const AskedRays asked(state, {});
-  const GnssWays gnss(state, 4.0 * kMatchTolerance);
-  const std::vector<GapVotes> gaps = CollectGapVotes(asked);
+  const MeasuredStreet street(2.0, 2.0, 0.0);
+  const std::vector<GapVotes> gaps = CollectGapVotes(*street.asked);
   const auto count = [&](const WishOfRays& wish) {
-    return std::ranges::count_if(
-        gaps, [&](const GapVotes& gap) { return IsBorneOut(asked, gap, gnss, wish); });
+    return std::ranges::count_if(gaps, [&](const GapVotes& gap) {
+      return IsBorneOut(*street.asked, gap, *street.gnss, wish);
+    });
   };
   EXPECT_GE(count({.here = 16.0}), std::ssize(gaps) / 2);
   EXPECT_LT(count({.here = 16.0}), std::ssize(gaps)) << "those that GNSS has otherwise";
