@@ -59,10 +59,11 @@ function(orbweave_have_modules result user)
   endforeach()
 endfunction()
 
-# orbweave_test(NAME core/geometry SOURCES a_test.cc ... DEPS geometry ... LIBS ... [LABELS slow])
-# One GoogleTest binary; every TEST becomes a ctest entry "<name>/Suite.Case".
+# orbweave_test(NAME core/geometry SOURCES a_test.cc ... DEPS geometry ... LIBS ... [LABELS slow] [AS_ONE])
+# One GoogleTest binary; every TEST becomes a ctest entry "<name>/Suite.Case". AS_ONE: the binary is one entry "<name>",
+# for tests that share what is dear to make (SetUpTestSuite), which would be made anew for each. It begins among the first.
 function(orbweave_test)
-  cmake_parse_arguments(T "" "NAME;TIMEOUT" "SOURCES;DEPS;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "AS_ONE" "NAME;TIMEOUT" "SOURCES;DEPS;LIBS;LABELS" ${ARGN})
   string(REPLACE "/" "_" target "test_${T_NAME}")
   orbweave_have_modules(complete "test ${T_NAME}" ${T_DEPS})
   if(NOT complete)
@@ -82,6 +83,12 @@ function(orbweave_test)
   orbweave_use_pch(${target} test)
   orbweave_compile_together(${target} 8 ${T_SOURCES})
   target_compile_definitions(${target} PRIVATE ORBWEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(T_AS_ONE)
+    add_test(NAME ${T_NAME} COMMAND ${target})
+    set_tests_properties(${T_NAME} PROPERTIES
+      TIMEOUT ${T_TIMEOUT} COST 100 ${ORBWEAVE_TEST_PROPERTIES} LABELS "${T_LABELS}" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+    return()
+  endif()
   include(GoogleTest)
   gtest_discover_tests(${target} TEST_PREFIX "${T_NAME}/" NO_PRETTY_VALUES DISCOVERY_TIMEOUT 120
     PROPERTIES TIMEOUT ${T_TIMEOUT} ${ORBWEAVE_TEST_PROPERTIES} LABELS "${T_LABELS}")

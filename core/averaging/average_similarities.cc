@@ -17,7 +17,7 @@ namespace {
 DisjointSets Connect(const SimilarityGraph& graph, const std::vector<uint8_t>& is_used) {
   DisjointSets sets(static_cast<uint32_t>(graph.node_length.size()));
   for (size_t e = 0; e < graph.edges.size(); ++e) {
-    if (is_used[e] != 0) sets.Unite(graph.edges[e].a, graph.edges[e].b);
+    if (is_used[e] != 0 && graph.edges[e].joins) sets.Unite(graph.edges[e].a, graph.edges[e].b);
   }
   return sets;
 }
@@ -73,8 +73,13 @@ std::vector<Sim3> ChainForest(const SimilarityGraph& graph, const std::vector<ui
   return world_from_node;
 }
 
-ptrdiff_t NumContradicted(const std::vector<double>& error, double max_error) {
-  return std::count_if(error.begin(), error.end(), [&](double e) { return e > max_error; });
+size_t NumContradicted(const SimilarityGraph& graph,
+                       const std::vector<double>& error,
+                       double max_error) {
+  size_t contradicted = 0;
+  for (size_t e = 0; e < error.size(); ++e)
+    contradicted += graph.edges[e].joins && error[e] > max_error ? 1U : 0U;
+  return contradicted;
 }
 
 // The edge that is most wrong (then weakest, then first), -1 when none may go.
@@ -84,7 +89,7 @@ int64_t WorstEdge(const SimilarityGraph& graph,
                   double max_error) {
   int64_t worst = -1;
   for (size_t e = 0; e < graph.edges.size(); ++e) {
-    if (is_used[e] == 0 || error[e] <= max_error) continue;
+    if (is_used[e] == 0 || !graph.edges[e].joins || error[e] <= max_error) continue;
     const auto w = static_cast<size_t>(std::max<int64_t>(worst, 0));
     const bool is_worse =
         error[e] > error[w] ||
@@ -121,8 +126,8 @@ absl::StatusOr<AveragedSimilarities> AverageSimilarities(const SimilarityGraph& 
   }
   result.error = solver.Errors(best.world_from_node);
   const std::vector<double> graduated_error = solver.Errors(graduated.world_from_node);
-  if (NumContradicted(graduated_error, options.max_error) <
-      NumContradicted(result.error, options.max_error)) {
+  if (NumContradicted(graph, graduated_error, options.max_error) <
+      NumContradicted(graph, result.error, options.max_error)) {
     best = std::move(graduated);
     result.error = graduated_error;
   }

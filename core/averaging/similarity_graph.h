@@ -16,6 +16,9 @@ struct SimilarityEdge {
   SimilarityChart measured{};                   ///< chart.a_from_b is the measurement
   Matrix7d information = Matrix7d::Identity();  ///< inverse covariance in its coordinates
   double strength = 1.0;  ///< which edges to believe first, e.g. a number of inliers
+  /// Whether it holds parts of the graph together, and may be switched off. One that does not says
+  /// of two nodes of a part what other edges leave open, such as which way is up in both.
+  bool joins = true;
   /// SimilaritySolver: counts by least squares, whatever the loss of the other edges.
   bool is_certain = false;
 };

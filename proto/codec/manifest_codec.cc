@@ -11,14 +11,6 @@
 namespace orbweave {
 namespace {
 
-void ToProto(const Eigen::Vector3d& value, v1::Vector3* proto) {
-  proto->set_x(value.x());
-  proto->set_y(value.y());
-  proto->set_z(value.z());
-}
-
-Eigen::Vector3d FromProto(const v1::Vector3& proto) { return {proto.x(), proto.y(), proto.z()}; }
-
 void ToProto(const GeodeticPosition& value, v1::GeodeticPosition* proto) {
   proto->set_latitude_deg(value.latitude_deg);
   proto->set_longitude_deg(value.longitude_deg);
@@ -98,7 +90,7 @@ void ToProto(const SourceImage& value, v1::SourceImage* proto) {
   proto->set_mask_width_px(value.mask_width_px);
   proto->set_mask_height_px(value.mask_height_px);
   if (value.position_in_local)
-    ToProto(*value.position_in_local, proto->mutable_position_in_local());
+    codec::ToProto(*value.position_in_local, proto->mutable_position_in_local());
   if (value.position_sigma_m) {
     proto->set_horizontal_sigma_m(value.position_sigma_m->x());
     proto->set_vertical_sigma_m(value.position_sigma_m->y());
@@ -114,7 +106,8 @@ absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
   value.mask_path = proto.mask_name();
   value.mask_width_px = proto.mask_width_px();
   value.mask_height_px = proto.mask_height_px();
-  if (proto.has_position_in_local()) value.position_in_local = FromProto(proto.position_in_local());
+  if (proto.has_position_in_local())
+    value.position_in_local = codec::FromProto(proto.position_in_local());
   if (proto.has_horizontal_sigma_m()) {
     value.position_sigma_m = Eigen::Vector2d(proto.horizontal_sigma_m(), proto.vertical_sigma_m());
   }
@@ -130,7 +123,8 @@ absl::StatusOr<SourceImage> FromProto(const v1::SourceImage& proto) {
 
 void ToProto(const PosePrior& value, v1::PosePrior* proto) {
   if (value.geodetic) ToProto(*value.geodetic, proto->mutable_geodetic());
-  if (value.position_in_enu) ToProto(*value.position_in_enu, proto->mutable_position_in_enu());
+  if (value.position_in_enu)
+    codec::ToProto(*value.position_in_enu, proto->mutable_position_in_enu());
   proto->set_horizontal_sigma_m(value.horizontal_sigma_m);
   proto->set_vertical_sigma_m(value.vertical_sigma_m);
   AnglesToProto(value, proto);
@@ -142,7 +136,8 @@ PosePrior FromProto(const v1::PosePrior& proto) {
   PosePrior value{.horizontal_sigma_m = proto.horizontal_sigma_m(),
                   .vertical_sigma_m = proto.vertical_sigma_m()};
   if (proto.has_geodetic()) value.geodetic = FromProto(proto.geodetic());
-  if (proto.has_position_in_enu()) value.position_in_enu = FromProto(proto.position_in_enu());
+  if (proto.has_position_in_enu())
+    value.position_in_enu = codec::FromProto(proto.position_in_enu());
   AnglesFromProto(proto, value);
   if (proto.has_heading_sigma_deg()) value.heading_sigma_deg = proto.heading_sigma_deg();
   if (proto.has_tilt_sigma_deg()) value.tilt_sigma_deg = proto.tilt_sigma_deg();

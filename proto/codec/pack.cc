@@ -18,20 +18,25 @@ absl::StatusOr<Digest> UnpackDigest(const std::string& bytes) {
   return digest;
 }
 
+void ToProto(const Eigen::Vector3d& value, v1::Vector3* proto) {
+  proto->set_x(value.x());
+  proto->set_y(value.y());
+  proto->set_z(value.z());
+}
+
+Eigen::Vector3d FromProto(const v1::Vector3& proto) { return {proto.x(), proto.y(), proto.z()}; }
+
 void ToProto(const Rigid3& value, v1::Rigid3* proto) {
   proto->set_qw(value.rotation.w());
   proto->set_qx(value.rotation.x());
   proto->set_qy(value.rotation.y());
   proto->set_qz(value.rotation.z());
-  proto->mutable_translation()->set_x(value.translation.x());
-  proto->mutable_translation()->set_y(value.translation.y());
-  proto->mutable_translation()->set_z(value.translation.z());
+  ToProto(value.translation, proto->mutable_translation());
 }
 
 absl::StatusOr<Rigid3> FromProto(const v1::Rigid3& proto) {
-  const auto& t = proto.translation();
   const Rigid3 value{Eigen::Quaterniond(proto.qw(), proto.qx(), proto.qy(), proto.qz()),
-                     Eigen::Vector3d(t.x(), t.y(), t.z())};
+                     FromProto(proto.translation())};
   if (!IsPlace(value.translation) || !(std::abs(value.rotation.norm() - 1.0) < 1e-6)) {
     return absl::DataLossError("a pose is not a rigid motion, or leads nowhere");
   }
@@ -45,10 +50,9 @@ void ToProto(const Sim3& value, v1::Sim3* proto) {
 
 absl::StatusOr<Sim3> FromProto(const v1::Sim3& proto) {
   const v1::Rigid3& rigid = proto.rigid();
-  const v1::Vector3& t = rigid.translation();
   const Sim3 value{proto.scale(),
                    Eigen::Quaterniond(rigid.qw(), rigid.qx(), rigid.qy(), rigid.qz()),
-                   Eigen::Vector3d(t.x(), t.y(), t.z())};
+                   FromProto(rigid.translation())};
   if (!(std::abs(value.rotation.norm() - 1.0) < 1e-6) || !AreNumbers(value.translation))
     return absl::DataLossError("a similarity does not turn, or leads nowhere");
   if (!(value.scale > 0.0) || !IsNumber(value.scale))

@@ -65,6 +65,9 @@ absl::StatusOr<std::vector<T>> UnpackExactly(const std::string& bytes,
 std::string PackDigest(const Digest& digest);  ///< empty for the zero digest
 absl::StatusOr<Digest> UnpackDigest(const std::string& bytes);
 
+void ToProto(const Eigen::Vector3d& value, v1::Vector3* proto);
+Eigen::Vector3d FromProto(const v1::Vector3& proto);
+
 void ToProto(const Rigid3& value, v1::Rigid3* proto);
 /// DataLoss unless of unit quaternion norm (1e-6), and not too far (kMostLength).
 absl::StatusOr<Rigid3> FromProto(const v1::Rigid3& proto);

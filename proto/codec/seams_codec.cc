@@ -22,6 +22,9 @@ void ToProto(const SubmodelOutline& outline, v1::SubmodelOutline* proto) {
   proto->set_submodel(outline.name.submodel);
   proto->set_images(codec::Pack(outline.images));
   proto->set_length(outline.length);
+  if (!outline.level) return;
+  codec::ToProto(outline.level->up, proto->mutable_up());
+  proto->set_up_sigma_rad(outline.level->sigma_rad);
 }
 
 absl::StatusOr<SubmodelOutline> FromProto(const v1::SubmodelOutline& proto) {
@@ -32,14 +35,18 @@ absl::StatusOr<SubmodelOutline> FromProto(const v1::SubmodelOutline& proto) {
   ORBWEAVE_RETURN_IF_ERROR(codec::Expect(outline.length > 0.0 && codec::IsLength(outline.length),
                                          "seams",
                                          "a submodel has no length"));
+  if (!proto.has_up()) return outline;
+  outline.level = SubmodelLevel{codec::FromProto(proto.up()), proto.up_sigma_rad()};
+  ORBWEAVE_RETURN_IF_ERROR(codec::Expect(
+      codec::IsDirection(outline.level->up) && codec::IsSigma(outline.level->sigma_rad),
+      "seams",
+      "what is up in a submodel is no direction"));
   return outline;
 }
 
 void ToProto(const SeamFit& fit, v1::FittedSeam* proto) {
   codec::ToProto(fit.chart.a_from_b, proto->mutable_a_from_b());
-  proto->mutable_anchor_in_b()->set_x(fit.chart.anchor_in_b.x());
-  proto->mutable_anchor_in_b()->set_y(fit.chart.anchor_in_b.y());
-  proto->mutable_anchor_in_b()->set_z(fit.chart.anchor_in_b.z());
+  codec::ToProto(fit.chart.anchor_in_b, proto->mutable_anchor_in_b());
   proto->set_length_in_a(fit.chart.length_in_a);
   proto->set_covariance(
       codec::Pack(std::vector<double>(fit.covariance.data(), fit.covariance.data() + 49)));
@@ -75,8 +82,7 @@ absl::StatusOr<SeamFit> FitFromProto(const v1::FittedSeam& proto) {
               .inlier_tracks = proto.inlier_tracks(),
               .inlier_cameras = proto.inlier_cameras()};
   ORBWEAVE_ASSIGN_OR_RETURN(fit.chart.a_from_b, codec::FromProto(proto.a_from_b()));
-  const v1::Vector3& anchor = proto.anchor_in_b();
-  fit.chart.anchor_in_b = {anchor.x(), anchor.y(), anchor.z()};
+  fit.chart.anchor_in_b = codec::FromProto(proto.anchor_in_b());
   fit.chart.length_in_a = proto.length_in_a();
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<double> covariance,
                             codec::UnpackExactly<double>(proto.covariance(), 49, "covariance"));

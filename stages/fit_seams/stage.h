@@ -12,7 +12,7 @@ namespace orbweave {
 
 /// The boundary of a cluster and those of later neighbours -> a similarity per seam (FitSeams).
 struct FitSeamsStage {
-  static constexpr StageFacts kFacts{.name = "fit_seams", .version = "1", .weight = 1.0};
+  static constexpr StageFacts kFacts{.name = "fit_seams", .version = "2", .weight = 1.0};
   using Options = OptionSections<AlignOptions>;
 
   Parts<std::vector<Digest>> boundaries;  ///< its own first

@@ -117,7 +117,10 @@ void AddModels(Seeds& seeds) {
   seeds["alignment"] = {EncodeAlignment(alignment).value()};
   seeds["seams_of_cluster"] = {
       EncodeSeamsOfCluster(
-          {.submodels = {{.name = {4, 0}, .images = {ImageId(0), ImageId(2)}, .length = 2.0}},
+          {.submodels = {{.name = {4, 0},
+                          .images = {ImageId(0), ImageId(2)},
+                          .length = 2.0,
+                          .level = SubmodelLevel{}}},
            .seams = {{.a = {4, 0}, .b = {5, 1}, .common_tracks = 3, .shared = {{}, {}}}}})
           .value()};
   seeds["partition_review"] = {

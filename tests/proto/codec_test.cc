@@ -544,6 +544,19 @@ TEST(SubproblemResultCodec, TakesAStepThatLedNowhereAndNoneThatGainsByNothing) {
   EXPECT_FALSE(DecodeSubproblemResult(EncodeSubproblemResult(result).value()).ok());
 }
 
+TEST(SeamsCodec, KeepsWhatIsUpInASubmodel) {
+  SeamsOfCluster seams{.submodels = {{.name = {0, 0}}, {.name = {0, 1}}}};
+  seams.submodels[1].level = SubmodelLevel{Eigen::Vector3d(0.6, 0.0, 0.8), 0.07};
+  const auto decoded = DecodeSeamsOfCluster(EncodeSeamsOfCluster(seams).value());
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_FALSE(decoded->submodels[0].level.has_value());
+  ASSERT_TRUE(decoded->submodels[1].level.has_value());
+  EXPECT_EQ(decoded->submodels[1].level->up, Eigen::Vector3d(0.6, 0.0, 0.8));
+  EXPECT_EQ(decoded->submodels[1].level->sigma_rad, 0.07);
+  seams.submodels[1].level->up *= 2.0;
+  EXPECT_FALSE(DecodeSeamsOfCluster(EncodeSeamsOfCluster(seams).value()).ok());
+}
+
 TEST(SeamsCodec, LooksAtTheCovarianceOfASeamThatHolds) {
   FittedSeam seam{.a = {0, 0}, .b = {1, 0}};
   const auto is_taken = [&] {

@@ -152,12 +152,50 @@ SimilarityGraph MakeGraph(const Outlines& outlines,
   return graph;
 }
 
-absl::StatusOr<AveragedSimilarities> Average(const Outlines& outlines,
-                                             const std::vector<Candidate>& candidates,
-                                             const AlignOptions& options,
-                                             const StageContext& context) {
-  return AverageSimilarities(
-      MakeGraph(outlines, candidates, options), {.max_error = options.max_contradiction}, context);
+// That what is up in b is up in a. `a_from_b` is near what will be found, so that little is left to
+// turn about the vertical, of which nothing is said.
+SimilarityEdge MakeLevelEdge(const SubmodelLevel& a, const SubmodelLevel& b, Sim3 a_from_b) {
+  a_from_b.rotation = RotationBetween(a_from_b.rotation * b.up, a.up) * a_from_b.rotation;
+  SimilarityEdge edge{.information = Matrix7d::Zero(), .strength = 0.0, .joins = false};
+  edge.measured.a_from_b = a_from_b;
+  edge.information.topLeftCorner<3, 3>() = (Eigen::Matrix3d::Identity() - a.up * a.up.transpose()) /
+                                           (a.sigma_rad * a.sigma_rad + b.sigma_rad * b.sigma_rad);
+  return edge;
+}
+
+// The parts of the graph whose submodels are taken for more bent than is expected.
+std::set<uint32_t> BentParts(const std::vector<Candidate>& candidates,
+                             const std::vector<uint32_t>& part) {
+  std::set<uint32_t> bent;
+  for (const auto& [report, seam] : candidates) {
+    if (report.used && report.drift_factor > 1.0) bent.insert(part[report.submodel_a]);
+  }
+  return bent;
+}
+
+// That the cameras of bent submodels stand upright, all alike: each submodel against the one of its
+// part that knows best which way is up.
+void AddLevels(const Outlines& outlines,
+               const std::vector<Candidate>& candidates,
+               const AveragedSimilarities& averaged,
+               SimilarityGraph& graph) {
+  const std::set<uint32_t> bent = BentParts(candidates, averaged.part);
+  std::map<uint32_t, uint32_t> best_of_part;
+  for (uint32_t m = 0; m < outlines.size(); ++m) {
+    if (!outlines[m]->level || !bent.contains(averaged.part[m])) continue;
+    uint32_t& best = best_of_part.try_emplace(averaged.part[m], m).first->second;
+    if (outlines[m]->level->sigma_rad < outlines[best]->level->sigma_rad) best = m;
+  }
+  for (uint32_t m = 0; m < outlines.size(); ++m) {
+    const auto best = best_of_part.find(averaged.part[m]);
+    if (!outlines[m]->level || best == best_of_part.end() || m == best->second) continue;
+    SimilarityEdge& edge = graph.edges.emplace_back(MakeLevelEdge(
+        *outlines[best->second]->level,
+        *outlines[m]->level,
+        averaged.world_from_node[best->second].Inverse() * averaged.world_from_node[m]));
+    edge.a = best->second;
+    edge.b = m;
+  }
 }
 
 // Takes submodels for as much more bent as their loops say, part by part of the graph where loops
@@ -255,13 +293,18 @@ absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> cluster
     return absl::DataLossError("align_submodels: submodels are not in order, or there twice");
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<Candidate> candidates,
                             FindCandidates(clusters, outlines, options));
-  ORBWEAVE_ASSIGN_OR_RETURN(AveragedSimilarities averaged,
-                            Average(outlines, candidates, options, context));
+  const AverageSimilaritiesOptions robust{.max_error = options.max_contradiction};
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      AveragedSimilarities averaged,
+      AverageSimilarities(MakeGraph(outlines, candidates, options), robust, context));
   if (std::ranges::count(averaged.is_used, 0) > 0) {
     ORBWEAVE_ASSIGN_OR_RETURN(const bool is_wider,
                               WidenDrift(outlines, averaged, options, context, candidates));
     if (is_wider) {
-      ORBWEAVE_ASSIGN_OR_RETURN(averaged, Average(outlines, candidates, options, context));
+      SimilarityGraph graph = MakeGraph(outlines, candidates, options);
+      ORBWEAVE_ASSIGN_OR_RETURN(averaged, AverageSimilarities(graph, robust, context));
+      AddLevels(outlines, candidates, averaged, graph);
+      ORBWEAVE_ASSIGN_OR_RETURN(averaged, AverageSimilarities(graph, robust, context));
     }
   }
   SwitchOffContradicted(averaged, candidates);

@@ -26,7 +26,9 @@ namespace orbweave {
 /// off. Before that, where seams in loops share the error and are off by more than expected in the
 /// median, submodels are taken for as much more bent (drift_factor), up to 16 times: both sides of
 /// a seam have the same images, and a street of plain walls bends by degrees. Where most loops
-/// close, one that does not makes nothing of this.
+/// close, one that does not makes nothing of this. Which way is up, as cameras of such submodels
+/// have it (LevelOf), then counts as well: what loops leave to the bends of all would else tilt
+/// whole submodels.
 ///
 /// World 0 holds most images; submodels that no used seam joins are worlds of their own. A world
 /// has the frame and scale of its submodel with most images. GNSS enters when they are joined.

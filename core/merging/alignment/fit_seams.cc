@@ -50,8 +50,13 @@ double ExtentFrom(const Eigen::Vector3d& point, const Reconstruction& reconstruc
 SubmodelOutline OutlineOf(const Submodel& submodel) {
   SubmodelOutline outline{.name = submodel.name()};
   const auto& images = submodel.reconstruction.images;
-  for (const auto& [id, image] : images) outline.images.push_back(id);
+  std::vector<Rigid3> cams_from_submodel;
+  for (const auto& [id, image] : images) {
+    outline.images.push_back(id);
+    if (!image.loose) cams_from_submodel.push_back(image.cam_from_world);
+  }
   if (images.empty()) return outline;
+  outline.level = LevelOf(cams_from_submodel);
   const double extent =
       ExtentFrom(images.begin()->second.cam_from_world.Centre(), submodel.reconstruction);
   if (extent > 0.0) outline.length = extent;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/base/stage_context.h"
 #include "core/merging/alignment/fit_seam.h"
 #include "core/merging/alignment/submodel.h"
+#include "core/merging/alignment/submodel_level.h"
 
 namespace orbweave {
 
@@ -17,6 +19,7 @@ struct SubmodelOutline {
   SubmodelName name{};
   std::vector<ImageId> images{};  ///< sorted
   double length = 1.0;            ///< largest distance of a centre from that of the first image
+  std::optional<SubmodelLevel> level{};
 };
 
 /// What two submodels with a common image say about their relative similarity.

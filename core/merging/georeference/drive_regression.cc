@@ -75,24 +75,26 @@ DriveRegression::Fit DriveRegression::Solve(std::span<const int> free) const {
     });
     fit.solution = SolveWeighted(unknowns, weights);
   }
-  const std::vector<size_t> kept = KeptBy(fit);
-  std::ranges::fill(weights, 0.0);
-  for (const size_t i : kept) weights[i] = 1.0 / (fit.scatter_m * fit.scatter_m);
+  const std::vector<double> errors = ErrorsOf(fit.solution);
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    const bool is_kept = errors[i] <= kOff * fit.scatter_m;
+    if (is_kept) fit.kept.push_back(i);
+    weights[i] = is_kept ? 1.0 / (fit.scatter_m * fit.scatter_m) : 0.0;
+  }
   fit.solution = SolveWeighted(unknowns, weights);
-  fit.kept_share = static_cast<double>(kept.size()) / static_cast<double>(rows_.size());
+  fit.kept_share = static_cast<double>(fit.kept.size()) / static_cast<double>(rows_.size());
   return fit;
 }
 
 NoiseAxis DriveRegression::NoiseOf(const Fit& fit) const {
-  const std::vector<size_t> kept = KeptBy(fit);
   NoiseAxis noise;
-  const auto m = static_cast<Eigen::Index>(kept.size());
+  const auto m = static_cast<Eigen::Index>(fit.kept.size());
   for (const Eigen::Index axis : {0, 1}) {
     NoiseRun& run = noise.runs.emplace_back();
     run.design.resize(m, kNumUnknowns);
     run.residuals.resize(m);
     for (Eigen::Index j = 0; j < m; ++j) {
-      const size_t i = kept[static_cast<size_t>(j)];
+      const size_t i = fit.kept[static_cast<size_t>(j)];
       run.places.push_back(drive_.fixes[i].way);
       run.design.row(j) = rows_[i].row(axis) / claimed_m_;
       run.residuals[j] = (residuals_[i] - rows_[i] * fit.solution)[axis] / claimed_m_;
@@ -100,15 +102,6 @@ NoiseAxis DriveRegression::NoiseOf(const Fit& fit) const {
   }
   noise.information = std::max(VarianceOf(noise), 1e-12) * prior_;
   return noise;
-}
-
-std::vector<size_t> DriveRegression::KeptBy(const Fit& fit) const {
-  const std::vector<double> errors = ErrorsOf(fit.solution);
-  std::vector<size_t> kept;
-  for (size_t i = 0; i < errors.size(); ++i) {
-    if (errors[i] <= kOff * fit.scatter_m) kept.push_back(i);
-  }
-  return kept;
 }
 
 std::vector<double> DriveRegression::ErrorsOf(const Eigen::VectorXd& solution) const {

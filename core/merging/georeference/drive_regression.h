@@ -23,7 +23,8 @@ class DriveRegression {
   struct Fit {
     Eigen::VectorXd solution{};  ///< metres, but `ahead` (DriveErrors); kNumUnknowns
     double scatter_m = 1.0;      ///< of one axis
-    double kept_share = 1.0;     ///< of the positions, not off by more than 3.5 scatters
+    std::vector<size_t> kept{};  ///< positions that are not off (by more than 3.5 scatters)
+    double kept_share = 1.0;     ///< of all
   };
 
   /// `drive` outlives this.
@@ -33,7 +34,7 @@ class DriveRegression {
   /// positions are off, and of the others are the least squares whose sigmas can be told.
   [[nodiscard]] Fit Solve(std::span<const int> free) const;
 
-  /// What a fit leaves of the positions that are not off, over what they claim.
+  /// What a fit leaves of the positions that it kept, over what they claim.
   [[nodiscard]] NoiseAxis NoiseOf(const Fit& fit) const;
 
   /// Of a carrier as usual, metres per unit of `ahead`.
@@ -42,7 +43,6 @@ class DriveRegression {
  private:
   using Row = Eigen::Matrix<double, 2, kNumUnknowns>;
 
-  [[nodiscard]] std::vector<size_t> KeptBy(const Fit& fit) const;
   [[nodiscard]] std::vector<double> ErrorsOf(const Eigen::VectorXd& solution) const;
   [[nodiscard]] Eigen::VectorXd SolveWeighted(const std::vector<int>& free,
                                               const std::vector<double>& weights) const;

@@ -142,6 +142,22 @@ TEST(AverageSimilarities, NeverSwitchesOffABridge) {
   EXPECT_EQ(Averaged(world.graph).is_used[0], 1);
 }
 
+TEST(AverageSimilarities, TakesWhatAnEdgeSaysThatJoinsNothing) {
+  Random random(9);
+  World world = MakeNodes(3, random);
+  Measure(world, 0, 1, Vector7d::Zero());
+  Vector7d turned = Vector7d::Zero();
+  turned[0] = 0.2;
+  Measure(world, 0, 1, turned);  // off by twenty sigmas
+  world.graph.edges.back().joins = false;
+  Measure(world, 1, 2, Vector7d::Zero());
+  world.graph.edges.back().joins = false;
+  const AveragedSimilarities averaged = Averaged(world.graph);
+  EXPECT_EQ(averaged.part, (std::vector<uint32_t>{0, 0, 1})) << "it holds nothing together";
+  EXPECT_EQ(averaged.is_used, (std::vector<uint8_t>{1, 1, 1})) << "nor is it switched off";
+  EXPECT_GT(WorstError(world, averaged, 0, 1), 1e-4) << "and yet it pulls";
+}
+
 TEST(AverageSimilarities, NumbersUnconnectedParts) {
   Random random(8);
   World world = MakeNodes(5, random);

@@ -12,10 +12,10 @@
 
 namespace orbweave::testing {
 
-// FitSeams cluster by cluster, then AlignSubmodels. `submodels`: by cluster and submodel.
-inline absl::StatusOr<Alignment> AlignAll(std::span<const Submodel> submodels,
-                                          const AlignOptions& options = {},
-                                          const StageContext& context = {}) {
+// FitSeams cluster by cluster. `submodels`: by cluster and submodel.
+inline absl::StatusOr<std::vector<SeamsOfCluster>> FitAllSeams(std::span<const Submodel> submodels,
+                                                               const AlignOptions& options = {},
+                                                               const StageContext& context = {}) {
   std::vector<SeamsOfCluster> clusters;
   while (!submodels.empty()) {
     const auto end = std::ranges::find_if(submodels, [&](const Submodel& submodel) {
@@ -27,6 +27,15 @@ inline absl::StatusOr<Alignment> AlignAll(std::span<const Submodel> submodels,
         FitSeams(submodels.first(count), submodels.subspan(count), options.max_error_px, context));
     submodels = submodels.subspan(count);
   }
+  return clusters;
+}
+
+// And then AlignSubmodels.
+inline absl::StatusOr<Alignment> AlignAll(std::span<const Submodel> submodels,
+                                          const AlignOptions& options = {},
+                                          const StageContext& context = {}) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<SeamsOfCluster> clusters,
+                            FitAllSeams(submodels, options, context));
   return AlignSubmodels(clusters, options, context);
 }
 

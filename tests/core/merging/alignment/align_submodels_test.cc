@@ -5,6 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
 #include "core/merging/alignment/alignment.h"
 #include "core/synthetic/make_street.h"
 #include "tests/core/merging/align_all.h"
@@ -101,28 +107,32 @@ TEST(AlignSubmodels, ClosesALoop) {
   EXPECT_TRUE(closing->used) << closing->reason;
 }
 
-/// A loop of six submodels, each bent by so much for every radian of the loop, as far as
-/// `reach_rad` from its middle, where it has no images in common with others.
+/// Bends a submodel of LoopWorld about `axis` through the middle of the loop, by its length for
+/// every radian of the loop, as far as `reach_rad` from its middle, where it has no images in
+/// common with others.
+void Bend(size_t m, const Eigen::Vector3d& axis, double reach_rad, SplitWorld& world) {
+  Reconstruction& bent = world.submodels[m].reconstruction;
+  bent = Transformed(world.submodel_from_street[m].Inverse(), std::move(bent));
+  const auto bend = [&](const Eigen::Vector3d& point) {
+    const double middle = (static_cast<double>(m) / 3.0 + 5.0 / 18.0) * std::numbers::pi;
+    const double along =
+        std::remainder(std::atan2(point.y(), point.x()) - middle, 2.0 * std::numbers::pi);
+    return Sim3{.rotation = RotationFromVector(std::clamp(along, -reach_rad, reach_rad) * axis)};
+  };
+  for (auto& [id, image] : bent.images) {
+    image.cam_from_world =
+        TransformCamera(bend(image.cam_from_world.Centre()), image.cam_from_world);
+  }
+  for (Track& track : bent.tracks)
+    track.point_in_world = bend(track.point_in_world) * track.point_in_world;
+  bent = Transformed(world.submodel_from_street[m], std::move(bent));
+}
+
+/// A loop of six submodels, all bent in its plane.
 SplitWorld BentLoopWorld(double bend_rad, double reach_rad, uint64_t seed) {
   SplitWorld world = LoopWorld(0.0, seed);
-  for (size_t m = 0; m < world.submodels.size(); ++m) {
-    Reconstruction& bent = world.submodels[m].reconstruction;
-    bent = Transformed(world.submodel_from_street[m].Inverse(), std::move(bent));
-    const auto bend = [&](const Eigen::Vector3d& point) {
-      const double middle = (static_cast<double>(m) / 3.0 + 5.0 / 18.0) * std::numbers::pi;
-      const double along =
-          std::remainder(std::atan2(point.y(), point.x()) - middle, 2.0 * std::numbers::pi);
-      return Sim3{.rotation = RotationFromVector(
-                      {0.0, 0.0, bend_rad * std::clamp(along, -reach_rad, reach_rad)})};
-    };
-    for (auto& [id, image] : bent.images) {
-      image.cam_from_world =
-          TransformCamera(bend(image.cam_from_world.Centre()), image.cam_from_world);
-    }
-    for (Track& track : bent.tracks)
-      track.point_in_world = bend(track.point_in_world) * track.point_in_world;
-    bent = Transformed(world.submodel_from_street[m], std::move(bent));
-  }
+  for (size_t m = 0; m < world.submodels.size(); ++m)
+    Bend(m, bend_rad * Eigen::Vector3d::UnitZ(), reach_rad, world);
   return world;
 }
 
@@ -149,6 +159,48 @@ TEST(AlignSubmodels, ClosesALoopOfSubmodelsThatAreBentByMoreThanIsExpected) {
   const Alignment alignment = Aligned(BentLoopWorld(0.35, 0.15, 9).submodels);
   ExpectSpread(alignment);
   for (const SeamReport& seam : alignment.seams) EXPECT_GT(seam.drift_factor, 2.0);
+}
+
+/// How far submodels lie askew to each other, the bent one apart; radians, the worst of all pairs.
+double WorstTilt(const SplitWorld& world, const Alignment& alignment, size_t bent) {
+  std::vector<Eigen::Vector3d> ups;
+  for (size_t m = 0; m < world.submodels.size(); ++m) {
+    const Sim3 world_from_street = alignment.world_from_submodel[m] * world.submodel_from_street[m];
+    if (m != bent) ups.emplace_back(world_from_street.rotation * Eigen::Vector3d::UnitZ());
+  }
+  double worst_rad = 0.0;
+  for (const Eigen::Vector3d& a : ups) {
+    for (const Eigen::Vector3d& b : ups) worst_rad = std::max(worst_rad, AngleBetween(a, b));
+  }
+  return worst_rad;
+}
+
+TEST(AlignSubmodels, DoesNotTiltSubmodelsForOneThatIsBent) {
+  // One of six leans by twenty degrees more at its end than at its beginning, across the street.
+  constexpr size_t kBent = 3;
+  SplitWorld world = LoopWorld(0.0, 9);
+  Bend(kBent, 1.17 * Eigen::Vector3d::UnitX(), 0.15, world);
+  auto clusters = testing::FitAllSeams(world.submodels);
+  ASSERT_TRUE(clusters.ok());
+  const auto tilt_with = [&](bool levels) {
+    for (size_t m = 0; m < world.submodels.size(); ++m) {
+      std::optional<SubmodelLevel>& level = (*clusters)[m].submodels[0].level;
+      level.reset();
+      if (!levels) continue;
+      level = SubmodelLevel{world.submodel_from_street[m].rotation * Eigen::Vector3d::UnitZ(),
+                            m == kBent ? 0.2 : 0.055};
+    }
+    const auto alignment = AlignSubmodels(*clusters, {}, {});
+    EXPECT_TRUE(alignment.ok());
+    for (const SeamReport& seam : alignment->seams) {
+      EXPECT_TRUE(seam.used) << seam.reason;
+      EXPECT_GT(seam.drift_factor, 2.0);
+    }
+    return WorstTilt(world, *alignment, kBent);
+  };
+  const double without_rad = tilt_with(false);
+  EXPECT_GT(without_rad, 0.15);
+  EXPECT_LT(tilt_with(true), 0.67 * without_rad) << "a third less, as levels are known to degrees";
 }
 
 TEST(AlignSubmodels, SwitchesOffASeamThatTheLoopContradicts) {

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "core/geometry/rigid3.h"
+
+namespace orbweave {
+
+/// Which way is up in a submodel, as its cameras have it.
+struct SubmodelLevel {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit, in the submodel
+  double sigma_rad = 0.1;                         ///< about either level axis
+};
+
+/// The mean of what cameras call up, by Cauchy's weights at two degrees. It is as good as streets
+/// climb and mounts lean, three degrees, and as the median camera leans away from it: of a submodel
+/// that is bent some say one thing and some another. nullopt: fewer than ten cameras, or they do
+/// not agree, as of panoramas held anyhow.
+[[nodiscard]] std::optional<SubmodelLevel> LevelOf(std::span<const Rigid3> cams_from_submodel);
+
+}  // namespace orbweave
