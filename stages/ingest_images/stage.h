@@ -12,7 +12,7 @@ namespace orbweave {
 /// What a folder holds -> which images take part, and what is known of each (IngestImages).
 /// ExtractOptions say whether facades are wanted (WantsFacades).
 struct IngestImagesStage {
-  static constexpr StageFacts kFacts{.name = "ingest_images", .version = "6", .weight = 1.0};
+  static constexpr StageFacts kFacts{.name = "ingest_images", .version = "7", .weight = 1.0};
   using Options = OptionSections<IngestOptions, ExtractOptions>;
 
   One<ImageSources> sources;

@@ -413,6 +413,14 @@ TEST(IngestImages, DoesNotTakeForMeasuredWhatEveryImageSays) {
   EXPECT_EQ(manifest.images[1].prior.pitch_deg, 0.1);
   EXPECT_EQ(manifest.images[2].prior.roll_deg, 12.0);
   EXPECT_THAT(manifest.warnings, ElementsAre(HasSubstr("state a heading state exactly 180")));
+  for (SourceImage& image : sources.images) {
+    image.metadata.pitch_deg = 0.0;
+    image.metadata.roll_deg = 0.0;
+  }
+  manifest = Ingest(sources);
+  EXPECT_THAT(manifest.warnings,
+              ElementsAre(HasSubstr("state a pitch or a roll state exactly 0 degrees"),
+                          HasSubstr("state a heading state exactly 180")));
   // Who states an accuracy means it.
   sources.gnss_name = "gnss.csv";
   sources.gnss_text = "name,latitude,longitude,heading_accuracy\nimg0.jpg,47,8,1\n";

@@ -13,6 +13,7 @@ namespace {
 constexpr double kMinHeight = 220.0;
 constexpr double kMaxHeight = 680.0;
 constexpr double kMargin = 46.0;
+constexpr double kFoot = 30.0;          // of the map, for its scale and what ellipses are
 constexpr double kFrame = 14.0;         // of the page, that symbols stay away from its edge
 constexpr double kRoomForMarks = 0.25;  // share of the extent
 
@@ -66,8 +67,9 @@ MapView FitMapView(const MapImages& images,
   view.units_per_pixel =
       std::max(extent.x() / (kMapWidth - 2 * kMargin), extent.y() / (kMaxHeight - 2 * kMargin));
   const Eigen::Vector2d drawn = extent / view.units_per_pixel;
-  view.height = std::max(kMinHeight, drawn.y() + 2 * kMargin);
-  view.offset = 0.5 * (Eigen::Vector2d(kMapWidth, view.height) - drawn);
+  const double height = std::max(kMinHeight, drawn.y() + 2 * kMargin);
+  view.height = height + kFoot;
+  view.offset = 0.5 * (Eigen::Vector2d(kMapWidth, height) - drawn) + Eigen::Vector2d(0.0, kFoot);
   return view;
 }
 
@@ -75,7 +77,7 @@ Eigen::Vector2d WithinFrame(const MapView& view,
                             const Eigen::Vector2d& from,
                             const Eigen::Vector2d& place) {
   const Eigen::Vector2d low(kFrame, kFrame);
-  const Eigen::Vector2d high(kMapWidth - kFrame, view.height - kFrame);
+  const Eigen::Vector2d high(kMapWidth - kFrame, view.height - kFoot - kFrame);
   const Eigen::Vector2d way = place - from;
   double share = 1.0;
   for (int axis = 0; axis < 2; ++axis) {
