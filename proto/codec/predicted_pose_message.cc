@@ -9,14 +9,12 @@ namespace orbweave::codec {
 
 void ToProto(const PredictedPose& pose, v1::PredictedPose* proto) {
   ToProto(Rigid3{pose.rotation, pose.first}, proto->mutable_rotation_and_first());
-  proto->mutable_last()->set_x(pose.last.x());
-  proto->mutable_last()->set_y(pose.last.y());
-  proto->mutable_last()->set_z(pose.last.z());
+  ToProto(pose.last, proto->mutable_last());
 }
 
 absl::StatusOr<PredictedPose> FromProto(const v1::PredictedPose& proto) {
   ORBWEAVE_ASSIGN_OR_RETURN(const Rigid3 pose, FromProto(proto.rotation_and_first()));
-  const Eigen::Vector3d last(proto.last().x(), proto.last().y(), proto.last().z());
+  const Eigen::Vector3d last = FromProto(proto.last());
   if (!IsDirection(pose.translation) || !IsDirection(last))
     return absl::DataLossError("a predicted pose leads nowhere");
   return PredictedPose{pose.rotation, pose.translation, last};

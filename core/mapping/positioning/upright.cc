@@ -6,23 +6,14 @@
 #include <vector>
 
 #include "core/geometry/rotation.h"
+#include "core/geometry/sum_of_ups.h"
 
 namespace orbweave {
-namespace {
-
-/// Length of the mean of the unit vectors that cameras call up: cameras on a car lean the same way
-/// in its own axes and turn with it, which leaves the cosine of the lean, 0.97 for 15 degrees.
-constexpr double kMinUpright = 0.95;
-
-}  // namespace
-
 std::optional<Eigen::Quaterniond> UprightFromWorld(
     std::span<const Eigen::Quaterniond> cams_from_world) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Quaterniond& cam_from_world : cams_from_world)
-    sum -= cam_from_world.conjugate() * Eigen::Vector3d::UnitY();
-  if (sum.norm() < kMinUpright * static_cast<double>(cams_from_world.size())) return std::nullopt;
-  return RotationBetween(sum, Eigen::Vector3d::UnitZ());
+  const std::optional<Eigen::Vector3d> up = SumOfUps(cams_from_world);
+  if (!up) return std::nullopt;
+  return RotationBetween(*up, Eigen::Vector3d::UnitZ());
 }
 
 std::optional<Eigen::Quaterniond> UprightFromWorld(const MappingState& state,

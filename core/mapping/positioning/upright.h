@@ -11,7 +11,7 @@
 namespace orbweave {
 
 /// A rotation that makes what the cameras call up, on the mean, the third axis. nullopt: they do
-/// not agree which way that is (a rig that tilts, or panoramas turned at random).
+/// not agree which way that is (SumOfUps).
 [[nodiscard]] std::optional<Eigen::Quaterniond> UprightFromWorld(
     std::span<const Eigen::Quaterniond> cams_from_world);
 /// Of registered images.

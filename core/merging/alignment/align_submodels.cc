@@ -163,23 +163,12 @@ SimilarityEdge MakeLevelEdge(const SubmodelLevel& a, const SubmodelLevel& b, Sim
   return edge;
 }
 
-// The parts of the graph whose submodels are taken for more bent than is expected.
-std::set<uint32_t> BentParts(const std::vector<Candidate>& candidates,
-                             const std::vector<uint32_t>& part) {
-  std::set<uint32_t> bent;
-  for (const auto& [report, seam] : candidates) {
-    if (report.used && report.drift_factor > 1.0) bent.insert(part[report.submodel_a]);
-  }
-  return bent;
-}
-
-// That the cameras of bent submodels stand upright, all alike: each submodel against the one of its
-// part that knows best which way is up.
+// That the cameras of bent submodels, those of the parts `bent` of the graph, stand upright, all
+// alike: each submodel against the one of its part that knows best which way is up.
 void AddLevels(const Outlines& outlines,
-               const std::vector<Candidate>& candidates,
+               const std::set<uint32_t>& bent,
                const AveragedSimilarities& averaged,
                SimilarityGraph& graph) {
-  const std::set<uint32_t> bent = BentParts(candidates, averaged.part);
   std::map<uint32_t, uint32_t> best_of_part;
   for (uint32_t m = 0; m < outlines.size(); ++m) {
     if (!outlines[m]->level || !bent.contains(averaged.part[m])) continue;
@@ -201,12 +190,12 @@ void AddLevels(const Outlines& outlines,
 // Takes submodels for as much more bent as their loops say, part by part of the graph where loops
 // contradict a seam: by the median of what all seams in loops are off when these share the error.
 // Both submodels of a seam have its images, so that their own shape is more in doubt than the seam.
-// Whether any was.
-absl::StatusOr<bool> WidenDrift(const Outlines& outlines,
-                                const AveragedSimilarities& averaged,
-                                const AlignOptions& options,
-                                const StageContext& context,
-                                std::vector<Candidate>& candidates) {
+// The parts of which any was.
+absl::StatusOr<std::set<uint32_t>> WidenDrift(const Outlines& outlines,
+                                              const AveragedSimilarities& averaged,
+                                              const AlignOptions& options,
+                                              const StageContext& context,
+                                              std::vector<Candidate>& candidates) {
   ORBWEAVE_ASSIGN_OR_RETURN(
       const AveragedSimilarities shared,
       AverageSimilarities(
@@ -223,16 +212,16 @@ absl::StatusOr<bool> WidenDrift(const Outlines& outlines,
     if (averaged.is_used[e] == 0) contradicted.insert(part);
     ++e;
   }
-  bool is_wider = false;
+  std::set<uint32_t> bent;
   for (auto& [report, seam] : candidates) {
     const uint32_t part = shared.part[report.submodel_a];
     if (!report.used || !contradicted.contains(part)) continue;
     const double drift = Quantile(errors_of_part[part], 0.5);
     if (!(drift > 1.0 && drift <= kMostDrift)) continue;
     report.drift_factor = drift;
-    is_wider = true;
+    bent.insert(part);
   }
-  return is_wider;
+  return bent;
 }
 
 // Worlds in order of their number of images (then of their first submodel).
@@ -298,12 +287,12 @@ absl::StatusOr<Alignment> AlignSubmodels(std::span<const SeamsOfCluster> cluster
       AveragedSimilarities averaged,
       AverageSimilarities(MakeGraph(outlines, candidates, options), robust, context));
   if (std::ranges::count(averaged.is_used, 0) > 0) {
-    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_wider,
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::set<uint32_t> bent,
                               WidenDrift(outlines, averaged, options, context, candidates));
-    if (is_wider) {
+    if (!bent.empty()) {
       SimilarityGraph graph = MakeGraph(outlines, candidates, options);
       ORBWEAVE_ASSIGN_OR_RETURN(averaged, AverageSimilarities(graph, robust, context));
-      AddLevels(outlines, candidates, averaged, graph);
+      AddLevels(outlines, bent, averaged, graph);
       ORBWEAVE_ASSIGN_OR_RETURN(averaged, AverageSimilarities(graph, robust, context));
     }
   }

@@ -50,10 +50,10 @@ double ExtentFrom(const Eigen::Vector3d& point, const Reconstruction& reconstruc
 SubmodelOutline OutlineOf(const Submodel& submodel) {
   SubmodelOutline outline{.name = submodel.name()};
   const auto& images = submodel.reconstruction.images;
-  std::vector<Rigid3> cams_from_submodel;
+  std::vector<Eigen::Quaterniond> cams_from_submodel;
   for (const auto& [id, image] : images) {
     outline.images.push_back(id);
-    if (!image.loose) cams_from_submodel.push_back(image.cam_from_world);
+    if (!image.loose) cams_from_submodel.push_back(image.cam_from_world.rotation);
   }
   if (images.empty()) return outline;
   outline.level = LevelOf(cams_from_submodel);

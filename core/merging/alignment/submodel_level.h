@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <span>
-
-#include "core/geometry/rigid3.h"
 
 namespace orbweave {
 
@@ -16,10 +14,11 @@ struct SubmodelLevel {
   double sigma_rad = 0.1;                         ///< about either level axis
 };
 
-/// The mean of what cameras call up, by Cauchy's weights at two degrees. It is as good as streets
+/// The mean of what cameras call up (RobustMeanDirection, at two degrees). It is as good as streets
 /// climb and mounts lean, three degrees, and as the median camera leans away from it: of a submodel
 /// that is bent some say one thing and some another. nullopt: fewer than ten cameras, or they do
-/// not agree, as of panoramas held anyhow.
-[[nodiscard]] std::optional<SubmodelLevel> LevelOf(std::span<const Rigid3> cams_from_submodel);
+/// not agree (SumOfUps).
+[[nodiscard]] std::optional<SubmodelLevel> LevelOf(
+    std::span<const Eigen::Quaterniond> cams_from_submodel);
 
 }  // namespace orbweave

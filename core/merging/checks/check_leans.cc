@@ -14,7 +14,7 @@
 #include "core/geometry/rotation.h"
 #include "core/merging/georeference/drive_attitudes.h"
 #include "core/merging/georeference/estimate_gravity.h"
-#include "core/robust/loss.h"
+#include "core/robust/mean_direction.h"
 
 namespace orbweave {
 namespace {
@@ -26,26 +26,11 @@ constexpr double kLeastLean_deg = 10.0;
 constexpr double kOfMedian = 5.0;
 constexpr double kHeldByHand_deg = 5.0;
 constexpr double kLossScale_deg = 2.0;
-constexpr int kReweightings = 10;
 
 struct Lean {
   ImageId image{};
   double deg = 0.0;
 };
-
-Vector3d RobustMean(const std::vector<Vector3d>& directions) {
-  const CauchyLoss loss(kLossScale_deg);
-  Vector3d mean = Vector3d::UnitY();
-  for (int round = 0; round < kReweightings; ++round) {
-    Vector3d sum = Vector3d::Zero();
-    for (const Vector3d& direction : directions) {
-      const double away_deg = kDegPerRad * AngleBetween(direction, mean);
-      sum += loss.Weight(away_deg * away_deg) * direction;
-    }
-    mean = sum.normalized();
-  }
-  return mean;
-}
 
 std::vector<Lean> LeansOf(const Reconstruction& model,
                           const ImageManifest& manifest,
@@ -54,7 +39,7 @@ std::vector<Lean> LeansOf(const Reconstruction& model,
   for (const DriveAttitudes& drive : AttitudesOfDrives(model, manifest)) {
     std::vector<Vector3d> downs;
     for (const Eigen::Matrix3d& R : drive.level_from_world) downs.emplace_back(R * down_in_world);
-    const Vector3d mean = RobustMean(downs);
+    const Vector3d mean = RobustMeanDirection(downs, Vector3d::UnitY(), kLossScale_deg);
     for (size_t i = 0; i < downs.size(); ++i)
       leans.push_back({drive.images[i], kDegPerRad * AngleBetween(downs[i], mean)});
   }

@@ -20,15 +20,14 @@ using Eigen::Vector3d;
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 /// Cameras that look anywhere, upright in a submodel in which that is `up`, but for `leans`.
-std::vector<Rigid3> Cameras(const Vector3d& up, const std::vector<Vector3d>& leans) {
+std::vector<Eigen::Quaterniond> Cameras(const Vector3d& up, const std::vector<Vector3d>& leans) {
   const Eigen::Quaterniond down_from_up = RotationBetween(up, -Vector3d::UnitY());
-  std::vector<Rigid3> cams_from_submodel;
+  std::vector<Eigen::Quaterniond> cams_from_submodel;
   double azimuth = 0.0;
   for (const Vector3d& lean : leans) {
     azimuth += 1.0;
-    cams_from_submodel.push_back(
-        {RotationFromVector(azimuth * Vector3d::UnitY()) * RotationFromVector(lean) * down_from_up,
-         Vector3d::Zero()});
+    cams_from_submodel.push_back(RotationFromVector(azimuth * Vector3d::UnitY()) *
+                                 RotationFromVector(lean) * down_from_up);
   }
   return cams_from_submodel;
 }
