@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/estimators/mean_direction.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sum_of_ups.h"
-#include "core/robust/mean_direction.h"
 
 namespace orbweave {
 namespace {

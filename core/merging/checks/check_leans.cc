@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/estimators/mean_direction.h"
 #include "core/geometry/rotation.h"
 #include "core/merging/georeference/drive_attitudes.h"
 #include "core/merging/georeference/estimate_gravity.h"
-#include "core/robust/mean_direction.h"
 
 namespace orbweave {
 namespace {

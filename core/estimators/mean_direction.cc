@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "core/robust/mean_direction.h"
+#include "core/estimators/mean_direction.h"
 
 #include <numbers>
 
