@@ -61,8 +61,10 @@ absl::StatusOr<AdjustedModel> FetchModel(JobReader& job,
   AdjustedModel model{.images = ModelImages(world), .report = world.report};
   ORBWEAVE_RETURN_IF_ERROR(CheckModel(model.images, manifest));
   ReconstructionMeter meter(model.images, manifest);
+  HingeFinder hinges(model.images);
   const auto visit = [&](const Track& track) {
     meter.Add(track);
+    hinges.Add(track);
     if (listener != nullptr) listener->TakePoint(track);
   };
   if (listener != nullptr) listener->BeginModel(model.images, manifest);
@@ -74,6 +76,7 @@ absl::StatusOr<AdjustedModel> FetchModel(JobReader& job,
   tracks.Finish(visit);
   if (listener != nullptr) ORBWEAVE_RETURN_IF_ERROR(listener->EndModel());
   model.measures = std::move(meter).Finish();
+  model.hinged_pieces = std::move(hinges).Finish();
   return model;
 }
 

@@ -14,6 +14,7 @@
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
 #include "core/mapping/position_misfit.h"
+#include "core/mapping/uneven_images.h"
 
 namespace orbweave {
 namespace {
@@ -29,25 +30,41 @@ constexpr double kNotMuchMore = 1.5;
 /// positions, have as the best was the best or 0.4 m worse.
 constexpr double kMisfitOfFault = 1.5;
 constexpr double kMisfitOfEvidence = 20.0;
+/// As much as a position that is wrong (PositionMisfit::Beside).
+constexpr double kMisfitOfUneven = 9.0;
+/// Rays contradict a right model in so many places more than one with a piece a house off.
+constexpr size_t kFaultsOfUneven = 3;
 
-/// What rays say of a model.
+/// What rays say of a model, and the even steps of its drives.
 struct RayOpinion {
   size_t faults = 0;      ///< places where they contradict its lengths (FindLengthFaults)
+  size_t uneven = 0;      ///< FindUnevenRuns
   double evidence = 0.0;  ///< EvidenceFor
 
+  [[nodiscard]] size_t Contradictions() const { return faults + kFaultsOfUneven * uneven; }
   /// As a squared misfit.
   [[nodiscard]] double Misfit() const {
-    return kMisfitOfFault * static_cast<double>(faults) - kMisfitOfEvidence * std::log(evidence);
+    return kMisfitOfFault * static_cast<double>(faults) +
+           kMisfitOfUneven * static_cast<double>(uneven) - kMisfitOfEvidence * std::log(evidence);
   }
 };
 
 RayOpinion RaysOf(const MappingState& state, const MappingOptions& options) {
-  return {FindLengthFaults(state, options).size(), EvidenceFor(state, options)};
+  return {FindLengthFaults(state, options).size(),
+          FindUnevenRuns(state).size(),
+          EvidenceFor(state, options)};
+}
+
+/// A model that is folded as a whole may be even: steps decide nothing while models grow.
+RayOpinion WithoutSteps(RayOpinion opinion) {
+  opinion.uneven = 0;
+  return opinion;
 }
 
 /// SpeaksMoreFor.
 bool SpeaksMore(const RayOpinion& one, const RayOpinion& other) {
-  if (one.faults != other.faults) return one.faults < other.faults;
+  if (one.Contradictions() != other.Contradictions())
+    return one.Contradictions() < other.Contradictions();
   return one.evidence > other.evidence;
 }
 
@@ -117,6 +134,12 @@ double EvidenceFor(const MappingState& state, const MappingOptions& options) {
 bool SpeaksMoreFor(const MappingState& one,
                    const MappingState& other,
                    const MappingOptions& options) {
+  return SpeaksMore(WithoutSteps(RaysOf(one, options)), WithoutSteps(RaysOf(other, options)));
+}
+
+bool RaysAndStepsSpeakMoreFor(const MappingState& one,
+                              const MappingState& other,
+                              const MappingOptions& options) {
   return SpeaksMore(RaysOf(one, options), RaysOf(other, options));
 }
 
@@ -135,7 +158,7 @@ bool IsBetterModel(const MappingState& one,
   if (kClearly * of_one.worth < of_other.worth) return false;
   if (IsLiked(of_one, of_other)) return true;
   if (IsLiked(of_other, of_one)) return false;
-  return SpeaksMore(of_one.rays, of_other.rays);
+  return SpeaksMore(WithoutSteps(of_one.rays), WithoutSteps(of_other.rays));
 }
 
 }  // namespace orbweave

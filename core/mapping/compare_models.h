@@ -34,17 +34,24 @@ namespace orbweave {
                                  const MappingState& other,
                                  const MappingOptions& options);
 
+/// The same where each image that stands off the even steps of its drive (FindUnevenRuns) counts as
+/// three such places.
+[[nodiscard]] bool RaysAndStepsSpeakMoreFor(const MappingState& one,
+                                            const MappingState& other,
+                                            const MappingOptions& options);
+
 /// Whether GNSS has the one rather than the other of two models. Of about the same images, to a
 /// twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, and
 /// positions and rays together like it better: the squared misfit of its positions
 /// (PositionMisfit), with 1.5 more for every place where rays contradict its lengths
-/// (FindLengthFaults), less twenty times the logarithm of EvidenceFor; and not clearly less speaks
-/// for it (four fifths of EvidenceFor), so that two positions that are wrong decide nothing. Of
-/// more images it bears out as large a share of it, to a twentieth, and these are not much further
-/// from their positions: on average a squared misfit of at most 1.5 times one more than those of
-/// the other. Where houses repeat rays may like a wrong model better: of one rendered street they
-/// contradict it in 2 places where it is 13 m off, and in 3 where it is 1.2 m off, of another in 1
-/// and in 3; positions are off by a squared misfit of 123 and 46, 75 and 30.
+/// (FindLengthFaults) and 9 for every image off the even steps (FindUnevenRuns), less twenty times
+/// the logarithm of EvidenceFor; and not clearly less speaks for it (four fifths of EvidenceFor),
+/// so that two positions that are wrong decide nothing. Of more images it bears out as large a
+/// share of it, to a twentieth, and these are not much further from their positions: on average a
+/// squared misfit of at most 1.5 times one more than those of the other. Where houses repeat rays
+/// may like a wrong model better: of one rendered street they contradict it in 2 places where it is
+/// 13 m off, and in 3 where it is 1.2 m off, of another in 1 and in 3; positions are off by a
+/// squared misfit of 123 and 46, 75 and 30.
 [[nodiscard]] bool IsLikedByGnss(const MappingState& one,
                                  const MappingState& other,
                                  const MappingOptions& options);

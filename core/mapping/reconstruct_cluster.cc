@@ -21,6 +21,7 @@
 #include "core/mapping/lengths/measure_gap_lengths.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
 #include "core/mapping/lengths/tying_rays.h"
+#include "core/mapping/mend_uneven.h"
 #include "core/mapping/model/mapping_schedule.h"
 #include "core/mapping/reconstruct_submodel.h"
 #include "core/mapping/split_by_gnss.h"
@@ -100,6 +101,8 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
     if (states.empty()) result.start_remark = submodel.start_remark;
     if (!submodel.state || submodel.state->Registered().empty()) break;
     const std::vector<ImageSlot>& registered = submodel.state->Registered();
+    if (ScheduleOf(options).relaxes_registration)
+      ORBWEAVE_RETURN_IF_ERROR(MendUneven(*submodel.state, options, context).status());
     for (const ImageSlot image : registered) available[image] = 0;
     if (registered.size() > largest) {
       largest = registered.size();

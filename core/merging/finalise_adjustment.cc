@@ -19,6 +19,7 @@
 #include "core/merging/checks/assess_world.h"
 #include "core/merging/checks/check_attitudes.h"
 #include "core/merging/checks/check_drive_motion.h"
+#include "core/merging/checks/check_even_steps.h"
 #include "core/merging/checks/check_gnss.h"
 #include "core/merging/checks/check_leans.h"
 #include "core/merging/checks/check_missed_points.h"
@@ -229,6 +230,7 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   const bool is_in_metres = georeference.enu_from_world.has_value();
   const std::map<ImageId, RegisteredImage> images = ModelImages(world);
   world.report.checks.push_back(CheckSequenceSteps(images, manifest, is_in_metres));
+  world.report.checks.push_back(CheckEvenSteps(images, manifest));
   if (is_in_metres) world.report.checks.push_back(CheckDriveMotion(images, manifest));
   world.report.checks.push_back(CheckMissedPoints(seen_between, images, manifest));
   world.report.checks.push_back(CheckLeans(images, manifest));

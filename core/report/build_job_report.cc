@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/report/check_contradicted_pairs.h"
+#include "core/report/check_hinges.h"
 #include "core/report/check_job.h"
 #include "core/report/check_lengths.h"
 #include "core/report/check_look_alikes.h"
@@ -315,6 +316,7 @@ JobReport BuildJobReport(const JobResults& results) {
   report.checks.push_back(CheckPairs(results));
   report.checks.push_back(CheckLengths(results));
   report.checks.push_back(CheckToldSteps(results));
+  report.checks.push_back(CheckHinges(results));
   report.checks.push_back(CheckStretches(results));
   if (std::optional<CrossCheck> standing = CheckStandingCamera(results, report.images))
     report.checks.push_back(*std::move(standing));

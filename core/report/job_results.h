@@ -14,6 +14,7 @@
 #include "core/merging/alignment/alignment.h"
 #include "core/merging/alignment/review_seams.h"
 #include "core/merging/checks/certify_seams.h"
+#include "core/merging/checks/find_hinges.h"
 #include "core/partitioned_ba/global_options.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/pair_candidates.h"
@@ -42,6 +43,7 @@ struct AdjustedModel {
   std::map<ImageId, RegisteredImage> images{};
   GlobalAdjustReport report{};
   ReconstructionMeasures measures{};
+  std::vector<HingedPiece> hinged_pieces{};
 };
 
 /// The results of a finished job, decoded: what grows with images, but not what grows with points.

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/checks/check_even_steps.h"
+
+#include <absl/strings/str_format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "core/scene/sequence_of_drive.h"
+#include "core/scene/uneven_stops.h"
+
+namespace orbweave {
+namespace {
+
+/// A panorama that stands off its even place.
+struct OffPlace {
+  ImageId image{};
+  double steps = 0.0;
+};
+
+/// Those of one drive, given in its order.
+std::vector<OffPlace> FindOffPlaces(const std::vector<ImageId>& drive,
+                                    const std::map<ImageId, RegisteredImage>& images,
+                                    const ImageManifest& manifest) {
+  std::vector<DriveStop> stops;
+  for (uint32_t place = 0; place < drive.size(); ++place) {
+    const auto found = images.find(drive[place]);
+    if (found == images.end() || found->second.loose) continue;
+    stops.push_back({place, found->second.cam_from_world.Centre()});
+  }
+  std::vector<OffPlace> off;
+  for (const UnevenStop& uneven : FindUnevenStops(stops)) {
+    const auto image = [&](size_t stop) { return drive[stops[stop].place]; };
+    const auto prior = [&](size_t stop) { return manifest.At(image(stop)).prior; };
+    if (!IsBorneOut(uneven, prior(uneven.first), prior(uneven.stop), prior(uneven.last)))
+      off.push_back({image(uneven.stop), uneven.off_steps});
+  }
+  return off;
+}
+
+}  // namespace
+
+CrossCheck CheckEvenSteps(const std::map<ImageId, RegisteredImage>& images,
+                          const ImageManifest& manifest) {
+  CrossCheck check{.name = "even_steps", .limit = kLeastUneven_steps, .unit = "step"};
+  std::vector<OffPlace> off;
+  for (const auto& [drive, ids] : SequenceOfDrives(manifest))
+    std::ranges::copy(FindOffPlaces(ids, images, manifest), std::back_inserter(off));
+  if (off.empty()) {
+    check.sentence = "no panorama stands off the even steps of its drive";
+    return check;
+  }
+  const OffPlace& worst = *std::ranges::max_element(off, {}, &OffPlace::steps);
+  check.value = worst.steps;
+  check.level = CheckLevel::kDoubtful;
+  check.sentence = absl::StrFormat(
+      "%d panoramas stand too far along their drive or not far enough, first of all %s by %.1f "
+      "steps, while those around are as far apart as ever: where windows or houses repeat it may "
+      "stand one off, unless the camera was late there; compare it with its neighbours, or give "
+      "exact GNSS positions",
+      off.size(),
+      manifest.At(worst.image).name,
+      worst.steps);
+  return check;
+}
+
+}  // namespace orbweave

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/scene/uneven_stops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "core/base/quantile.h"
+
+namespace orbweave {
+namespace {
+
+constexpr size_t kFewestSteps = 2;
+constexpr size_t kMostSteps = 4;
+constexpr uint32_t kMostPlaces = 3;
+constexpr size_t kAround = 12;
+constexpr size_t kFewestAround = 4;
+constexpr double kEven = 0.3;
+constexpr double kWhole = 0.15;
+constexpr double kQuartiles = 3.0;
+constexpr double kKnownShare = 0.4;
+
+/// A way from one stop to the next.
+struct Step {
+  double length = 0.0;
+  double places = 0.0;
+
+  [[nodiscard]] double Each() const { return length / places; }
+};
+
+std::vector<Step> StepsOf(std::span<const DriveStop> stops) {
+  std::vector<Step> steps;
+  for (size_t i = 0; i + 1 < stops.size(); ++i) {
+    steps.push_back({(stops[i + 1].centre - stops[i].centre).norm(),
+                     static_cast<double>(stops[i + 1].place - stops[i].place)});
+  }
+  return steps;
+}
+
+/// Steps as they are around a run, and what is uneven among them.
+struct Usual {
+  double step = 0.0;
+  double limit = 0.0;
+};
+
+std::optional<Usual> UsualAround(std::span<const Step> steps, size_t first, size_t last) {
+  std::vector<double> around;
+  for (size_t i = first > kAround ? first - kAround : 0; i < std::min(last + kAround, steps.size());
+       ++i) {
+    const bool is_around = (i < first || i >= last) && steps[i].places >= 1.0;
+    if (is_around) around.push_back(steps[i].Each());
+  }
+  if (around.size() < kFewestAround) return std::nullopt;
+  const double median = Quantile(around, 0.5);
+  const double spread = Quantile(around, 0.75) - Quantile(around, 0.25);
+  if (!(median > 0.0) || spread > kEven * median) return std::nullopt;
+  return Usual{median, std::max(kLeastUneven_steps, kQuartiles * spread / median)};
+}
+
+/// All steps of a run, as long as they are or, of one there and one back, as far as the ends are
+/// apart; nullopt where neither is as long as steps are.
+std::optional<Step> WholeOf(std::span<const Step> run, double apart, const Usual& usual) {
+  Step whole;
+  for (const Step& step : run) {
+    if (step.places < 1.0 || step.places > kMostPlaces) return std::nullopt;
+    whole.length += step.length;
+    whole.places += step.places;
+  }
+  const auto is_as_usual = [&] {
+    return std::abs(whole.Each() - usual.step) <= kWhole * usual.step;
+  };
+  if (is_as_usual()) return whole;
+  if (run.size() > kFewestSteps) return std::nullopt;
+  whole.length = apart;
+  return is_as_usual() ? std::optional(whole) : std::nullopt;
+}
+
+/// The stop of a run of steps [first, last) that is off the most, where that is uneven.
+std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
+                                   std::span<const Step> steps,
+                                   size_t first,
+                                   size_t last) {
+  const std::optional<Usual> usual = UsualAround(steps, first, last);
+  if (!usual) return std::nullopt;
+  const double apart = (stops[last].centre - stops[first].centre).norm();
+  const auto known = WholeOf(steps.subspan(first, last - first), apart, *usual);
+  if (!known) return std::nullopt;
+  const Step whole = *known;
+  UnevenStop worst{.first = first, .last = last, .step = usual->step};
+  Step so_far;
+  for (size_t i = first; i + 1 < last; ++i) {
+    so_far.length += steps[i].length;
+    so_far.places += steps[i].places;
+    const double share = so_far.length / whole.length;
+    const double even_share = so_far.places / whole.places;
+    const double off_steps = std::abs(share - even_share) * whole.length / usual->step;
+    if (off_steps <= worst.off_steps) continue;
+    worst.stop = i + 1;
+    worst.share = share;
+    worst.even_share = even_share;
+    worst.off_steps = off_steps;
+  }
+  if (worst.off_steps < usual->limit) return std::nullopt;
+  return worst;
+}
+
+bool Overlap(const UnevenStop& one, const UnevenStop& other) {
+  return one.first < other.last && other.first < one.last;
+}
+
+}  // namespace
+
+std::vector<UnevenStop> FindUnevenStops(std::span<const DriveStop> stops) {
+  const std::vector<Step> steps = StepsOf(stops);
+  std::vector<UnevenStop> candidates;
+  for (size_t first = 0; first < steps.size(); ++first) {
+    for (size_t count = kFewestSteps; count <= kMostSteps && first + count <= steps.size();
+         ++count) {
+      if (const auto uneven = JudgeRun(stops, steps, first, first + count))
+        candidates.push_back(*uneven);
+    }
+  }
+  std::ranges::stable_sort(candidates, std::greater<>(), &UnevenStop::off_steps);
+  std::vector<UnevenStop> found;
+  for (const UnevenStop& candidate : candidates) {
+    if (std::ranges::none_of(found,
+                             [&](const UnevenStop& other) { return Overlap(candidate, other); }))
+      found.push_back(candidate);
+  }
+  std::ranges::sort(found, {}, &UnevenStop::stop);
+  return found;
+}
+
+bool IsBorneOut(const UnevenStop& uneven,
+                const PosePrior& first,
+                const PosePrior& stop,
+                const PosePrior& last) {
+  if (!first.position_in_enu || !stop.position_in_enu || !last.position_in_enu) return false;
+  const Eigen::Vector2d from = first.position_in_enu->head<2>();
+  const Eigen::Vector2d way = last.position_in_enu->head<2>() - from;
+  const double length_m = way.norm();
+  const double at_m = (stop.position_in_enu->head<2>() - from).dot(way.normalized());
+  const double sigma_m = std::hypot(stop.horizontal_sigma_m,
+                                    uneven.even_share * last.horizontal_sigma_m,
+                                    (1.0 - uneven.even_share) * first.horizontal_sigma_m);
+  const double off_m = (uneven.share - uneven.even_share) * length_m;
+  const double by_gnss_m = at_m - uneven.even_share * length_m;
+  return sigma_m <= kKnownShare * std::abs(off_m) &&
+         std::abs(by_gnss_m - off_m) < std::abs(by_gnss_m);
+}
+
+}  // namespace orbweave

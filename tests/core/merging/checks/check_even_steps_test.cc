@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/merging/checks/check_even_steps.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace orbweave {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr uint32_t kImages = 40;
+constexpr double kStep_m = 8.0;
+
+/// An even drive along a street.
+struct Street {
+  Street() {
+    for (uint32_t i = 0; i < kImages; ++i) {
+      ImageRecord& image = manifest.images.emplace_back();
+      image.id = ImageId(i);
+      image.name = std::to_string(i) + ".jpg";
+      Move(i, 0.0);
+    }
+  }
+
+  void Move(uint32_t i, double further_m) {
+    images[ImageId(i)].cam_from_world =
+        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {kStep_m * i + further_m, 0.0, 0.0});
+  }
+
+  void Position(uint32_t i, double further_m) {
+    PosePrior& prior = manifest.images[i].prior;
+    prior.position_in_enu = Eigen::Vector3d(kStep_m * i + further_m, 0.0, 0.0);
+    prior.horizontal_sigma_m = 0.5;
+  }
+
+  ImageManifest manifest{};
+  std::map<ImageId, RegisteredImage> images{};
+};
+
+TEST(CheckEvenSteps, IsGoodWhereStepsAreEven) {
+  const Street street;
+  EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
+  EXPECT_EQ(CheckEvenSteps({}, street.manifest).level, CheckLevel::kGood);
+}
+
+TEST(CheckEvenSteps, NamesWhoStandsAWindowOff) {
+  Street street;
+  street.Move(17, 5.0);
+  street.Move(30, -4.0);
+  const CrossCheck check = CheckEvenSteps(street.images, street.manifest);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_NEAR(check.value, 5.0 / kStep_m, 1e-9);
+  EXPECT_THAT(check.sentence, HasSubstr("2 panoramas"));
+  EXPECT_THAT(check.sentence, HasSubstr("17.jpg by 0.6 steps"));
+}
+
+TEST(CheckEvenSteps, CountsPlacesOfThoseThatAreLeftOut) {
+  Street street;
+  street.images.erase(ImageId(12));
+  street.images.erase(ImageId(25));
+  street.images[ImageId(26)].loose = true;
+  EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
+}
+
+TEST(CheckEvenSteps, BelievesPositions) {
+  Street street;
+  street.Move(17, 5.0);
+  for (uint32_t i = 0; i < kImages; ++i) street.Position(i, i == 17 ? 5.0 : 0.0);
+  EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
+  street.Position(17, 0.0);
+  EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kDoubtful);
+}
+
+}  // namespace
+}  // namespace orbweave
