@@ -3,7 +3,6 @@
 
 #include "core/dense/find_planes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,6 +15,7 @@
 #include "core/dense/equiangular_raster.h"
 #include "core/dense/plane_relief.h"
 #include "core/geometry/cube_face.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace orbweave {
 namespace {
@@ -74,12 +74,12 @@ class PlaneSums {
   [[nodiscard]] FittedPlane Fit(const Eigen::Vector3f& towards) const {
     const Eigen::Vector3d mean = sum_ / weights_;
     const Eigen::Matrix3d spread = squares_ / weights_ - mean * mean.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-    Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    const SymmetricEigen<3> axes = EigenOf<3>(spread);
+    Eigen::Vector3d normal = axes.vectors.col(0);
     if (normal.dot(towards.cast<double>()) < 0.0) normal = -normal;
     return {normal.cast<float>(),
             static_cast<float>(normal.dot(mean)),
-            ErrorsOf(solver.eigenvalues(), solver.eigenvectors(), mean)};
+            ErrorsOf(axes.values, axes.vectors, mean)};
   }
 
  private:

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/estimators/align_cameras.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
 #include "core/base/status.h"
 #include "core/estimators/estimate_similarity.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace orbweave {
 namespace {
@@ -37,8 +37,7 @@ Extent ExtentOf(std::span<const Rigid3> cams, std::span<const double> weights) {
     const Eigen::Vector3d from_mean = cams[i].Centre() - mean;
     moment += weight(i) / sum * from_mean * from_mean.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moment, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d variance = eigen.eigenvalues().cwiseMax(0.0);
+  const Eigen::Vector3d variance = EigenOf<3>(moment).values.cwiseMax(0.0);
   const double length = std::sqrt(variance[2]);
   return {length, std::sqrt(variance[1]), !(length > kOnePlace * mean.norm())};
 }

@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace orbweave {
+namespace {
+
+// Of vectors that are opposite but for rounding.
+constexpr double kOppositeCosine = -1.0 + 1e-12;
+
+}  // namespace
 
 Eigen::Matrix3d SkewSymmetric(const Eigen::Vector3d& v) {
   Eigen::Matrix3d skew;
@@ -35,7 +41,19 @@ double RotationAngle(const Eigen::Quaterniond& q) {
 }
 
 Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
+  const Eigen::Vector3d a = from.normalized();
+  const Eigen::Vector3d b = to.normalized();
+  const double cos_angle = b.dot(a);
+  Eigen::Quaterniond rotation;
+  if (cos_angle < kOppositeCosine) {
+    rotation.w() = 0.0;
+    rotation.vec() = TangentBasis(a).col(0);
+    return rotation;
+  }
+  const double twice_cos_half = std::sqrt(2.0 * (1.0 + cos_angle));
+  rotation.w() = 0.5 * twice_cos_half;
+  rotation.vec() = a.cross(b) * (1.0 / twice_cos_half);
+  return rotation;
 }
 
 Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& bearing) {

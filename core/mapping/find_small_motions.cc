@@ -3,7 +3,6 @@
 
 #include "core/mapping/find_small_motions.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "core/estimators/refine_two_view.h"
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 #include "core/mapping/model/correspondence_graph.h"
 
 namespace orbweave {
@@ -53,8 +53,7 @@ Rigid3 WithDirection(const Eigen::Quaterniond& rotation, const PairRays& rays) {
     sum += normal * normal.transpose();
     moved += rays.b[i] - turned;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
-  const Vector3d direction = solver.eigenvectors().col(0);
+  const Vector3d direction = EigenOf<3>(sum).vectors.col(0);
   return {rotation, direction.dot(moved) < 0.0 ? Vector3d(-direction) : direction};
 }
 

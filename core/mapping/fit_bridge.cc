@@ -3,11 +3,11 @@
 
 #include "core/mapping/fit_bridge.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
 #include "core/geometry/rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 #include "core/robust/levenberg_marquardt.h"
 #include "core/robust/loss.h"
 
@@ -130,8 +130,7 @@ FittedBridge FitBridge(const BridgeTerms& terms, const Sim3& start) {
                                                  inverse.asDiagonal();
   fitted.log_scale_sigma = std::sqrt(std::max(0.0, covariance(3, 3)));
   const Matrix3d place = covariance.bottomRightCorner<3, 3>();
-  fitted.translation_sigma = std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix3d>(place).eigenvalues().maxCoeff()));
+  fitted.translation_sigma = std::sqrt(std::max(0.0, EigenOf<3>(place).values[2]));
   return fitted;
 }
 

@@ -3,9 +3,10 @@
 
 #include "core/io/page/map_view.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
+
+#include "core/geometry/symmetric_eigen.h"
 
 namespace orbweave {
 namespace {
@@ -29,9 +30,9 @@ Eigen::Matrix<double, 2, 3> MapAxes(const MapImages& images, bool georeferenced)
     const Eigen::Vector3d d = image->centre_in_world - mean;
     covariance += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  axes.row(0) = solver.eigenvectors().col(2).transpose();
-  axes.row(1) = solver.eigenvectors().col(1).transpose();
+  const SymmetricEigen<3> spread = EigenOf<3>(covariance);
+  axes.row(0) = spread.vectors.col(2).transpose();
+  axes.row(1) = spread.vectors.col(1).transpose();
   for (int row = 0; row < 2; ++row) {  // a sign that does not depend on the solver
     int largest = 0;
     axes.row(row).cwiseAbs().maxCoeff(&largest);

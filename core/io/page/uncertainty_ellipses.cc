@@ -3,7 +3,6 @@
 
 #include "core/io/page/uncertainty_ellipses.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/quantile.h"
+#include "core/geometry/symmetric_eigen.h"
 #include "core/io/page/html_text.h"
 
 namespace orbweave {
@@ -33,9 +33,9 @@ struct Ellipse {
 Ellipse EllipseOf(const ReportImage& image, const MapView& view) {
   const Eigen::Matrix2d covariance =
       view.axes * image.uncertainty->position_covariance * view.axes.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-  const Eigen::Vector2d sigmas = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::Vector2d axis = solver.eigenvectors().col(1);
+  const SymmetricEigen<2> axes = EigenOf<2>(covariance);
+  const Eigen::Vector2d sigmas = axes.values.cwiseMax(0.0).cwiseSqrt();
+  const Eigen::Vector2d axis = axes.vectors.col(1);
   return {.middle = view.Page(image.centre_in_world),
           .major_px = sigmas[1] / view.units_per_pixel,
           .minor_px = sigmas[0] / view.units_per_pixel,

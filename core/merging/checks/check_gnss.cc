@@ -3,7 +3,6 @@
 
 #include "core/merging/checks/check_gnss.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "core/geometry/symmetric_eigen.h"
 #include "core/merging/georeference/gnss_track.h"
 #include "core/merging/georeference/gnss_variance.h"
 #include "core/merging/georeference/scene_lean.h"
@@ -59,10 +59,10 @@ Straightness MeasureStraightness(const GlobalProblem& problem, const GnssVarianc
         problem.bundle.cams_from_world[prior.pose].Centre().head<2>() - middle;
     scatter += at * at.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(scatter);
-  const double breadth_m = std::sqrt(std::max(solver.eigenvalues()[0], 1e-12));
+  const SymmetricEigen<2> spread = EigenOf<2>(scatter);
+  const double breadth_m = std::sqrt(std::max(spread.values[0], 1e-12));
   Straightness straightness;
-  straightness.axis << solver.eigenvectors().col(1), 0.0;
+  straightness.axis << spread.vectors.col(1), 0.0;
   straightness.gnss_sigma_rad = sigma_m * std::sqrt(variance.factors.z()) / breadth_m;
   return straightness;
 }

@@ -3,7 +3,6 @@
 
 #include "core/merging/georeference/estimate_gravity.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 #include "core/merging/georeference/drive_attitudes.h"
 #include "core/merging/georeference/find_gravity.h"
 
@@ -59,9 +59,9 @@ struct DriveTerm {
   [[nodiscard]] double MountSigma_rad(const Eigen::Vector3d& in_mount,
                                       double down_sigma_rad) const {
     const Eigen::Matrix<double, 3, 2> basis = TangentBasis(in_mount.normalized());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(basis.transpose() * W * basis);
-    const double least = std::max(solver.eigenvalues()[0], 0.0);
-    const double most = std::max(solver.eigenvalues()[1], 0.0);
+    const Eigen::Vector2d weights = EigenOf<2>(basis.transpose() * W * basis).values;
+    const double least = std::max(weights[0], 0.0);
+    const double most = std::max(weights[1], 0.0);
     return std::hypot(1.0 / std::sqrt(least + u), most / (most + u) * down_sigma_rad);
   }
 };
@@ -94,8 +94,7 @@ Eigen::Matrix2d InformationOf(const std::vector<DriveTerm>& terms, const Eigen::
 }
 
 double SigmaOf(const std::vector<DriveTerm>& terms, const Eigen::Vector3d& down) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(InformationOf(terms, down));
-  return 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1.0));
+  return 1.0 / std::sqrt(std::max(EigenOf<2>(InformationOf(terms, down)).values[0], 1.0));
 }
 
 // What would be known less if mounts leaned anyhow, as a share; of the direction known worst.

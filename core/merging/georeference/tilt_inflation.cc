@@ -4,7 +4,6 @@
 #include "core/merging/georeference/tilt_inflation.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 #include "core/merging/georeference/gnss_variance.h"
 
 namespace orbweave {
@@ -47,8 +47,7 @@ TiltInformation TiltInformationOf(const std::vector<MeasuredRun>& runs) {
       information.by_hills += std::pow(fix.at.z() / fix.sigma_m.x(), 2);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(by_heights, Eigen::EigenvaluesOnly);
-  information.by_heights = std::max(solver.eigenvalues()[0], 0.0);
+  information.by_heights = std::max(EigenOf<2>(by_heights).values[0], 0.0);
   return information;
 }
 
