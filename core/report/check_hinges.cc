@@ -6,7 +6,6 @@
 #include <absl/strings/str_format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -14,12 +13,13 @@
 #include <string_view>
 #include <vector>
 
+#include "core/mapping/place_on_gnss.h"
 #include "core/scene/image_manifest.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
 
-constexpr double kMostAgree = 0.7;
 constexpr double kKnownShare = 0.4;
 
 /// A piece, and who of the rest of its model stands nearest to it.
@@ -52,8 +52,7 @@ AskedPiece WithNearest(const AdjustedModel& model, const HingedPiece& hinged) {
 /// Whether GNSS knows the way from one image to another.
 bool IsKnown(const PosePrior& from, const PosePrior& to) {
   if (!from.position_in_enu || !to.position_in_enu) return false;
-  const double way_m = (*to.position_in_enu - *from.position_in_enu).head<2>().norm();
-  return std::hypot(from.horizontal_sigma_m, to.horizontal_sigma_m) <= kKnownShare * way_m;
+  return SigmaBetween(from, to) <= kKnownShare * DistanceBetween(from, to);
 }
 
 bool IsBorneOut(const AskedPiece& piece,
@@ -70,7 +69,8 @@ bool IsBorneOut(const AskedPiece& piece,
     agreeing += contradicted.contains(image.name) ? 0U : 1U;
     is_known |= IsKnown(from, image.prior);
   }
-  return is_known && static_cast<double>(agreeing) >= kMostAgree * static_cast<double>(asked);
+  return is_known &&
+         static_cast<double>(agreeing) >= kMinAgreeingFixes * static_cast<double>(asked);
 }
 
 }  // namespace

@@ -34,7 +34,9 @@ std::vector<OffPlace> FindOffPlaces(const std::vector<ImageId>& drive,
   std::vector<OffPlace> off;
   for (const UnevenStop& uneven : FindUnevenStops(stops)) {
     const auto image = [&](size_t stop) { return drive[stops[stop].place]; };
-    const auto prior = [&](size_t stop) { return manifest.At(image(stop)).prior; };
+    const auto prior = [&](size_t stop) -> const PosePrior& {
+      return manifest.At(image(stop)).prior;
+    };
     if (!IsBorneOut(uneven, prior(uneven.first), prior(uneven.stop), prior(uneven.last)))
       off.push_back({image(uneven.stop), uneven.off_steps});
   }
