@@ -4,6 +4,7 @@
 #include "core/mapping/misleading_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -23,8 +24,22 @@ constexpr int kNeighbours = 2;
 // Right pairs of ten metres and more were 0.05 to 1 degree off the model, 1.5 where they are weak.
 constexpr double kTurnsOtherwise_rad = 2.0 * kDegree_rad;
 constexpr double kTurnsAlike_rad = 0.75 * kDegree_rad;
+constexpr double kLeadsAlike_rad = 2.0 * kDegree_rad;
+constexpr double kLeadsOtherwise_rad = 4.0 * kDegree_rad;
 constexpr double kHardlyParts = 0.25;   // of the angles of either way
 constexpr size_t kTimesTheMatches = 2;  // the pair may have of those of either way
+
+/// Between `direction` and the nearest sum of `one` and `other`, each any number of times, none
+/// negative; 0 where these lead back and forth, which sums up to anything. All unit vectors.
+double AngleToSums(const Vector3d& direction, const Vector3d& one, const Vector3d& other) {
+  if (AngleBetween(one, -other) < kOnward_rad) return 0.0;
+  const double to_ends = std::min(AngleBetween(direction, one), AngleBetween(direction, other));
+  const Vector3d normal = one.cross(other);
+  if (normal.cross(one).dot(direction) <= 0.0 || other.cross(normal).dot(direction) <= 0.0)
+    return to_ends;
+  const double off_plane = std::abs(direction.dot(normal)) / normal.norm();
+  return std::min(to_ends, std::asin(std::min(off_plane, 1.0)));
+}
 
 }  // namespace
 
@@ -79,6 +94,13 @@ bool MisleadingPairs::IsBorneOut(uint32_t pair, size_t min_matches) const {
          TurnErrorOf(pair) <= kTurnsAlike_rad;
 }
 
+bool MisleadingPairs::LeadsAsModel(uint32_t pair, size_t min_matches) const {
+  const LinkedPair& link = state_.Graph().pairs[pair];
+  return HasBaseline(state_.Problem().pairs[link.index].kind) && IsBorneOut(pair, min_matches) &&
+         AngleBetween(WayInWorld(pair, link.a), state_.Centre(link.b) - state_.Centre(link.a)) <=
+             kLeadsAlike_rad;
+}
+
 bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
   const CorrespondenceGraph& graph = state_.Graph();
   const LinkedPair& link = graph.pairs[pair];
@@ -96,6 +118,25 @@ bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
   const std::vector<ImageSlot> of_a = others_of(link.a);
   const std::vector<ImageSlot> of_b = others_of(link.b);
   return std::ranges::find_first_of(of_a, of_b) != of_a.end();
+}
+
+bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
+  const CorrespondenceGraph& graph = state_.Graph();
+  const LinkedPair& link = graph.pairs[pair];
+  const TwoViewGeometry& geometry = state_.Problem().pairs[link.index];
+  if (!HasBaseline(geometry.kind)) return false;
+  const Vector3d way = WayInWorld(pair, link.a).normalized();
+  std::map<ImageSlot, Vector3d> ways_to_third;
+  for (const uint32_t p : graph.pairs_of_image[link.a]) {
+    if (LeadsAsModel(p, geometry.inliers.size()))
+      ways_to_third.emplace(graph.pairs[p].Other(link.a), WayInWorld(p, link.a).normalized());
+  }
+  return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t p) {
+    const auto before = ways_to_third.find(graph.pairs[p].Other(link.b));
+    if (before == ways_to_third.end() || !LeadsAsModel(p, geometry.inliers.size())) return false;
+    const auto& [third, one] = *before;
+    return AngleToSums(way, one, WayInWorld(p, third).normalized()) > kLeadsOtherwise_rad;
+  });
 }
 
 Vector3d MisleadingPairs::WayInWorld(uint32_t pair, ImageSlot image) const {

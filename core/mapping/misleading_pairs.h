@@ -20,7 +20,7 @@ class MisleadingPairs {
   MisleadingPairs(const MappingState& state, std::vector<uint8_t> is_explained);
 
   [[nodiscard]] bool IsMisleading(uint32_t pair) const {
-    return LeadsBack(pair) || TurnsOtherwise(pair) || StandsStill(pair);
+    return LeadsBack(pair) || TurnsOtherwise(pair) || LeadsOtherwise(pair) || StandsStill(pair);
   }
 
  private:
@@ -33,6 +33,13 @@ class MisleadingPairs {
   /// as many matches or more each, by way of a third image as the model does (to 0.75 degrees).
   /// Lengths that are wrong turn nothing, and where the model is askew no pairs across agree.
   [[nodiscard]] bool TurnsOtherwise(uint32_t pair) const;
+  /// The pair leads elsewhere than by way of a third image: whatever the lengths of two explained
+  /// pairs, of as many matches or more each, which turn and lead as the model does (to 0.75 and 2
+  /// degrees), from the one image by way of the third to the other the direction lies between
+  /// theirs, and the pair's is more than 4 degrees off all that do. Matches of one facade leave two
+  /// poses open, or are those of the next window. Right pairs lead to a degree as the model does,
+  /// such ones were 15 to 25 degrees off it.
+  [[nodiscard]] bool LeadsOtherwise(uint32_t pair) const;
   /// The rays of the pair hardly part, as if no way lay between its images, and two explained
   /// pairs, of half as many matches or more each, lead from the one by way of a third to the other,
   /// in directions of their own that go on (60 degrees or less), with rays that part four times as
@@ -42,6 +49,8 @@ class MisleadingPairs {
   /// By the pair's own geometry, from `image`, one of its two, to the other; not a unit vector.
   [[nodiscard]] Eigen::Vector3d WayInWorld(uint32_t pair, ImageSlot image) const;
   [[nodiscard]] bool IsBorneOut(uint32_t pair, size_t min_matches) const;
+  /// The same, and it leads as the model does.
+  [[nodiscard]] bool LeadsAsModel(uint32_t pair, size_t min_matches) const;
   /// Between the pair's rotation and the model's.
   [[nodiscard]] double TurnErrorOf(uint32_t pair) const;
   /// So many registered places on in the drive; nullopt beyond its ends.

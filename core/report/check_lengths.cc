@@ -26,10 +26,8 @@ constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 /// step that was seven hundredths off had two fifths of it.
 constexpr double kWeakShare = 0.5;
 constexpr size_t kFewestSteps = 8;
-/// As many as must tell anything of a way at all (TellsEnough). Of a right way among equal windows
-/// 91 of 880 rays crowded at the model's length; of wrong ones 16 at most, and where every house
-/// and window was the same 34.
-constexpr double kFewestRaysHere = 50.0;
+/// So many that agree to 6 % (kCloseTolerance) tell a length to a hundredth.
+constexpr double kRaysForAHundredth = 36.0;
 
 bool AgreesLess(const PairLength& one, const PairLength& other) {
   return one.agreement.Share() < other.agreement.Share();
@@ -42,31 +40,20 @@ bool AgreesLess(const GapLength& one, const GapLength& other) {
   return one.agreement.Share() < other.agreement.Share();
 }
 
-/// Whether rays crowd at the length that the model has and nowhere more: what else they say then
-/// scatters, as where one window is taken for many others.
-bool IsToldHere(const GapLength& gap) {
-  return gap.here >= kFewestRaysHere && !IsToldElsewhere(gap.here, gap.elsewhere);
-}
-
-bool IsBorneOut(const GapLength& gap) { return gap.is_borne_out || IsToldHere(gap); }
-
 /// Images all of whose ways are borne out.
 std::set<ImageId> BorneOutImages(const std::vector<GapLength>& gaps) {
   std::set<ImageId> borne_out;
   std::set<ImageId> others;
   for (const GapLength& gap : gaps)
-    (IsBorneOut(gap) ? borne_out : others).insert({gap.between.a, gap.between.b});
+    (gap.is_borne_out ? borne_out : others).insert({gap.between.a, gap.between.b});
   for (const ImageId image : others) borne_out.erase(image);
   return borne_out;
 }
 
-/// FindLengthFaults of what neither GNSS nor a crowd of rays bears out.
+/// FindLengthFaults, without images that their ways bear out.
 std::vector<LengthFault> FaultsThatStand(const std::vector<PairLength>& lengths,
-                                         std::vector<GapLength> gaps) {
+                                         const std::vector<GapLength>& gaps) {
   const std::set<ImageId> borne_out = BorneOutImages(gaps);
-  for (GapLength& gap : gaps) {
-    if (IsBorneOut(gap)) gap = {.between = gap.between, .matches = gap.matches};
-  }
   std::vector<LengthFault> faults = FindLengthFaults(lengths, gaps);
   std::erase_if(faults, [&](const LengthFault& fault) {
     return fault.kind == LengthFaultKind::kImage && borne_out.contains(fault.image);
@@ -117,15 +104,21 @@ struct WeakStep {
   double usual_share = 0.0;
 };
 
-/// The weakest of one model: `gaps` that tell enough.
+bool IsKnownToAHundredth(const GapLength& gap) {
+  return gap.is_borne_out && gap.here >= kRaysForAHundredth;
+}
+
+/// The weakest of one model that is not known otherwise: `gaps` that tell enough.
 std::optional<WeakStep> WeakestOf(const std::vector<GapLength>& gaps) {
   if (gaps.size() < kFewestSteps) return std::nullopt;
   std::vector<double> shares;
   for (const GapLength& gap : gaps) shares.push_back(gap.agreement.Share());
-  const GapLength& weakest = *std::ranges::min_element(
-      gaps, {}, [](const GapLength& gap) { return gap.agreement.Share(); });
+  const GapLength& weakest = *std::ranges::min_element(gaps, {}, [](const GapLength& gap) {
+    return IsKnownToAHundredth(gap) ? 1.0 : gap.agreement.Share();
+  });
   const double usual = Quantile(std::move(shares), 0.5);
-  if (weakest.agreement.Share() >= kWeakShare * usual) return std::nullopt;
+  if (IsKnownToAHundredth(weakest) || weakest.agreement.Share() >= kWeakShare * usual)
+    return std::nullopt;
   return WeakStep{weakest, usual};
 }
 

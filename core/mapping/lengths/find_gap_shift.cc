@@ -20,6 +20,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kRivalShare = 0.25;  // of the way: beyond what agrees with the model's length
+constexpr double kFarthestBack = -0.9;
+constexpr double kFarthest = 2.0;
+constexpr double kClearDeviations = 3.0;
+
 /// A pair that leads across: the step as the model has it, and what is told of it.
 struct Crossing {
   Vector3d step = Vector3d::Zero();
@@ -101,6 +106,24 @@ class Crossings {
     return shifts.empty() ? shift : Quantile(std::move(shifts), 0.5);
   }
 
+  /// The shift between two with which most agree; elsewhere is 0 where votes of none crowd there.
+  [[nodiscard]] GapShift BestWithin(double low, double high) const {
+    GapShift best{.here = CountAgreeing(0.0)};
+    for (const double candidate : CandidatesWithin(low, high)) {
+      const double shift = std::clamp(Refined(candidate), low, high);
+      const double agreeing = CountAgreeing(shift);
+      if (agreeing <= best.elsewhere) continue;
+      best.elsewhere = agreeing;
+      best.shift = shift;
+    }
+    return best;
+  }
+
+  [[nodiscard]] double CountRivals() const {
+    return std::max(BestWithin(kFarthestBack * length_, -kRivalShare * length_).elsewhere,
+                    BestWithin(kRivalShare * length_, kFarthest * length_).elsewhere);
+  }
+
  private:
   void Add(const LinkedPair& pair, std::vector<double> log_lengths) {
     const Rigid3& b_from_a = state_.Problem().pairs[pair.index].b_from_a;
@@ -124,12 +147,14 @@ class Crossings {
 
 bool GapShift::IsClear() const { return IsToldElsewhere(here, elsewhere); }
 
+bool GapShift::IsHere() const { return DeviationsElsewhere(rival, here) > kClearDeviations; }
+
 GapShift FindGapShift(const AskedRays& asked,
                       const GapVotes& gap,
                       std::span<const LengthVote> votes) {
   const Crossings crossings(asked, gap, votes);
   if (!crossings.AreEnough()) return {};
-  GapShift best{.here = crossings.CountAgreeing(0.0)};
+  GapShift best{.here = crossings.CountAgreeing(0.0), .rival = crossings.CountRivals()};
   best.elsewhere = best.here;
   for (const double candidate : crossings.Candidates()) {
     for (const double shift : {candidate, crossings.Refined(candidate)}) {
@@ -147,16 +172,7 @@ GapShift FindGapShiftWithin(const AskedRays& asked,
                             std::span<const LengthVote> votes,
                             double low,
                             double high) {
-  const Crossings crossings(asked, gap, votes);
-  GapShift best{.here = crossings.CountAgreeing(0.0)};
-  for (const double candidate : crossings.CandidatesWithin(low, high)) {
-    const double shift = std::clamp(crossings.Refined(candidate), low, high);
-    const double agreeing = crossings.CountAgreeing(shift);
-    if (agreeing <= best.elsewhere) continue;
-    best.elsewhere = agreeing;
-    best.shift = shift;
-  }
-  return best;
+  return Crossings(asked, gap, votes).BestWithin(low, high);
 }
 
 }  // namespace orbweave

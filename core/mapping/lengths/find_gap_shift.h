@@ -14,9 +14,13 @@ struct GapShift {
   double shift = 0.0;      ///< along the way, in the model's unit; 0: nowhere else
   double here = 0.0;       ///< votes with the model as it is, 50 of each pair at most
   double elsewhere = 0.0;  ///< votes with the shift, as many as here where there is none
+  double rival = 0.0;      ///< votes with the best shift by a quarter of the way or more
 
   /// Whether clearly more votes want it (IsToldElsewhere).
   [[nodiscard]] bool IsClear() const;
+  /// Whether votes crowd at the length that the model has: by three standard deviations of a count
+  /// more than at the rival's, which is as chance and look-alikes have it.
+  [[nodiscard]] bool IsHere() const;
 };
 
 /// The shift with which most votes agree closely (ToldLengths::CountAgreeing), of those that pairs

@@ -21,7 +21,13 @@ namespace {
 /// What one side of a gap says of it.
 struct Side {
   GapLength length{};
-  double shift = 0.0;  ///< that clearly more of its rays want than what the model has
+  GapShift shift{};
+
+  /// By which clearly more of its rays want it longer than the model has it.
+  [[nodiscard]] double WantedShift() const { return shift.IsClear() ? shift.shift : 0.0; }
+  [[nodiscard]] bool IsContradicted() const {
+    return shift.IsClear() || IsToldElsewhere(shift.here, shift.rival);
+  }
 };
 
 Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedRays& asked) {
@@ -38,7 +44,13 @@ Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedR
   const GapShift shift = FindGapShift(asked, gap, votes);
   side.here = shift.here;
   side.elsewhere = shift.elsewhere;
-  return {side, shift.IsClear() ? shift.shift : 0.0};
+  return {side, shift};
+}
+
+/// Whether rays of one side crowd at the model's length, and those of neither at another.
+bool AreTold(const Side& before, const Side& behind) {
+  return (before.shift.IsHere() || behind.shift.IsHere()) && !before.IsContradicted() &&
+         !behind.IsContradicted();
 }
 
 /// Whether one side is to be believed less: it tells too little, or agrees more.
@@ -81,8 +93,10 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.rays = votes.asked;
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     gap.is_borne_out =
-        gnss != nullptr &&
-        IsBorneOut(asked, votes, *gnss, {.here = gap.here, .elsewhere = wants_another.shift});
+        AreTold(before, behind) ||
+        (gnss != nullptr &&
+         IsBorneOut(
+             asked, votes, *gnss, {.here = gap.here, .elsewhere = wants_another.WantedShift()}));
   }
   return gaps;
 }

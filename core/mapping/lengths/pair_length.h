@@ -42,7 +42,9 @@ struct GapLength {
   /// added (AddTyingRays), those that tie its ends together past it.
   uint32_t rays = 0;
   uint32_t telling_rays = 0;
-  bool is_borne_out = false;  ///< by GNSS, which refutes what else rays say (IsBorneOut)
+  /// By rays that crowd at the model's length and nowhere else, or by GNSS, which refutes what else
+  /// rays say (MeasureGapLengths).
+  bool is_borne_out = false;
 };
 
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/core/mapping/true_state.h"
 
@@ -86,6 +87,48 @@ TEST(MisleadingPairs, WeakPairsDoNotOutweighAStrongOne) {
       Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Vector3d::UnitY()));
   walk.PairOf(2, 3).inliers.resize(walk.PairOf(2, 4).inliers.size() - 1);
   EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}));
+}
+
+/// The pair of images 2 and 4 leads so many degrees off its way.
+void LeadOff(double degrees, Walk& walk) {
+  Rigid3& b_from_a = walk.PairOf(2, 4).b_from_a;
+  const Vector3d way = b_from_a.Centre();
+  const Eigen::AngleAxisd turn(degrees * 3.14159265 / 180.0, way.unitOrthogonal());
+  b_from_a = Rigid3::FromCentre(b_from_a.rotation, turn * way);
+}
+
+TEST(MisleadingPairs, AreThoseThatLeadOtherwiseThanTwoExplainedOnesByWayOfAThirdImage) {
+  const std::vector<ImagePair> by_way_of_3 = {Pair(2, 3), Pair(3, 4)};
+  Walk walk;
+  EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3));
+  LeadOff(3.0, walk);
+  EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3));
+  LeadOff(12.0, walk);
+  EXPECT_TRUE(walk.IsMisleading(2, 4, by_way_of_3));
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(3, 4)})) << "one of them may be what is wrong";
+  walk.PairOf(3, 4).inliers.resize(walk.PairOf(2, 4).inliers.size() - 1);
+  EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3)) << "a weak one";
+}
+
+/// Any direction between those of the two ways is right for some lengths of them, and lengths are
+/// what may be wrong.
+TEST(MisleadingPairs, LengthsOfTheWaysDoNotMatter) {
+  Walk walk;
+  Rigid3& corner = walk.street.world.cams_from_world[4];
+  corner = Rigid3::FromCentre(
+      corner.rotation, walk.street.world.cams_from_world[3].Centre() + Vector3d(0.0, 3.0, 0.0));
+  const auto& poses = walk.street.world.cams_from_world;
+  for (const auto& [a, b] : {std::pair(2U, 4U), std::pair(3U, 4U)})
+    walk.PairOf(a, b).b_from_a = poses[b] * poses[a].Inverse();
+  Rigid3& b_from_a = walk.PairOf(2, 4).b_from_a;
+  const Vector3d way = b_from_a.Centre();
+  const Vector3d axis = poses[2].rotation * Vector3d::UnitZ();
+  for (const double degrees : {-50.0, -35.0, 0.0, 35.0, 50.0}) {
+    const Eigen::AngleAxisd turn(degrees * 3.14159265 / 180.0, axis);
+    b_from_a = Rigid3::FromCentre(b_from_a.rotation, turn * way);
+    EXPECT_EQ(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}), std::abs(degrees) > 49.0)
+        << degrees;
+  }
 }
 
 /// A walk whose pair of images 2 and 4 has rays that hardly part, those of others by 20 degrees.

@@ -107,6 +107,16 @@ TEST(FindLengthFaults, AWayWhoseMatchesDisagreeIsAHinge) {
   EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
 }
 
+TEST(FindLengthFaults, AWayThatIsBorneOutIsNoneUnlessItsSidesStandAskew) {
+  std::vector<GapLength> gaps = RightGaps();
+  gaps[9].agreement.agreeing = 20.0;
+  EXPECT_EQ(FindLengthFaults({}, gaps).size(), 1U);
+  gaps[9].is_borne_out = true;
+  EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
+  gaps[9].matches = {.told = 600.0, .agreeing = 60.0};
+  EXPECT_EQ(FindLengthFaults({}, gaps).size(), 1U);
+}
+
 /// What no drive does, and no drive of a hostile worker may keep anybody busy with.
 TEST(FindLengthFaults, WaysThatLeadInARingAreOnePlace) {
   std::vector<GapLength> ring;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -119,6 +120,32 @@ TEST(GapShift, IsByHowMuchTheStreetIsTorn) {
       EXPECT_GT(shift.elsewhere, 2.0 * shift.here);
     }
   }
+}
+
+/// All votes but every so manieth say anything from half the length to twice as much.
+std::vector<LengthVote> Scattered(std::vector<LengthVote> votes, size_t every) {
+  for (size_t i = 0; i < votes.size(); ++i) {
+    const double share = std::fmod(0.618034 * static_cast<double>(i), 1.0);
+    if (i % every != 0) votes[i].log_length += 1.4 * (share - 0.5);
+  }
+  return votes;
+}
+
+TEST(GapShift, IsHereWhereFewVotesCrowdAndTheOthersScatter) {
+  const TornStreet street;
+  const MappingState right = street.Right();
+  const MappingState torn = Torn(street, 4.0);
+  const AskedRays of_right(right, {});
+  const AskedRays of_torn(torn, {});
+  const GapVotes gap = CollectGapVotes(of_right)[6];
+  const GapVotes torn_gap = CollectGapVotes(of_torn)[6];
+  for (const size_t every : {1U, 3U, 5U}) {
+    EXPECT_TRUE(FindGapShift(of_right, gap, Scattered(gap.before, every)).IsHere()) << every;
+    const GapShift shift = FindGapShift(of_torn, torn_gap, Scattered(torn_gap.before, every));
+    EXPECT_FALSE(shift.IsHere()) << every;
+    EXPECT_GT(shift.rival, shift.here) << every;
+  }
+  EXPECT_FALSE(FindGapShift(of_right, gap, Scattered(gap.before, gap.before.size())).IsHere());
 }
 
 TEST(GapShift, IsNoneWhereNobodySaysAnything) {
@@ -236,16 +263,31 @@ struct MeasuredStreet {
 };
 
 TEST(GapLengths, AreBorneOutByGnssThatKnowsThem) {
-  for (const GapLength& gap : MeasuredStreet(0.0, 0.5, 0.0).Gaps()) EXPECT_TRUE(gap.is_borne_out);
   const std::vector<GapLength> torn = MeasuredStreet(0.0, 0.5, 4.0).Gaps();
   for (size_t i = 0; i < torn.size(); ++i) EXPECT_EQ(torn[i].is_borne_out, i != 6) << i;
-  const TornStreet without;
-  for (const GapLength& gap : MeasureGapLengths({without.Right(), {}}))
-    EXPECT_FALSE(gap.is_borne_out);
+  const MeasuredStreet right(0.0, 0.5, 0.0);
+  const MeasuredStreet badly_known(5.0, 5.0, 0.0);
+  for (const GapVotes& gap : CollectGapVotes(*right.asked)) {
+    EXPECT_TRUE(IsBorneOut(*right.asked, gap, *right.gnss, {}));
+    EXPECT_FALSE(IsBorneOut(*badly_known.asked, gap, *badly_known.gnss, {}));
+  }
 }
 
-TEST(GapLengths, AreNotBorneOutByGnssThatKnowsThemBadly) {
-  for (const GapLength& gap : MeasuredStreet(5.0, 5.0, 0.0).Gaps()) EXPECT_FALSE(gap.is_borne_out);
+TEST(GapLengths, AreBorneOutByRaysOfRightModels) {
+  const TornStreet street;
+  for (const GapLength& gap : MeasureGapLengths({street.Right(), {}}))
+    EXPECT_TRUE(gap.is_borne_out) << gap.between.a.value;
+  for (const double by_m : {-3.0, -1.4, 1.4, 4.0, 8.0})
+    EXPECT_FALSE(MeasureGapLengths({Torn(street, by_m), {}})[6].is_borne_out) << by_m;
+}
+
+/// What is behind the jump agrees with itself.
+TEST(GapLengths, AreNotBorneOutWhereTheScaleJumps) {
+  const TornStreet street;
+  MappingState state = street.Right();
+  for (ImageSlot image = 7; image < kImages; ++image)
+    TornStreet::Move(image, 0.7 * (TornStreet::Centre(image) - TornStreet::Centre(6)), state);
+  EXPECT_FALSE(MeasureGapLengths({state, {}})[6].is_borne_out);
 }
 
 TEST(GapLengths, WhereRaysCrowdGnssNeedKnowThemButRoughly) {
