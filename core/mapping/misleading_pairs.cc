@@ -63,9 +63,13 @@ std::optional<ImageSlot> MisleadingPairs::At(ImageSlot image, int places_on) con
   return images[there].drive == images[image].drive ? std::optional(there) : std::nullopt;
 }
 
+const TwoViewGeometry& MisleadingPairs::GeometryOf(uint32_t pair) const {
+  return state_.Problem().pairs[state_.Graph().pairs[pair].index];
+}
+
 bool MisleadingPairs::LeadsBack(uint32_t pair) const {
   const LinkedPair& link = state_.Graph().pairs[pair];
-  if (!HasBaseline(state_.Problem().pairs[link.index].kind)) return false;
+  if (!HasBaseline(GeometryOf(pair).kind)) return false;
   const bool is_forward = place_[link.a] < place_[link.b];
   const auto [first, last] = is_forward ? std::pair(link.a, link.b) : std::pair(link.b, link.a);
   if (At(first, 1) != last && At(first, kNeighbours) != last) return false;
@@ -83,88 +87,81 @@ double MisleadingPairs::TurnErrorOf(uint32_t pair) const {
   const LinkedPair& link = state_.Graph().pairs[pair];
   const Eigen::Quaterniond b_from_a =
       state_.CamFromWorld(link.b).rotation * state_.CamFromWorld(link.a).rotation.conjugate();
-  const Eigen::Quaterniond& of_pair = state_.Problem().pairs[link.index].b_from_a.rotation;
+  const Eigen::Quaterniond& of_pair = GeometryOf(pair).b_from_a.rotation;
   return RotationAngle(of_pair.conjugate() * b_from_a);
 }
 
 bool MisleadingPairs::IsBorneOut(uint32_t pair, size_t min_matches) const {
-  const LinkedPair& link = state_.Graph().pairs[pair];
-  return is_explained_[pair] != 0 &&
-         state_.Problem().pairs[link.index].inliers.size() >= min_matches &&
+  return is_explained_[pair] != 0 && GeometryOf(pair).inliers.size() >= min_matches &&
          TurnErrorOf(pair) <= kTurnsAlike_rad;
 }
 
 bool MisleadingPairs::LeadsAsModel(uint32_t pair, size_t min_matches) const {
   const LinkedPair& link = state_.Graph().pairs[pair];
-  return HasBaseline(state_.Problem().pairs[link.index].kind) && IsBorneOut(pair, min_matches) &&
+  return HasBaseline(GeometryOf(pair).kind) && IsBorneOut(pair, min_matches) &&
          AngleBetween(WayInWorld(pair, link.a), state_.Centre(link.b) - state_.Centre(link.a)) <=
              kLeadsAlike_rad;
 }
 
-bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
+template <typename Counts, typename SaysSo>
+bool MisleadingPairs::AnyByWayOfThird(uint32_t pair,
+                                      const Counts& counts,
+                                      const SaysSo& says_so) const {
   const CorrespondenceGraph& graph = state_.Graph();
   const LinkedPair& link = graph.pairs[pair];
+  std::map<ImageSlot, uint32_t> pairs_to_third;  // from a
+  for (const uint32_t p : graph.pairs_of_image[link.a]) {
+    if (counts(p)) pairs_to_third.emplace(graph.pairs[p].Other(link.a), p);
+  }
+  return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t behind) {
+    const auto before = pairs_to_third.find(graph.pairs[behind].Other(link.b));
+    if (before == pairs_to_third.end() || !counts(behind)) return false;
+    return says_so(before->second, before->first, behind);
+  });
+}
+
+bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
   if (TurnErrorOf(pair) <= kTurnsOtherwise_rad) return false;
-  const size_t matches = state_.Problem().pairs[link.index].inliers.size();
-  const auto others_of = [&](ImageSlot image) {
-    std::vector<ImageSlot> others;
-    for (const uint32_t p : graph.pairs_of_image[image]) {
-      if (!IsBorneOut(p, matches)) continue;
-      others.push_back(graph.pairs[p].Other(image));
-    }
-    std::ranges::sort(others);
-    return others;
-  };
-  const std::vector<ImageSlot> of_a = others_of(link.a);
-  const std::vector<ImageSlot> of_b = others_of(link.b);
-  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
+  const size_t matches = GeometryOf(pair).inliers.size();
+  return AnyByWayOfThird(
+      pair,
+      [&](uint32_t p) { return IsBorneOut(p, matches); },
+      [](uint32_t /*before*/, ImageSlot /*third*/, uint32_t /*behind*/) { return true; });
 }
 
 bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
-  const CorrespondenceGraph& graph = state_.Graph();
-  const LinkedPair& link = graph.pairs[pair];
-  const TwoViewGeometry& geometry = state_.Problem().pairs[link.index];
+  const TwoViewGeometry& geometry = GeometryOf(pair);
   if (!HasBaseline(geometry.kind)) return false;
-  const Vector3d way = WayInWorld(pair, link.a).normalized();
-  std::map<ImageSlot, Vector3d> ways_to_third;
-  for (const uint32_t p : graph.pairs_of_image[link.a]) {
-    if (LeadsAsModel(p, geometry.inliers.size()))
-      ways_to_third.emplace(graph.pairs[p].Other(link.a), WayInWorld(p, link.a).normalized());
-  }
-  return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t p) {
-    const auto before = ways_to_third.find(graph.pairs[p].Other(link.b));
-    if (before == ways_to_third.end() || !LeadsAsModel(p, geometry.inliers.size())) return false;
-    const auto& [third, one] = *before;
-    return AngleToSums(way, one, WayInWorld(p, third).normalized()) > kLeadsOtherwise_rad;
-  });
+  const ImageSlot first = state_.Graph().pairs[pair].a;
+  const Vector3d way = WayInWorld(pair, first).normalized();
+  return AnyByWayOfThird(
+      pair,
+      [&](uint32_t p) { return LeadsAsModel(p, geometry.inliers.size()); },
+      [&](uint32_t before, ImageSlot third, uint32_t behind) {
+        return AngleToSums(way,
+                           WayInWorld(before, first).normalized(),
+                           WayInWorld(behind, third).normalized()) > kLeadsOtherwise_rad;
+      });
 }
 
 Vector3d MisleadingPairs::WayInWorld(uint32_t pair, ImageSlot image) const {
   const LinkedPair& link = state_.Graph().pairs[pair];
-  const Vector3d from_a_to_b = state_.CamFromWorld(link.a).rotation.conjugate() *
-                               state_.Problem().pairs[link.index].b_from_a.Centre();
+  const Vector3d from_a_to_b =
+      state_.CamFromWorld(link.a).rotation.conjugate() * GeometryOf(pair).b_from_a.Centre();
   return link.a == image ? from_a_to_b : Vector3d(-from_a_to_b);
 }
 
 bool MisleadingPairs::StandsStill(uint32_t pair) const {
-  const CorrespondenceGraph& graph = state_.Graph();
-  const LinkedPair& link = graph.pairs[pair];
-  const TwoViewGeometry& geometry = state_.Problem().pairs[link.index];
+  const TwoViewGeometry& geometry = GeometryOf(pair);
+  const ImageSlot first = state_.Graph().pairs[pair].a;
   const auto moves_on = [&](uint32_t p) {
-    const TwoViewGeometry& other = state_.Problem().pairs[graph.pairs[p].index];
+    const TwoViewGeometry& other = GeometryOf(p);
     return is_explained_[p] != 0 && HasBaseline(other.kind) &&
            kTimesTheMatches * other.inliers.size() >= geometry.inliers.size() &&
            geometry.median_angle_rad <= kHardlyParts * other.median_angle_rad;
   };
-  std::map<ImageSlot, uint32_t> ways_to_third;  // from a
-  for (const uint32_t p : graph.pairs_of_image[link.a]) {
-    if (moves_on(p)) ways_to_third.emplace(graph.pairs[p].Other(link.a), p);
-  }
-  return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t p) {
-    const auto before = ways_to_third.find(graph.pairs[p].Other(link.b));
-    if (before == ways_to_third.end() || !moves_on(p)) return false;
-    const auto& [third, way] = *before;
-    return AngleBetween(WayInWorld(way, link.a), WayInWorld(p, third)) <= kOnward_rad;
+  return AnyByWayOfThird(pair, moves_on, [&](uint32_t before, ImageSlot third, uint32_t behind) {
+    return AngleBetween(WayInWorld(before, first), WayInWorld(behind, third)) <= kOnward_rad;
   });
 }
 

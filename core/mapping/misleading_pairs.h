@@ -46,6 +46,13 @@ class MisleadingPairs {
   /// much and more: then the pair's baseline is longer than either. A camera that stands or comes
   /// back has no such ways. Windows one step apart make such pairs, each taken for the next.
   [[nodiscard]] bool StandsStill(uint32_t pair) const;
+  /// Whether `says_so(before, third, behind)` of any two pairs that lead from the one image of the
+  /// pair by way of a third to the other, both of which `counts(pair)`.
+  template <typename Counts, typename SaysSo>
+  [[nodiscard]] bool AnyByWayOfThird(uint32_t pair,
+                                     const Counts& counts,
+                                     const SaysSo& says_so) const;
+  [[nodiscard]] const TwoViewGeometry& GeometryOf(uint32_t pair) const;
   /// By the pair's own geometry, from `image`, one of its two, to the other; not a unit vector.
   [[nodiscard]] Eigen::Vector3d WayInWorld(uint32_t pair, ImageSlot image) const;
   [[nodiscard]] bool IsBorneOut(uint32_t pair, size_t min_matches) const;
