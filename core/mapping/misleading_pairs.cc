@@ -4,12 +4,12 @@
 #include "core/mapping/misleading_pairs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/angle_to_arc.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
@@ -28,18 +28,6 @@ constexpr double kLeadsAlike_rad = 2.0 * kDegree_rad;
 constexpr double kLeadsOtherwise_rad = 4.0 * kDegree_rad;
 constexpr double kHardlyParts = 0.25;   // of the angles of either way
 constexpr size_t kTimesTheMatches = 2;  // the pair may have of those of either way
-
-/// Between `direction` and the nearest sum of `one` and `other`, each any number of times, none
-/// negative; 0 where these lead back and forth, which sums up to anything. All unit vectors.
-double AngleToSums(const Vector3d& direction, const Vector3d& one, const Vector3d& other) {
-  if (AngleBetween(one, -other) < kOnward_rad) return 0.0;
-  const double to_ends = std::min(AngleBetween(direction, one), AngleBetween(direction, other));
-  const Vector3d normal = one.cross(other);
-  if (normal.cross(one).dot(direction) <= 0.0 || other.cross(normal).dot(direction) <= 0.0)
-    return to_ends;
-  const double off_plane = std::abs(direction.dot(normal)) / normal.norm();
-  return std::min(to_ends, std::asin(std::min(off_plane, 1.0)));
-}
 
 }  // namespace
 
@@ -138,9 +126,10 @@ bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
       pair,
       [&](uint32_t p) { return LeadsAsModel(p, geometry.inliers.size()); },
       [&](uint32_t before, ImageSlot third, uint32_t behind) {
-        return AngleToSums(way,
-                           WayInWorld(before, first).normalized(),
-                           WayInWorld(behind, third).normalized()) > kLeadsOtherwise_rad;
+        const Vector3d to_third = WayInWorld(before, first).normalized();
+        const Vector3d from_third = WayInWorld(behind, third).normalized();
+        const bool leads_back = AngleBetween(to_third, -from_third) < kOnward_rad;
+        return !leads_back && AngleToArc(way, to_third, from_third) > kLeadsOtherwise_rad;
       });
 }
 

@@ -104,21 +104,20 @@ struct WeakStep {
   double usual_share = 0.0;
 };
 
-bool IsKnownToAHundredth(const GapLength& gap) {
-  return gap.is_borne_out && gap.here >= kRaysForAHundredth;
+/// That of the rays which agree with it; 1 of a step that is known to a hundredth all the same.
+double ShareOf(const GapLength& gap) {
+  const bool is_known = gap.is_borne_out && gap.here >= kRaysForAHundredth;
+  return is_known ? 1.0 : gap.agreement.Share();
 }
 
-/// The weakest of one model that is not known otherwise: `gaps` that tell enough.
+/// The weakest of one model: `gaps` that tell enough.
 std::optional<WeakStep> WeakestOf(const std::vector<GapLength>& gaps) {
   if (gaps.size() < kFewestSteps) return std::nullopt;
   std::vector<double> shares;
   for (const GapLength& gap : gaps) shares.push_back(gap.agreement.Share());
-  const GapLength& weakest = *std::ranges::min_element(gaps, {}, [](const GapLength& gap) {
-    return IsKnownToAHundredth(gap) ? 1.0 : gap.agreement.Share();
-  });
+  const GapLength& weakest = *std::ranges::min_element(gaps, {}, ShareOf);
   const double usual = Quantile(std::move(shares), 0.5);
-  if (IsKnownToAHundredth(weakest) || weakest.agreement.Share() >= kWeakShare * usual)
-    return std::nullopt;
+  if (ShareOf(weakest) >= kWeakShare * usual) return std::nullopt;
   return WeakStep{weakest, usual};
 }
 

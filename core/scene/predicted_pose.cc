@@ -3,15 +3,11 @@
 
 #include "core/scene/predicted_pose.h"
 
-#include <algorithm>
-#include <cmath>
-
+#include "core/geometry/angle_to_arc.h"
 #include "core/geometry/rotation.h"
 
 namespace orbweave {
 namespace {
-
-using Eigen::Vector3d;
 
 /// Verified pairs know rotations to some tenths of a degree, and directions to some degrees where
 /// panoramas are far apart.
@@ -25,13 +21,7 @@ double PredictedPose::TurnedFrom(const Rigid3& b_from_a) const {
 }
 
 double PredictedPose::LeadsPast(const Rigid3& b_from_a) const {
-  const Vector3d direction = b_from_a.Centre().normalized();
-  const Vector3d normal = first.cross(last);
-  const bool is_within = normal.cross(first).dot(direction) >= 0.0 &&
-                         last.cross(normal).dot(direction) >= 0.0 && normal.norm() > 0.0;
-  if (is_within)
-    return std::abs(std::asin(std::clamp(normal.normalized().dot(direction), -1.0, 1.0)));
-  return std::min(AngleBetween(first, direction), AngleBetween(last, direction));
+  return AngleToArc(b_from_a.Centre().normalized(), first, last);
 }
 
 bool PredictedPose::TurnsLike(const Eigen::Quaterniond& other) const {

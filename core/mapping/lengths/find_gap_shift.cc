@@ -20,9 +20,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRivalShare = 0.25;  // of the way: beyond what agrees with the model's length
+// Rivals make the way a tenth to three times as long, and by a quarter of it another: what is
+// nearer agrees with the model's length in part (kCloseTolerance, of pairs three times as long).
+constexpr double kRivalShare = 0.25;
 constexpr double kFarthestBack = -0.9;
 constexpr double kFarthest = 2.0;
+// Those of ways that were a quarter and more off reached two (MeasureGapLengths).
 constexpr double kClearDeviations = 3.0;
 
 /// A pair that leads across: the step as the model has it, and what is told of it.

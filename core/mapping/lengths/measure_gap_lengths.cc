@@ -22,12 +22,6 @@ namespace {
 struct Side {
   GapLength length{};
   GapShift shift{};
-
-  /// By which clearly more of its rays want it longer than the model has it.
-  [[nodiscard]] double WantedShift() const { return shift.IsClear() ? shift.shift : 0.0; }
-  [[nodiscard]] bool IsContradicted() const {
-    return shift.IsClear() || IsToldElsewhere(shift.here, shift.rival);
-  }
 };
 
 Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedRays& asked) {
@@ -41,16 +35,16 @@ Side SideOf(const GapVotes& gap, std::span<const LengthVote> votes, const AskedR
     side.pairs += agreement.told > 0.0 ? 1 : 0;
     side.agreement.Add(agreement);
   }
-  const GapShift shift = FindGapShift(asked, gap, votes);
-  side.here = shift.here;
-  side.elsewhere = shift.elsewhere;
-  return {side, shift};
+  return {side, FindGapShift(asked, gap, votes)};
+}
+
+bool IsContradicted(const GapShift& side) {
+  return side.IsClear() || IsToldElsewhere(side.here, side.rival);
 }
 
 /// Whether rays of one side crowd at the model's length, and those of neither at another.
-bool AreTold(const Side& before, const Side& behind) {
-  return (before.shift.IsHere() || behind.shift.IsHere()) && !before.IsContradicted() &&
-         !behind.IsContradicted();
+bool AreTold(const GapShift& before, const GapShift& behind) {
+  return (before.IsHere() || behind.IsHere()) && !IsContradicted(before) && !IsContradicted(behind);
 }
 
 /// Whether one side is to be believed less: it tells too little, or agrees more.
@@ -61,8 +55,8 @@ bool TellsLess(const GapLength& one, const GapLength& other) {
 }
 
 /// Whether more rays of the one side say another length; where that is alike, more rays at all.
-bool WantsAnotherMore(const GapLength& one, const GapLength& other) {
-  const auto wish = [](const GapLength& side) {
+bool WantsAnotherMore(const GapShift& one, const GapShift& other) {
+  const auto wish = [](const GapShift& side) {
     return std::pair(DeviationsElsewhere(side.here, side.elsewhere), side.here);
   };
   return wish(one) > wish(other);
@@ -84,19 +78,19 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
   for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
     const Side behind = SideOf(votes, votes.behind, asked);
-    const Side& wants_another = WantsAnotherMore(behind.length, before.length) ? behind : before;
+    const GapShift& wants_another =
+        WantsAnotherMore(behind.shift, before.shift) ? behind.shift : before.shift;
     GapLength& gap =
         gaps.emplace_back(TellsLess(before.length, behind.length) ? behind.length : before.length);
-    gap.here = wants_another.length.here;
-    gap.elsewhere = wants_another.length.elsewhere;
+    gap.here = wants_another.here;
+    gap.elsewhere = wants_another.elsewhere;
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
-    gap.is_borne_out =
-        AreTold(before, behind) ||
-        (gnss != nullptr &&
-         IsBorneOut(
-             asked, votes, *gnss, {.here = gap.here, .elsewhere = wants_another.WantedShift()}));
+    const WishOfRays wish{.here = gap.here,
+                          .elsewhere = wants_another.IsClear() ? wants_another.shift : 0.0};
+    gap.is_borne_out = AreTold(before.shift, behind.shift) ||
+                       (gnss != nullptr && IsBorneOut(asked, votes, *gnss, wish));
   }
   return gaps;
 }
