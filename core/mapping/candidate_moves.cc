@@ -12,6 +12,7 @@
 
 #include "core/mapping/lengths/centre_by_lengths.h"
 #include "core/mapping/lengths/find_gap_shift.h"
+#include "core/mapping/lengths/find_wall_shift.h"
 #include "core/mapping/lengths/line_pieces.h"
 #include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
@@ -25,22 +26,29 @@ using Eigen::Vector3d;
 
 constexpr size_t kMaxPairs = 2;
 
-/// A way that rays contradict, and what each of its sides says.
+/// A way that rays contradict, what each of its sides says, and the shifts that they or the rays to
+/// one wall clearly want.
 struct ToldGap {
   ImageSlot image = 0;
   ImageSlot next = 0;
   GapShift before{};
   GapShift behind{};
+  std::vector<double> shifts{};
 };
 
 std::vector<ToldGap> FindToldGaps(const AskedRays& asked) {
   std::vector<ToldGap> told;
   for (const GapVotes& votes : CollectGapVotes(asked)) {
-    const ToldGap gap{votes.image,
-                      votes.next,
-                      FindGapShift(asked, votes, votes.before),
-                      FindGapShift(asked, votes, votes.behind)};
-    if (gap.before.IsClear() || gap.behind.IsClear()) told.push_back(gap);
+    ToldGap gap{votes.image,
+                votes.next,
+                FindGapShift(asked, votes, votes.before),
+                FindGapShift(asked, votes, votes.behind)};
+    for (const GapShift& side : {gap.before, gap.behind}) {
+      if (side.IsClear()) gap.shifts.push_back(side.shift);
+    }
+    const GapShift wall = FindWallShift(asked, votes);
+    if (IsToldByWall(wall.here, wall.elsewhere)) gap.shifts.push_back(wall.shift);
+    if (!gap.shifts.empty()) told.push_back(std::move(gap));
   }
   return told;
 }
@@ -54,9 +62,7 @@ class ShiftLister {
     const std::vector<ToldGap> gaps = FindToldGaps({state_, options_});
     for (size_t i = 0; i < gaps.size(); ++i) {
       const ToldGap* const following = i + 1 < gaps.size() ? &gaps[i + 1] : nullptr;
-      for (const GapShift* shift : {&gaps[i].before, &gaps[i].behind}) {
-        if (shift->IsClear()) AddShifts(gaps[i], shift->shift, following);
-      }
+      for (const double shift : gaps[i].shifts) AddShifts(gaps[i], shift, following);
       AddScale(gaps[i]);
     }
     AddSingles(gaps);

@@ -70,16 +70,25 @@ int Percent(double share) { return static_cast<int>(std::lround(100.0 * share));
 
 std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest) {
   char text[256];
-  if (fault.kind == LengthFaultKind::kElsewhere) {
+  const bool is_of_wall = fault.kind == LengthFaultKind::kWall;
+  if (is_of_wall || fault.kind == LengthFaultKind::kElsewhere) {
     const double here = fault.agreement.agreeing;
     std::snprintf(
         text,
         sizeof text,
-        "of the rays that tell how long steps are, %.0f say another length than the model "
+        "of the rays %sthat tell how long steps are, %.0f say another length than the model "
         "has %s, and %.0f the model's",
+        is_of_wall ? "to one side of the street " : "",
         fault.agreement.told - here,
         PlaceOf(fault, manifest).c_str(),
         here);
+  } else if (fault.kind == LengthFaultKind::kScale) {
+    std::snprintf(text,
+                  sizeof text,
+                  "on one side of the way %s steps are longer and what is seen is farther away, by "
+                  "%.0f times or more: a part of the street has a scale of its own",
+                  PlaceOf(fault, manifest).c_str(),
+                  1.0 / fault.agreement.Share());
   } else if (fault.kind == LengthFaultKind::kHinge) {
     std::snprintf(
         text,

@@ -31,8 +31,9 @@ absl::Status CheckLength(const PairLength& length) {
 absl::Status CheckLength(const GapLength& length) {
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.agreement));
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.matches));
+  ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.wall));
   return codec::Expect(length.between.a != length.between.b && codec::IsAmount(length.here) &&
-                           codec::IsAmount(length.elsewhere),
+                           codec::IsAmount(length.elsewhere) && codec::IsAmount(length.scale_jump),
                        "cluster reconstruction",
                        "a way leads nowhere, or its rays are no number");
 }
@@ -84,6 +85,9 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_agreeing(length.agreement.agreeing);
     out->set_here(length.here);
     out->set_elsewhere(length.elsewhere);
+    out->set_wall(length.wall.told);
+    out->set_agreeing_wall(length.wall.agreeing);
+    out->set_scale_jump(length.scale_jump);
     out->set_matches(length.matches.told);
     out->set_agreeing_matches(length.matches.agreeing);
     out->set_rays(length.rays);
@@ -135,6 +139,8 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
          .agreement = {.told = length.told(), .agreeing = length.agreeing()},
          .here = length.here(),
          .elsewhere = length.elsewhere(),
+         .wall = {.told = length.wall(), .agreeing = length.agreeing_wall()},
+         .scale_jump = length.scale_jump(),
          .matches = {.told = length.matches(), .agreeing = length.agreeing_matches()},
          .rays = length.rays(),
          .telling_rays = length.telling_rays(),

@@ -587,6 +587,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                                           .agreement = {.told = 90.5, .agreeing = 30.25},
                                           .here = 43.5,
                                           .elsewhere = 90.0,
+                                          .wall = {.told = 144.5, .agreeing = 59.5},
+                                          .scale_jump = 0.75,
                                           .matches = {.told = 582.0, .agreeing = 62.5},
                                           .rays = 369,
                                           .telling_rays = 13,
@@ -612,6 +614,9 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].agreement.agreeing, 30.25);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].here, 43.5);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].elsewhere, 90.0);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].wall.told, 144.5);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].wall.agreeing, 59.5);
+  EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].scale_jump, 0.75);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].matches.told, 582.0);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].matches.agreeing, 62.5);
   EXPECT_EQ(cluster_out->reconstruction.gap_lengths[0].rays, 369U);

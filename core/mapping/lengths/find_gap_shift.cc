@@ -152,6 +152,10 @@ bool GapShift::IsClear() const { return IsToldElsewhere(here, elsewhere); }
 
 bool GapShift::IsHere() const { return DeviationsElsewhere(rival, here) > kClearDeviations; }
 
+bool TellEnough(const AskedRays& asked, const GapVotes& gap, std::span<const LengthVote> votes) {
+  return Crossings(asked, gap, votes).AreEnough();
+}
+
 GapShift FindGapShift(const AskedRays& asked,
                       const GapVotes& gap,
                       std::span<const LengthVote> votes) {

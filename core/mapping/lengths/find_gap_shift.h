@@ -23,10 +23,14 @@ struct GapShift {
   [[nodiscard]] bool IsHere() const;
 };
 
+/// Whether votes tell anything of a way: 50 of three pairs of eight votes or more (TellsEnough).
+[[nodiscard]] bool TellEnough(const AskedRays& asked,
+                              const GapVotes& gap,
+                              std::span<const LengthVote> votes);
+
 /// The shift with which most votes agree closely (ToldLengths::CountAgreeing), of those that pairs
 /// name: two of each, where its own votes crowd. It is the median of those that agree with it.
-/// Pairs of fewer than eight votes say nothing, and all of them nothing where they tell too little
-/// (TellsEnough): then all is 0. `votes`: those of one side of the gap.
+/// All is 0 where they tell too little (TellEnough). `votes`: those of one side of the gap.
 [[nodiscard]] GapShift FindGapShift(const AskedRays& asked,
                                     const GapVotes& gap,
                                     std::span<const LengthVote> votes);

@@ -15,6 +15,7 @@ namespace {
 constexpr double kFewestRays = 50.0;
 constexpr uint32_t kFewestPairs = 3;
 constexpr double kDeviations = 2.0;
+constexpr double kDeviationsOfWall = 1.5;
 
 struct Sum {
   LengthAgreement agreement{};
@@ -36,11 +37,16 @@ std::optional<LengthFault> TearAt(const GapLength& gap) {
   };
   if (IsAskew(gap.matches)) return tear(gap.matches, LengthFaultKind::kHinge);
   if (gap.is_borne_out) return std::nullopt;
+  if (const double scale = std::exp(-gap.scale_jump); scale < kMinScaleOfOther)
+    return tear({.told = 1.0, .agreeing = scale}, LengthFaultKind::kScale);
   if (Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross))
     return tear(gap.agreement, LengthFaultKind::kWay);
-  if (!IsToldElsewhere(gap.here, gap.elsewhere)) return std::nullopt;
-  return tear({.told = gap.here + gap.elsewhere, .agreeing = gap.here},
-              LengthFaultKind::kElsewhere);
+  if (IsToldElsewhere(gap.here, gap.elsewhere))
+    return tear({.told = gap.here + gap.elsewhere, .agreeing = gap.here},
+                LengthFaultKind::kElsewhere);
+  if (IsToldByWall(gap.wall.agreeing, gap.wall.told - gap.wall.agreeing))
+    return tear(gap.wall, LengthFaultKind::kWall);
+  return std::nullopt;
 }
 
 /// Of ways at fault that follow each other, from `start` on, the one that agrees least. It takes
@@ -84,7 +90,10 @@ double LengthFault::MinShare() const {
     case LengthFaultKind::kWay:
       return kMinAgreeingAcross;
     case LengthFaultKind::kElsewhere:
+    case LengthFaultKind::kWall:
       return kMinAgreeingOfTwo;
+    case LengthFaultKind::kScale:
+      return kMinScaleOfOther;
     case LengthFaultKind::kHinge:
       return kMinAgreeingMatches;
   }
@@ -106,6 +115,10 @@ double DeviationsElsewhere(double here, double elsewhere) {
 
 bool IsToldElsewhere(double here, double elsewhere) {
   return DeviationsElsewhere(here, elsewhere) > kDeviations;
+}
+
+bool IsToldByWall(double here, double elsewhere) {
+  return DeviationsElsewhere(here, elsewhere) > kDeviationsOfWall;
 }
 
 std::vector<LengthFault> FindLengthFaults(std::span<const PairLength> pairs,

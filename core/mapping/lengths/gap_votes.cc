@@ -46,7 +46,7 @@ class Collector {
     CollectSights(own, depths);
     const size_t first = here - std::min(here, kReachAlongLine);
     const size_t last = std::min(here + kReachAlongLine, places_.size() - 1);
-    for (size_t gap = first; gap < last; ++gap) Ask(here, gap);
+    for (size_t gap = first; gap < last; ++gap) Ask(depths.front().node, here, gap);
   }
 
   /// Without those where a line ends.
@@ -86,7 +86,7 @@ class Collector {
   }
 
   /// What the pairs on this side of the gap say of those that lead across it.
-  void Ask(size_t here, size_t gap) {
+  void Ask(Node ray, size_t here, size_t gap) {
     across_.clear();
     for (const Sight& sight : sights_) {
       const size_t apart = std::max(here, sight.other) - std::min(here, sight.other);
@@ -97,7 +97,7 @@ class Collector {
     const std::optional<double> reach = ReachOnThisSide(here, gap);
     if (!reach) return;
     std::vector<LengthVote>& votes = here <= gap ? votes_[gap].before : votes_[gap].behind;
-    for (const Sight& sight : across_) votes.push_back({sight.pair, *reach - sight.log_depth});
+    for (const Sight& sight : across_) votes.push_back({sight.pair, *reach - sight.log_depth, ray});
   }
 
   /// The median; nullopt where no pair stays on this side.

@@ -13,6 +13,7 @@ namespace orbweave {
 struct LengthVote {
   uint32_t pair = 0;  ///< of those asked
   double log_length = 0.0;
+  Node ray = 0;
 };
 
 /// A way between two registered images that follow each other in a line, and how long the pairs

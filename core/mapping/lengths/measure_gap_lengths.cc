@@ -11,9 +11,11 @@
 #include "core/mapping/lengths/ask_gnss_of_ways.h"
 #include "core/mapping/lengths/find_gap_shift.h"
 #include "core/mapping/lengths/find_length_faults.h"
+#include "core/mapping/lengths/find_wall_shift.h"
 #include "core/mapping/lengths/gap_votes.h"
 #include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/scale_jumps.h"
 
 namespace orbweave {
 namespace {
@@ -54,6 +56,14 @@ bool TellsLess(const GapLength& one, const GapLength& other) {
   return one.agreement.Share() > other.agreement.Share();
 }
 
+bool IsContradictedByWall(const GapShift& wall) { return IsToldByWall(wall.here, wall.elsewhere); }
+
+/// The shift that clearly more rays want, those of one wall where all want none.
+WishOfRays WishOf(const GapShift& wants_another, const GapShift& wall) {
+  if (wants_another.IsClear()) return {wants_another.here, wants_another.shift};
+  return {wants_another.here, IsContradictedByWall(wall) ? wall.shift : 0.0};
+}
+
 /// Whether more rays of the one side say another length; where that is alike, more rays at all.
 bool WantsAnotherMore(const GapShift& one, const GapShift& other) {
   const auto wish = [](const GapShift& side) {
@@ -75,6 +85,7 @@ LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
 
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
   std::vector<GapLength> gaps;
+  const std::map<ImageSlot, double> scale_jumps = MeasureScaleJumps(asked);
   for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
     const Side behind = SideOf(votes, votes.behind, asked);
@@ -84,13 +95,15 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
         gaps.emplace_back(TellsLess(before.length, behind.length) ? behind.length : before.length);
     gap.here = wants_another.here;
     gap.elsewhere = wants_another.elsewhere;
+    gap.scale_jump = scale_jumps.at(votes.image);
     gap.matches = MatchesAcross(asked, votes);
     gap.rays = votes.asked;
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
-    const WishOfRays wish{.here = gap.here,
-                          .elsewhere = wants_another.IsClear() ? wants_another.shift : 0.0};
-    gap.is_borne_out = AreTold(before.shift, behind.shift) ||
-                       (gnss != nullptr && IsBorneOut(asked, votes, *gnss, wish));
+    const GapShift wall = FindWallShift(asked, votes);
+    gap.wall = {.told = wall.here + wall.elsewhere, .agreeing = wall.here};
+    gap.is_borne_out =
+        (AreTold(before.shift, behind.shift) && !IsContradictedByWall(wall)) ||
+        (gnss != nullptr && IsBorneOut(asked, votes, *gnss, WishOf(wants_another, wall)));
   }
   return gaps;
 }

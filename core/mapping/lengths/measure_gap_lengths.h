@@ -20,10 +20,11 @@ namespace orbweave {
 ///
 /// Where the same window is taken for many others most rays scatter. A way is borne out all the
 /// same where those of one side crowd at the length that the model has (GapShift::IsHere), and
-/// those of neither crowd at another more clearly: so were right ways of rendered streets 8 m apart
-/// of which 12 to 25 % of 540 to 1,050 rays agreed (38 rays against 6, 107 against 13), and none of
-/// ways that were a quarter and more off (28 against 24, 25 against 63). Those are borne out as
-/// well that `gnss`, if there is any, knows and has as the model has them (IsBorneOut).
+/// those of neither crowd at another more clearly, nor one wall's (FindWallShift): so were right
+/// ways of rendered streets 8 m apart of which 12 to 25 % of 540 to 1,050 rays agreed (38 rays
+/// against 6, 107 against 13), and none of ways that were a quarter and more off (28 against 24, 25
+/// against 63). Those are borne out as well that `gnss`, if there is any, knows and has as the
+/// model has them (IsBorneOut).
 ///
 /// Of lines in order, of images along them (RegisteredSequence).
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked,

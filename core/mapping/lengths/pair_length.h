@@ -34,6 +34,10 @@ struct GapLength {
   LengthAgreement agreement{};
   double here = 0.0;       ///< rays that say closely what the model has,
   double elsewhere = 0.0;  ///< and those of the length that most say (GapShift)
+  /// Rays to one wall of the street that say closely what the model has, of these and those of
+  /// another length that they say (FindWallShift).
+  LengthAgreement wall{};
+  double scale_jump = 0.0;  ///< |log| of the ratio of its sides' scales (MeasureScaleJumps)
   /// Matches of the pairs that lead across, and those that agree with how the model has its two
   /// sides stand and turn to each other (AgreementOfMatches).
   LengthAgreement matches{};

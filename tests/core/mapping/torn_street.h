@@ -66,6 +66,18 @@ class TornStreet {
     }
   }
 
+  /// What an image sees to one side of the street as if it stood as it does in `state`: a wall
+  /// whose houses are all alike.
+  void FoolWall(ImageSlot image, const MappingState& state) {
+    const Rigid3 jump = state.CamFromWorld(image) * fixture_.world.cams_from_world[image].Inverse();
+    const Eigen::Quaterniond world_from_cam =
+        fixture_.world.cams_from_world[image].rotation.conjugate();
+    for (Eigen::Vector3d& ray : fixture_.world.problem.images[image].bearings) {
+      if ((world_from_cam * ray).z() < 0.0)
+        ray = (jump.rotation * (6.0 * ray) + jump.translation).normalized();
+    }
+  }
+
  private:
   static std::vector<Eigen::Vector3d> Centres() {
     std::vector<Eigen::Vector3d> centres;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace orbweave {
@@ -142,6 +143,23 @@ TEST(CheckLengths, MoreRaysForAnotherLengthAreDoubtful) {
   ExpectDoubtWhicheverClusterSaysSo(
       results,
       "132 say another length than the model has between 20.jpg and 21.jpg, and 60 the model's");
+}
+
+TEST(CheckLengths, OneSideOfTheStreetAloneIsDoubtful) {
+  JobResults results = Drive();
+  results.clusters[0].gap_lengths[20].wall = {.told = 177.0, .agreeing = 75.0};
+  ExpectDoubtWhicheverClusterSaysSo(
+      results,
+      "of the rays to one side of the street that tell how long steps are, 102 say another length "
+      "than the model has between 20.jpg and 21.jpg, and 75 the model's");
+}
+
+TEST(CheckLengths, APartOnAScaleOfItsOwnIsDoubtful) {
+  JobResults results = Drive();
+  results.clusters[0].gap_lengths[20].scale_jump = std::log(25.0);
+  ExpectDoubtWhicheverClusterSaysSo(
+      results,
+      "between 20.jpg and 21.jpg steps are longer and what is seen is farther away, by 25");
 }
 
 TEST(CheckLengths, AHingeIsDoubtfulWhicheverClusterSaysSo) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace orbweave {
@@ -91,6 +92,30 @@ TEST(FindLengthFaults, AStreetIsTornWhereClearlyMoreRaysSayAnotherLength) {
   EXPECT_EQ(faults[0].kind, LengthFaultKind::kElsewhere);
   EXPECT_DOUBLE_EQ(faults[0].agreement.told, 190.0);
   EXPECT_DOUBLE_EQ(faults[0].agreement.agreeing, 60.0);
+  EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
+}
+
+TEST(FindLengthFaults, OneWallOfAStreetSpeaksForItself) {
+  std::vector<GapLength> gaps = RightGaps();
+  for (GapLength& gap : gaps) gap.wall = {.told = 70.0, .agreeing = 31.0};  // once at a right way
+  EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
+  gaps[9].wall = {.told = 177.0, .agreeing = 75.0};
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(9));
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kWall);
+  EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
+}
+
+TEST(FindLengthFaults, SidesOfAWayHaveOneScale) {
+  std::vector<GapLength> gaps = RightGaps();
+  for (GapLength& gap : gaps) gap.scale_jump = std::log(3.9);
+  EXPECT_TRUE(FindLengthFaults({}, gaps).empty());
+  gaps[9].scale_jump = std::log(25.0);
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kScale);
+  EXPECT_NEAR(faults[0].agreement.Share(), 0.04, 1e-12);
   EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
 }
 

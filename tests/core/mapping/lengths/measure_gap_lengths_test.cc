@@ -15,8 +15,10 @@
 #include "core/geometry/sim3.h"
 #include "core/mapping/lengths/ask_gnss_of_ways.h"
 #include "core/mapping/lengths/find_gap_shift.h"
+#include "core/mapping/lengths/find_wall_shift.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
+#include "core/mapping/lengths/scale_jumps.h"
 #include "tests/core/mapping/torn_street.h"
 
 namespace orbweave {
@@ -57,6 +59,8 @@ TEST(GapLengths, DoNotDependOnTheFrameOfTheModel) {
   for (size_t i = 0; i < of_torn.size(); ++i) {
     EXPECT_DOUBLE_EQ(of_moved[i].agreement.told, of_torn[i].agreement.told);
     EXPECT_NEAR(of_moved[i].agreement.Share(), of_torn[i].agreement.Share(), 0.01);
+    EXPECT_NEAR(of_moved[i].wall.Share(), of_torn[i].wall.Share(), 0.01);
+    EXPECT_NEAR(of_moved[i].scale_jump, of_torn[i].scale_jump, 0.01);
   }
 }
 
@@ -171,6 +175,61 @@ TEST(GapShift, IsNoneWhereTwoPairsSayIt) {
   std::erase_if(of_two, [&](const LengthVote& vote) { return vote.pair >= third; });
   EXPECT_NE(FindGapShift(asked, gap, gap.before).shift, 0.0);
   EXPECT_EQ(FindGapShift(asked, gap, of_two).elsewhere, 0.0);
+}
+
+/// A panorama that one wall has 1.2 m too far along, of a street whose other wall knows better.
+TEST(WallShift, IsWhatTheWallSaysThatIsNotFooled) {
+  TornStreet street;
+  MappingState wrong = street.Right();
+  TornStreet::Move(7, {1.2, 0.0, 0.0}, wrong);
+  street.FoolWall(7, wrong);
+  const AskedRays asked(wrong, {});
+  const GapVotes gap = CollectGapVotes(asked)[6];
+  const GapShift wall = FindWallShift(asked, gap);
+  EXPECT_TRUE(IsToldByWall(wall.here, wall.elsewhere)) << wall.here << " " << wall.elsewhere;
+  EXPECT_NEAR(wall.shift, -1.2, 0.2);
+  const auto walls = SplitByWalls(wrong, gap, gap.before);
+  EXPECT_EQ(walls[0].size() + walls[1].size(), gap.before.size());
+  EXPECT_GT(std::min(walls[0].size(), walls[1].size()), gap.before.size() / 4);
+  const GapLength length = MeasureGapLengths(asked)[6];
+  EXPECT_FALSE(length.is_borne_out);
+  EXPECT_EQ(FindLengthFaults({}, {&length, 1}).size(), 1U);
+}
+
+TEST(WallShift, IsToldNowhereInARightModel) {
+  const TornStreet street;
+  const MappingState right = street.Right();
+  const AskedRays asked(right, {});
+  for (const GapVotes& gap : CollectGapVotes(asked)) {
+    const GapShift wall = FindWallShift(asked, gap);
+    EXPECT_FALSE(IsToldByWall(wall.here, wall.elsewhere)) << gap.image;
+  }
+}
+
+/// The last three images and all that lies between them, twenty times too small.
+TEST(ScaleJumps, AreWhereTheEndOfAStreetHasShrunk) {
+  const TornStreet street;
+  MappingState shrunk = street.Right();
+  for (ImageSlot image = 12; image < kImages; ++image)
+    TornStreet::Move(image, 0.95 * (TornStreet::Centre(11) - TornStreet::Centre(image)), shrunk);
+  const auto jumps = MeasureScaleJumps({shrunk, {}});
+  EXPECT_GT(jumps.at(11), std::log(10.0));
+  for (const ImageSlot far : {1U, 3U, 5U, 7U}) EXPECT_LT(jumps.at(far), 0.3) << far;
+  const std::vector<LengthFault> faults = FindLengthFaults(shrunk, MappingOptions{});
+  EXPECT_TRUE(std::ranges::any_of(
+      faults, [](const LengthFault& fault) { return fault.kind == LengthFaultKind::kScale; }));
+  for (const auto& [image, jump] : MeasureScaleJumps({street.Right(), {}}))
+    EXPECT_LT(jump, 0.3) << image;
+}
+
+TEST(ScaleJumps, AreNoneWhereACameraSlowsDown) {
+  RayStreetOptions options{.points_per_metre = 60, .reach_m = 30.0, .window = 4};
+  for (const double x_m : {0.0, 8.0, 16.0, 24.0, 32.0, 40.0, 40.8, 41.6, 42.4, 43.2, 44.0})
+    options.centres.emplace_back(x_m, 0.0, 0.0);
+  const StreetFixture street(options);
+  const MappingState state = street.StateWith(FirstImages(11));
+  for (const auto& [image, jump] : MeasureScaleJumps({state, {}}))
+    EXPECT_LT(jump, std::log(2.0)) << image;
 }
 
 /// What is behind the jump agrees with itself.
