@@ -72,6 +72,18 @@ bool WantsAnotherMore(const GapShift& one, const GapShift& other) {
   return wish(one) > wish(other);
 }
 
+/// Inliers of the pair of two neighbours, where it is general.
+uint32_t MatchesOfNeighbours(const MappingState& state, const GapVotes& gap) {
+  for (const uint32_t p : gap.pairs) {
+    const LinkedPair& pair = state.Graph().pairs[p];
+    if (std::minmax(pair.a, pair.b) != std::minmax(gap.image, gap.next)) continue;
+    const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
+    if (geometry.kind == TwoViewKind::kGeneral)
+      return static_cast<uint32_t>(geometry.inliers.size());
+  }
+  return 0;
+}
+
 }  // namespace
 
 LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
@@ -97,7 +109,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.elsewhere = wants_another.elsewhere;
     gap.scale_jump = scale_jumps.at(votes.image);
     gap.matches = MatchesAcross(asked, votes);
-    gap.rays = votes.asked;
+    gap.rays = std::max(votes.asked, MatchesOfNeighbours(asked.state, votes));
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     const GapShift wall = FindWallShift(asked, votes);
     gap.wall = {.told = wall.here + wall.elsewhere, .agreeing = wall.here};

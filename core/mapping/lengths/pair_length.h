@@ -41,7 +41,8 @@ struct GapLength {
   /// Matches of the pairs that lead across, and those that agree with how the model has its two
   /// sides stand and turn to each other (AgreementOfMatches).
   LengthAgreement matches{};
-  /// Rays of all pairs that lead across, and those of the side that tells more that say how long
+  /// Rays of all pairs that lead across, or the matches of its two images if these are more, as of
+  /// a general pair whose rays hardly meet; and those of the side that tells more that say how long
   /// these are, because pairs that stay on their side share them; with them, once they are
   /// added (AddTyingRays), those that tie its ends together past it.
   uint32_t rays = 0;

@@ -177,6 +177,21 @@ TEST(GapShift, IsNoneWhereTwoPairsSayIt) {
   EXPECT_EQ(FindGapShift(asked, gap, of_two).elsewhere, 0.0);
 }
 
+/// Two houses that are alike, and a step as long as they are wide: as if the camera had not moved.
+TEST(GapLengths, AskMatchesOfNeighboursWhoseRaysHardlyMeet) {
+  TornStreet street;
+  MappingState state = street.Right();
+  for (ImageSlot image = 0; image + 2 < kImages; ++image) state.Deregister(image);
+  TornStreet::Move(kImages - 1, {-7.99, 0.0, 0.0}, state);
+  street.Fool(kImages - 2, kImages - 1, state);
+  const AskedRays asked(state, {});
+  ASSERT_EQ(CollectGapVotes(asked).size(), 1U);
+  EXPECT_LT(CollectGapVotes(asked)[0].asked, 10U);
+  const GapLength length = MeasureGapLengths(asked)[0];
+  EXPECT_GT(length.rays, 100U);
+  EXPECT_EQ(length.telling_rays, 0U);
+}
+
 /// A panorama that one wall has 1.2 m too far along, of a street whose other wall knows better.
 TEST(WallShift, IsWhatTheWallSaysThatIsNotFooled) {
   TornStreet street;
