@@ -23,6 +23,7 @@ constexpr double kEven = 0.3;
 constexpr double kWhole = 0.15;
 constexpr double kQuartiles = 3.0;
 constexpr double kKnownShare = 0.4;
+constexpr double kSamePlace = 0.02;
 
 /// A way from one stop to the next.
 struct Step {
@@ -79,6 +80,12 @@ std::optional<Step> WholeOf(std::span<const Step> run, double apart, const Usual
   return is_as_usual() ? std::optional(whole) : std::nullopt;
 }
 
+/// Whether a video has one of its frames twice there, and lacks another.
+bool HasFrameTwice(std::span<const Step> run, const Usual& usual) {
+  return std::ranges::any_of(
+      run, [&](const Step& step) { return step.length <= kSamePlace * usual.step; });
+}
+
 /// The stop of a run of steps [first, last) that is off the most, where that is uneven.
 std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
                                    std::span<const Step> steps,
@@ -87,7 +94,9 @@ std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
   const std::optional<Usual> usual = UsualAround(steps, first, last);
   if (!usual) return std::nullopt;
   const double apart = (stops[last].centre - stops[first].centre).norm();
-  const auto known = WholeOf(steps.subspan(first, last - first), apart, *usual);
+  const std::span<const Step> run = steps.subspan(first, last - first);
+  if (HasFrameTwice(run, *usual)) return std::nullopt;
+  const auto known = WholeOf(run, apart, *usual);
   if (!known) return std::nullopt;
   const Step whole = *known;
   UnevenStop worst{.first = first, .last = last, .step = usual->step};

@@ -88,6 +88,15 @@ TEST(FindUnevenStops, KnowsWhoStopsAndWhoLeavesImagesOut) {
   EXPECT_THAT(FindUnevenStops(light), IsEmpty());
 }
 
+TEST(FindUnevenStops, KnowsAVideoThatHasAFrameTwice) {
+  const std::vector<DriveStop> right = Drive(0.05);
+  std::vector<DriveStop> stops = right;
+  for (const size_t twice : {6U, 12U, 17U}) stops[twice].centre = right[twice - 1].centre;
+  EXPECT_THAT(FindUnevenStops(stops), IsEmpty());
+  for (const size_t near : {6U, 12U, 17U}) stops[near].centre.x() += 0.1;
+  EXPECT_THAT(FindUnevenStops(stops), SizeIs(3));
+}
+
 TEST(IsBorneOut, ByPositionsThatKnowIt) {
   const UnevenStop uneven{.share = 0.8, .even_share = 0.5};
   const auto at = [](double x, double sigma_m) {
