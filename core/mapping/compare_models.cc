@@ -107,7 +107,9 @@ bool IsLiked(const Opinion& one, const Opinion& other) {
 
 bool IsContested(const MappingState& state, const MappingOptions& options) {
   return CheckAgainstPairs(state, options).agreeing_share < kAtOne ||
-         !FindLengthFaults(state, options).empty();
+         std::ranges::any_of(FindLengthFaults(state, options), [](const LengthFault& fault) {
+           return fault.kind != LengthFaultKind::kWall;
+         });
 }
 
 size_t CountHeldPlaces(const MappingState& state) {

@@ -11,7 +11,8 @@ namespace orbweave {
 
 /// Whether pairs are not at one about where the images of a model are: more than three matches of a
 /// hundred are in pairs that do not agree with it (PairCheck::agreeing_share), or rays contradict
-/// its lengths (FindLengthFaults). Where nothing repeats none is.
+/// its lengths (FindLengthFaults). Where nothing repeats none is. That rays to one wall alone do is
+/// no reason to grow others: ten models of two such streets had the same panorama dragged along.
 [[nodiscard]] bool IsContested(const MappingState& state, const MappingOptions& options);
 
 /// Places (cells of SphereSpread) of all images where a point of four observations or more is

@@ -50,13 +50,35 @@ std::set<ImageId> BorneOutImages(const std::vector<GapLength>& gaps) {
   return borne_out;
 }
 
-/// FindLengthFaults, without images that their ways bear out.
+/// Which model each image is in, and whether GNSS holds that: its sigmas then hold what one step
+/// may be off.
+class ModelsHeldByGnss {
+ public:
+  explicit ModelsHeldByGnss(const JobResults& results)
+      : results_(results), model_of_image_(ModelOfImages(results)) {}
+
+  /// Negative: in none.
+  [[nodiscard]] int ModelOf(ImageId image) const { return model_of_image_[image.value]; }
+  [[nodiscard]] bool Hold(ImageId image) const {
+    const int model = ModelOf(image);
+    return model >= 0 && results_.models[static_cast<size_t>(model)].report.gnss.used;
+  }
+
+ private:
+  const JobResults& results_;
+  std::vector<int> model_of_image_;
+};
+
+/// FindLengthFaults, without images that their ways bear out, and ways that one wall alone has a
+/// part of a step longer or shorter, where GNSS holds the model.
 std::vector<LengthFault> FaultsThatStand(const std::vector<PairLength>& lengths,
-                                         const std::vector<GapLength>& gaps) {
+                                         const std::vector<GapLength>& gaps,
+                                         const ModelsHeldByGnss& held) {
   const std::set<ImageId> borne_out = BorneOutImages(gaps);
   std::vector<LengthFault> faults = FindLengthFaults(lengths, gaps);
   std::erase_if(faults, [&](const LengthFault& fault) {
-    return fault.kind == LengthFaultKind::kImage && borne_out.contains(fault.image);
+    return (fault.kind == LengthFaultKind::kImage && borne_out.contains(fault.image)) ||
+           (fault.kind == LengthFaultKind::kWall && held.Hold(fault.image));
   });
   return faults;
 }
@@ -130,14 +152,13 @@ std::optional<WeakStep> WeakestOf(const std::vector<GapLength>& gaps) {
   return WeakStep{weakest, usual};
 }
 
-/// In models that no GNSS holds: where one does, its sigmas hold what such a step may be off.
-std::optional<WeakStep> FindWeakStep(const JobResults& results,
+/// In models that no GNSS holds.
+std::optional<WeakStep> FindWeakStep(const ModelsHeldByGnss& held,
                                      const std::vector<GapLength>& gaps) {
-  const std::vector<int> model_of_image = ModelOfImages(results);
   std::map<int, std::vector<GapLength>> of_model;
   for (const GapLength& gap : gaps) {
-    const int model = model_of_image[gap.between.a.value];
-    if (model < 0 || results.models[static_cast<size_t>(model)].report.gnss.used) continue;
+    const int model = held.ModelOf(gap.between.a);
+    if (model < 0 || held.Hold(gap.between.a)) continue;
     if (TellsEnough(gap.agreement, gap.pairs)) of_model[model].push_back(gap);
   }
   for (const auto& [model, steps] : of_model) {
@@ -175,10 +196,11 @@ CrossCheck CheckLengths(const JobResults& results) {
       LengthsWithinModels(results, &ClusterSummary::pair_lengths, &PairLength::pair, agrees_less);
   const std::vector<GapLength> gaps =
       LengthsWithinModels(results, &ClusterSummary::gap_lengths, &GapLength::between, agrees_less);
+  const ModelsHeldByGnss held(results);
   LengthAgreement all;
   for (const PairLength& length : lengths) all.Add(length.agreement);
   check.value = all.Share();
-  const std::vector<LengthFault> faults = FaultsThatStand(lengths, gaps);
+  const std::vector<LengthFault> faults = FaultsThatStand(lengths, gaps, held);
   char text[512];
   if (faults.empty()) {
     std::snprintf(text,
@@ -187,7 +209,7 @@ CrossCheck CheckLengths(const JobResults& results) {
                   "everywhere",
                   Percent(all.Share()));
     check.sentence = all.told > 0.0 ? text : "no rays tell how long steps are";
-    if (const std::optional<WeakStep> weak = FindWeakStep(results, gaps))
+    if (const std::optional<WeakStep> weak = FindWeakStep(held, gaps))
       DoubtWeakStep(*weak, results.manifest, check);
     return check;
   }

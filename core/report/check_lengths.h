@@ -16,9 +16,10 @@ namespace orbweave {
 /// image all of whose ways are such. Pairs and ways within one model are asked; one of two clusters
 /// by the one that speaks for it less. Doubtful with a fault, bad where two images or more are at
 /// fault and one in fifty: a tear may be the pairs' that lead across it. In a model that no GNSS
-/// holds, doubtful too where less than half as many rays agree with one step as is usual, unless a
-/// crowd of 36 bears it out, which tells a length to a hundredth. Value: the smallest share of rays
-/// that agrees, where there is a fault.
+/// holds, doubtful too where one wall of the street says another length (GapLength::wall), or less
+/// than half as many rays agree with one step as is usual, unless a crowd of 36 bears it out, which
+/// tells a length to a hundredth. Value: the smallest share of rays that agrees, where there is a
+/// fault.
 [[nodiscard]] CrossCheck CheckLengths(const JobResults& results);
 
 }  // namespace orbweave

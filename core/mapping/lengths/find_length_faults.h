@@ -80,8 +80,8 @@ struct LengthFault {
 /// at most, once 1.4, at ways that were 6 to 16 % off 1.7 to 2.9.
 ///
 /// So is a way on whose one side steps are shorter and all that is seen is nearer than on the
-/// other, both by more than four times (MeasureScaleJumps): at ends of streets that had shrunk it
-/// was 20 to 90 times.
+/// other, both by more than four times (MeasureScaleJumps): in models of a street parts of which
+/// had shrunk it was 11 times and more.
 ///
 /// And so is a way of whose pairs' matches fewer than a third lie where the model's epipolar planes
 /// are. Its two sides may each be right and stand askew, held together by a few wrong tracks: at

@@ -152,6 +152,8 @@ TEST(CheckLengths, OneSideOfTheStreetAloneIsDoubtful) {
       results,
       "of the rays to one side of the street that tell how long steps are, 102 say another length "
       "than the model has between 20.jpg and 21.jpg, and 75 the model's");
+  results.models[0].report.gnss.used = true;
+  EXPECT_EQ(CheckLengths(results).level, CheckLevel::kGood) << "its sigmas hold it";
 }
 
 TEST(CheckLengths, APartOnAScaleOfItsOwnIsDoubtful) {
