@@ -14,7 +14,7 @@ namespace orbweave {
 /// Votes by the half of the sphere that their rays point to: the halves meet in a plane through the
 /// way, and part the rays where they are most: along a street its two walls. The normal of the
 /// plane is the main axis of the rays' azimuths about the way, half the argument of the sum of
-/// exp(2 i azimuth) (Mardia and Jupp, Directional Statistics, 2000, section 9.4).
+/// exp(2 i azimuth) (axial data: Mardia and Jupp 2000).
 [[nodiscard]] std::array<std::vector<LengthVote>, 2> SplitByWalls(
     const MappingState& state, const GapVotes& gap, std::span<const LengthVote> votes);
 
