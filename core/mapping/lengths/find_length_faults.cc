@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace orbweave {
 namespace {
@@ -49,17 +50,25 @@ std::optional<LengthFault> TearAt(const GapLength& gap) {
   return std::nullopt;
 }
 
-/// Of ways at fault that follow each other, from `start` on, the one that agrees least. It takes
-/// them: ways that lead in a ring, which no drive does, end.
-LengthFault LeastFrom(ImageId start, std::map<ImageId, LengthFault>& tears) {
-  std::optional<LengthFault> least;
+/// Whether a way is more at fault than another: by more than one wall, or as much and agrees less.
+bool IsWorse(const LengthFault& one, const LengthFault& other) {
+  const auto rank = [](const LengthFault& fault) {
+    return std::pair(fault.kind == LengthFaultKind::kWall, fault.agreement.Share());
+  };
+  return rank(one) < rank(other);
+}
+
+/// Of ways at fault that follow each other, from `start` on, the worst. It takes them: ways that
+/// lead in a ring, which no drive does, end.
+LengthFault WorstFrom(ImageId start, std::map<ImageId, LengthFault>& tears) {
+  std::optional<LengthFault> worst;
   for (auto tear = tears.find(start); tear != tears.end();) {
     const LengthFault here = tear->second;
     tears.erase(tear);
-    if (!least || here.agreement.Share() < least->agreement.Share()) least = here;
+    if (!worst || IsWorse(here, *worst)) worst = here;
     tear = tears.find(*here.next);
   }
-  return *least;
+  return *worst;
 }
 
 std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
@@ -76,8 +85,8 @@ std::vector<LengthFault> FindTears(std::span<const GapLength> gaps) {
     if (!ends.contains(start)) starts.push_back(start);
   }
   std::vector<LengthFault> worst;
-  for (const ImageId start : starts) worst.push_back(LeastFrom(start, tears));
-  while (!tears.empty()) worst.push_back(LeastFrom(tears.begin()->first, tears));
+  for (const ImageId start : starts) worst.push_back(WorstFrom(start, tears));
+  while (!tears.empty()) worst.push_back(WorstFrom(tears.begin()->first, tears));
   return worst;
 }
 

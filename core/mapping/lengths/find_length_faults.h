@@ -89,7 +89,8 @@ struct LengthFault {
 /// common across it and was 8 degrees off; of right neighbours 48 % and more.
 ///
 /// Ways on either side of a tear look torn as well, as what lies on one side of them leads across
-/// it: of ways at fault that follow each other the one that agrees least is returned.
+/// it: of ways at fault that follow each other the one that agrees least is returned, of those that
+/// more than one wall contradicts, where there are such.
 ///
 /// Of images in order of their ids, then of ways, in order of the first image of those that follow
 /// each other.

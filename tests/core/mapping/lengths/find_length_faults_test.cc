@@ -107,6 +107,17 @@ TEST(FindLengthFaults, OneWallOfAStreetSpeaksForItself) {
   EXPECT_LT(faults[0].agreement.Share(), faults[0].MinShare());
 }
 
+TEST(FindLengthFaults, OneWallHidesNothingBesideIt) {
+  std::vector<GapLength> gaps = RightGaps();
+  gaps[9].wall = {.told = 100.0, .agreeing = 10.0};
+  gaps[10].here = 60.0;
+  gaps[10].elsewhere = 132.0;
+  const auto faults = FindLengthFaults({}, gaps);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].image, ImageId(10));
+  EXPECT_EQ(faults[0].kind, LengthFaultKind::kElsewhere);
+}
+
 TEST(FindLengthFaults, SidesOfAWayHaveOneScale) {
   std::vector<GapLength> gaps = RightGaps();
   for (GapLength& gap : gaps) gap.scale_jump = std::log(3.9);
