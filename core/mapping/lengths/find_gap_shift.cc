@@ -57,13 +57,6 @@ class Crossings {
     }
   }
 
-  [[nodiscard]] bool AreEnough() const {
-    size_t rays = 0;
-    for (const Crossing& crossing : crossings_) rays += crossing.told.NumRays();
-    return TellsEnough({.told = static_cast<double>(rays)},
-                       static_cast<uint32_t>(crossings_.size()));
-  }
-
   [[nodiscard]] double CountAgreeing(double shift) const {
     double count = 0.0;
     for (const Crossing& crossing : crossings_)
@@ -152,15 +145,24 @@ bool GapShift::IsClear() const { return IsToldElsewhere(here, elsewhere); }
 
 bool GapShift::IsHere() const { return DeviationsElsewhere(rival, here) > kClearDeviations; }
 
-bool TellEnough(const AskedRays& asked, const GapVotes& gap, std::span<const LengthVote> votes) {
-  return Crossings(asked, gap, votes).AreEnough();
+bool TellEnough(std::span<const LengthVote> votes) {
+  std::map<uint32_t, size_t> votes_of_pair;
+  for (const LengthVote& vote : votes) ++votes_of_pair[vote.pair];
+  size_t rays = 0;
+  uint32_t pairs = 0;
+  for (const auto& [pair, count] : votes_of_pair) {
+    if (count < kFewestRaysOfPair) continue;
+    rays += count;
+    ++pairs;
+  }
+  return TellsEnough({.told = static_cast<double>(rays)}, pairs);
 }
 
 GapShift FindGapShift(const AskedRays& asked,
                       const GapVotes& gap,
                       std::span<const LengthVote> votes) {
+  if (!TellEnough(votes)) return {};
   const Crossings crossings(asked, gap, votes);
-  if (!crossings.AreEnough()) return {};
   GapShift best{.here = crossings.CountAgreeing(0.0), .rival = crossings.CountRivals()};
   best.elsewhere = best.here;
   for (const double candidate : crossings.Candidates()) {

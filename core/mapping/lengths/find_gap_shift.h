@@ -24,9 +24,7 @@ struct GapShift {
 };
 
 /// Whether votes tell anything of a way: 50 of three pairs of eight votes or more (TellsEnough).
-[[nodiscard]] bool TellEnough(const AskedRays& asked,
-                              const GapVotes& gap,
-                              std::span<const LengthVote> votes);
+[[nodiscard]] bool TellEnough(std::span<const LengthVote> votes);
 
 /// The shift with which most votes agree closely (ToldLengths::CountAgreeing), of those that pairs
 /// name: two of each, where its own votes crowd. It is the median of those that agree with it.

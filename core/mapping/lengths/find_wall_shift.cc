@@ -50,7 +50,7 @@ GapShift FindWallShift(const AskedRays& asked, const GapVotes& gap) {
   const double farthest = kFarthestShare * length;
   GapShift clearest;
   for (const std::vector<LengthVote>& wall : SplitByWalls(asked.state, gap, votes)) {
-    if (!TellEnough(asked, gap, wall)) continue;
+    if (!TellEnough(wall)) continue;
     const GapShift shift = FindGapShiftWithin(asked, gap, wall, -farthest, farthest);
     if (DeviationsElsewhere(shift.here, shift.elsewhere) >
         DeviationsElsewhere(clearest.here, clearest.elsewhere))

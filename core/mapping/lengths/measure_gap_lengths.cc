@@ -56,12 +56,10 @@ bool TellsLess(const GapLength& one, const GapLength& other) {
   return one.agreement.Share() > other.agreement.Share();
 }
 
-bool IsContradictedByWall(const GapShift& wall) { return IsToldByWall(wall.here, wall.elsewhere); }
-
 /// The shift that clearly more rays want, those of one wall where all want none.
 WishOfRays WishOf(const GapShift& wants_another, const GapShift& wall) {
   if (wants_another.IsClear()) return {wants_another.here, wants_another.shift};
-  return {wants_another.here, IsContradictedByWall(wall) ? wall.shift : 0.0};
+  return {wants_another.here, IsToldByWall(wall.here, wall.elsewhere) ? wall.shift : 0.0};
 }
 
 /// Whether more rays of the one side say another length; where that is alike, more rays at all.
@@ -114,7 +112,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     const GapShift wall = FindWallShift(asked, votes);
     gap.wall = {.told = wall.here + wall.elsewhere, .agreeing = wall.here};
     gap.is_borne_out =
-        (AreTold(before.shift, behind.shift) && !IsContradictedByWall(wall)) ||
+        (AreTold(before.shift, behind.shift) && !IsToldByWall(wall.here, wall.elsewhere)) ||
         (gnss != nullptr && IsBorneOut(asked, votes, *gnss, WishOf(wants_another, wall)));
   }
   return gaps;

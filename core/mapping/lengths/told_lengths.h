@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -16,7 +15,6 @@ class ToldLengths {
   ToldLengths(const Eigen::Vector3d& direction, std::vector<double> log_lengths);
 
   [[nodiscard]] const Eigen::Vector3d& Direction() const { return direction_; }
-  [[nodiscard]] size_t NumRays() const { return log_lengths_.size(); }
   /// How many agree closely (kCloseTolerance) with a step that leads where the pair does; 50 of a
   /// pair at most: one that tracks fooled has many rays, what counts is how many pairs say the
   /// same.
