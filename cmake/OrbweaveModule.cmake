@@ -13,7 +13,7 @@ endfunction()
 # orbweave_module(NAME geometry SOURCES a.cc ... DEPS base ... LIBS Eigen3::Eigen ... PRIVATE_LIBS ...)
 # One static library orbweave_<name> (INTERFACE when it has no sources). DEPS are modules of the
 # house, LIBS are third-party targets seen in headers, PRIVATE_LIBS are seen in sources only. ALONE are sources that
-# cannot be compiled together with others (OrbweaveUnity.cmake; nothing in core is).
+# cannot be compiled together with others (OrbweaveUnity.cmake).
 function(orbweave_module)
   cmake_parse_arguments(M "" "NAME" "SOURCES;ALONE;DEPS;LIBS;PRIVATE_LIBS" ${ARGN})
   set(target orbweave_${M_NAME})
@@ -28,9 +28,7 @@ function(orbweave_module)
     target_link_libraries(${target}
       PUBLIC ${M_DEPS} ${M_LIBS} PRIVATE ${M_PRIVATE_LIBS} $<BUILD_INTERFACE:orbweave_warnings>)
     orbweave_use_pch(${target} library)
-    if(NOT "${CMAKE_CURRENT_SOURCE_DIR}/" MATCHES "^${PROJECT_SOURCE_DIR}/core/")
-      orbweave_compile_together(${target} 8 ${M_SOURCES})
-    endif()
+    orbweave_compile_together(${target} 8 ${M_SOURCES})
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${includes})

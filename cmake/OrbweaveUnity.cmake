@@ -1,8 +1,8 @@
 # A build from nothing spends most of the time of a test file, a command or a service on headers and templates that
 # its neighbours need as well. With this option files of one target are compiled several at a time; names of
 # files and lines in messages stay. The change of one then costs its neighbours too: the preset `dev` does without.
-# What computes (core) is always compiled file by file, so that what the compiler folds never depends on the option.
-option(ORBWEAVE_UNITY "Compile files of what is not core several at a time" OFF)
+# Groups are the same wherever the files are, so that one build gives the bits of another.
+option(ORBWEAVE_UNITY "Compile files of one target several at a time" OFF)
 
 # orbweave_defined_names(RESULT FILE): what a file defines for itself (in its unnamed namespace) outside functions and
 # classes, that is what its lines without indentation name there before the first bracket, brace, `=` or `;`.

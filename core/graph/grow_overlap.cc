@@ -66,11 +66,11 @@ Seams FindSeams(const Adjacency& adjacency,
 
 }  // namespace
 
-std::vector<SharedImages> GrowOverlap(const Adjacency& adjacency,
-                                      std::span<const double> edge_weight,
-                                      std::span<const uint32_t> part_of,
-                                      const OverlapTargets& targets) {
-  std::vector<SharedImages> shared;
+std::vector<LentImages> GrowOverlap(const Adjacency& adjacency,
+                                    std::span<const double> edge_weight,
+                                    std::span<const uint32_t> part_of,
+                                    const OverlapTargets& targets) {
+  std::vector<LentImages> shared;
   for (auto& [parts, seam] : FindSeams(adjacency, edge_weight, part_of)) {
     const size_t target = targets.Of(parts);
     while (seam.a.lent().size() + seam.b.lent().size() < target) {

@@ -13,7 +13,7 @@
 namespace orbweave {
 
 /// Images that two adjacent parts lend each other.
-struct SharedImages {
+struct LentImages {
   uint32_t part_a = 0;  ///< < part_b
   uint32_t part_b = 0;
   std::vector<uint32_t> lent_to_a{};  ///< interior of b, sorted
@@ -37,9 +37,9 @@ struct OverlapTargets {
 /// neither side has a connected image left. `part_of`: per image; images without an edge may hold
 /// anything. Seams are independent of each other; a larger target lends the images of a smaller one
 /// and more.
-[[nodiscard]] std::vector<SharedImages> GrowOverlap(const Adjacency& adjacency,
-                                                    std::span<const double> edge_weight,
-                                                    std::span<const uint32_t> part_of,
-                                                    const OverlapTargets& targets);
+[[nodiscard]] std::vector<LentImages> GrowOverlap(const Adjacency& adjacency,
+                                                  std::span<const double> edge_weight,
+                                                  std::span<const uint32_t> part_of,
+                                                  const OverlapTargets& targets);
 
 }  // namespace orbweave

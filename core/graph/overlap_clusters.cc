@@ -30,9 +30,9 @@ std::vector<ImageId> ToImageIds(const Images& images) {
 }
 
 std::vector<Cluster> MakeClusters(const std::vector<Images>& interiors,
-                                  const std::vector<SharedImages>& seams) {
+                                  const std::vector<LentImages>& seams) {
   std::vector<Images> members = interiors;
-  for (const SharedImages& seam : seams) {
+  for (const LentImages& seam : seams) {
     Images& a = members[seam.part_a];
     Images& b = members[seam.part_b];
     a.insert(a.end(), seam.lent_to_a.begin(), seam.lent_to_a.end());
@@ -73,10 +73,10 @@ std::vector<Seam> FindSharedImages(uint32_t num_images, const std::vector<Cluste
 Partition OverlapClusters(const ViewGraph& graph,
                           const std::vector<Images>& interiors,
                           const OverlapTargets& targets) {
-  const std::vector<SharedImages> overlap = GrowOverlap(Adjacency(graph.num_images, graph.edges),
-                                                        EdgeWeights(graph),
-                                                        PartOfImages(graph.num_images, interiors),
-                                                        targets);
+  const std::vector<LentImages> overlap = GrowOverlap(Adjacency(graph.num_images, graph.edges),
+                                                      EdgeWeights(graph),
+                                                      PartOfImages(graph.num_images, interiors),
+                                                      targets);
   Partition partition;
   partition.clusters = MakeClusters(interiors, overlap);
   partition.seams = FindSharedImages(graph.num_images, partition.clusters);

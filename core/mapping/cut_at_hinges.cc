@@ -8,6 +8,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/graph/disjoint_sets.h"
@@ -23,11 +24,15 @@ constexpr size_t kAllPairs = 12;
 /// Of the way from the joint: pieces that are bent by less, ten degrees, are not elsewhere.
 constexpr double kElsewhere = 0.2;
 
-/// Two registered images and how many points both see.
+/// So many images must see a point for it to tell how large what they hold together is.
+constexpr size_t kTelling = 3;
+
+/// Two registered images and the points that both see.
 struct Joint {
   ImageSlot a = 0;
   ImageSlot b = 0;
-  uint32_t points = 0;
+  uint32_t telling = 0;  ///< that a third image sees as well
+  uint32_t points = 0;   ///< all
 };
 
 std::vector<ImageSlot> ImagesOf(const MappingState& state, PointIndex point) {
@@ -38,28 +43,32 @@ std::vector<ImageSlot> ImagesOf(const MappingState& state, PointIndex point) {
   return images;
 }
 
-/// All joints, those of most points first, then in order of their images.
+/// All joints, those of most telling points first, then of most points, then in order of their
+/// images.
 std::vector<Joint> JointsOf(const MappingState& state) {
-  std::vector<std::pair<ImageSlot, ImageSlot>> seen_by_both;
+  std::vector<std::tuple<ImageSlot, ImageSlot, bool>> seen_by_both;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesOf(state, p);
     const size_t reach = images.size() <= kAllPairs ? images.size() : 1;
     for (size_t i = 0; i < images.size(); ++i) {
       for (size_t j = i + 1; j < std::min(images.size(), i + 1 + reach); ++j)
-        seen_by_both.emplace_back(images[i], images[j]);
+        seen_by_both.emplace_back(images[i], images[j], images.size() >= kTelling);
     }
   }
   std::ranges::sort(seen_by_both);
   std::vector<Joint> joints;
-  for (const auto& [a, b] : seen_by_both) {
+  for (const auto& [a, b, is_telling] : seen_by_both) {
     if (joints.empty() || joints.back().a != a || joints.back().b != b) joints.push_back({a, b});
     ++joints.back().points;
+    joints.back().telling += is_telling ? 1U : 0U;
   }
-  std::ranges::stable_sort(joints, std::greater<>(), &Joint::points);
+  std::ranges::stable_sort(joints, std::greater<>(), [](const Joint& joint) {
+    return std::pair(joint.telling, joint.points);
+  });
   return joints;
 }
 
-/// The joints of most points that hold a submodel together, in that order.
+/// The joints that hold a submodel together, in the order of JointsOf.
 std::vector<Joint> HoldingJoints(const MappingState& state) {
   DisjointSets held(state.Graph().NumImages());
   std::vector<Joint> holding;
@@ -94,11 +103,12 @@ HungPiece PieceAt(const MappingState& state, const std::vector<Joint>& holding, 
   return {std::move(others), std::move(with_a), joint.a, joint.b};
 }
 
-/// Points that both sides see.
+/// Telling points that both sides see.
 uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
   uint32_t common = 0;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesOf(state, p);
+    if (images.size() < kTelling) continue;
     const auto inside = std::ranges::count_if(
         images, [&](ImageSlot image) { return std::ranges::binary_search(piece.images, image); });
     common += inside > 0 && static_cast<size_t>(inside) < images.size() ? 1U : 0U;
@@ -133,7 +143,7 @@ bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
 std::optional<HungPiece> FindHungPiece(const MappingState& state, const MappingOptions& options) {
   const auto fewest = static_cast<uint32_t>(options.min_inliers);
   const std::vector<Joint> holding = HoldingJoints(state);
-  for (size_t i = holding.size(); i-- > 0 && holding[i].points < fewest;) {
+  for (size_t i = holding.size(); i-- > 0 && holding[i].telling < fewest;) {
     HungPiece piece = PieceAt(state, holding, i);
     if (CountCommon(state, piece) < fewest && IsElsewhere(state, piece)) return piece;
   }

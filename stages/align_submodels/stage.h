@@ -10,7 +10,7 @@ namespace orbweave {
 
 /// All seams -> a similarity per submodel, and which seams contradict loops (AlignSubmodels).
 struct AlignSubmodelsStage {
-  static constexpr StageFacts kFacts{.name = "align_submodels", .version = "8", .weight = 0.1};
+  static constexpr StageFacts kFacts{.name = "align_submodels", .version = "10", .weight = 0.1};
   using Options = OptionSections<AlignOptions>;
 
   EachPart<SeamsOfCluster> seams;

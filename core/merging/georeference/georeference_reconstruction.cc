@@ -22,6 +22,7 @@
 #include "core/merging/georeference/gnss_track.h"
 #include "core/merging/georeference/refine_georeference.h"
 #include "core/merging/georeference/tilt_inflation.h"
+#include "core/robust/false_alarms.h"
 
 namespace orbweave {
 namespace {
@@ -29,7 +30,10 @@ namespace {
 constexpr size_t kMinPositions = 4;
 constexpr int kTrials = 500;
 constexpr double kMaxScaleUncertainty = 0.1;
-constexpr double kMinAgreeingShare = 0.7;
+constexpr double kUsualAgreeingShare = 0.7;  // of sound positions and a sound model more agree
+// No two similarities have a majority; that it is one by chance is asked as of pairs of images.
+constexpr double kMinAgreeingShare = 0.5;
+constexpr double kMaxLog10FalseAlarms = -4.0;
 constexpr size_t kMinDrive = 8;
 constexpr double kSigmaOfMad = 1.4826;
 constexpr int kErrorRounds = 4;
@@ -230,13 +234,39 @@ void MeasureScatter(const Positions& positions,
   result.vertical_scatter_m = sigma_of_median * Quantile(std::move(vertical), 0.5);
 }
 
-// Share of the positions within three sigmas of the model, horizontally.
-double AgreeingShare(const std::vector<Eigen::Vector3d>& residuals, double scatter_m) {
-  const auto agreeing =
-      std::count_if(residuals.begin(), residuals.end(), [&](const Eigen::Vector3d& residual) {
-        return residual.head<2>().norm() <= 3.0 * scatter_m;
-      });
-  return static_cast<double>(agreeing) / static_cast<double>(residuals.size());
+// Positions within three sigmas of the model, horizontally: those that they state or, where that
+// is more, those of their scatter, which of a handful may be next to nothing.
+struct Agreement {
+  size_t agreeing = 0;
+  size_t all = 0;
+  double within_m = 0.0;  // in the median
+
+  [[nodiscard]] double Share() const {
+    return static_cast<double>(agreeing) / static_cast<double>(all);
+  }
+  [[nodiscard]] bool IsUsual() const { return Share() >= kUsualAgreeingShare; }
+  // Of a majority: by chance a position would lie as near anywhere along a street of that extent.
+  [[nodiscard]] bool IsEvident(double extent_m) const {
+    return Share() > kMinAgreeingShare &&
+           Log10FalseAlarms(all, agreeing, 2, std::min(1.0, within_m / extent_m)) <=
+               kMaxLog10FalseAlarms;
+  }
+  [[nodiscard]] std::string Sentence() const {
+    return std::to_string(std::lround(100.0 * Share())) +
+           " % of the GNSS positions agree with the model";
+  }
+};
+
+Agreement AgreementOf(const Positions& positions,
+                      const std::vector<Eigen::Vector3d>& residuals,
+                      double scatter_m) {
+  Agreement agreement{.all = residuals.size(),
+                      .within_m = 3.0 * std::max(scatter_m, MedianSigma_m(positions))};
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    const double sigma_m = std::max(scatter_m, positions.sigma_m[i].x());
+    agreement.agreeing += residuals[i].head<2>().norm() <= 3.0 * sigma_m ? 1U : 0U;
+  }
+  return agreement;
 }
 
 std::string Metres(double value_m) {
@@ -246,7 +276,7 @@ std::string Metres(double value_m) {
 }
 
 // Measures the scatter and drops the similarity when GNSS cannot carry its scale.
-void Judge(const Positions& positions, Georeference& result) {
+Agreement Judge(const Positions& positions, Georeference& result) {
   const std::vector<Eigen::Vector3d> residuals = Residuals(positions, *result.enu_from_world);
   MeasureScatter(positions, residuals, result);
   const double extent_m = result.enu_from_world->scale * SpreadOf(positions.in_world).rms;
@@ -255,14 +285,14 @@ void Judge(const Positions& positions, Georeference& result) {
       scatter_m / (extent_m * std::sqrt(static_cast<double>(positions.size())));
   const bool carries_scale =
       scatter_m < extent_m && result.scale_uncertainty <= kMaxScaleUncertainty;
-  const double agreeing_share = AgreeingShare(residuals, scatter_m);
-  if (carries_scale && agreeing_share >= kMinAgreeingShare) return;
+  const Agreement agreement = AgreementOf(positions, residuals, scatter_m);
+  if (carries_scale && (agreement.IsUsual() || agreement.IsEvident(extent_m))) return agreement;
   result.enu_from_world.reset();
-  result.reason = carries_scale ? std::to_string(std::lround(100.0 * agreeing_share)) +
-                                      " % of the GNSS positions agree with the model: too few"
+  result.reason = carries_scale ? agreement.Sentence() + ": too few"
                                 : "GNSS scatters by " + Metres(scatter_m) +
                                       " about a model that would extend over " + Metres(extent_m) +
                                       ": too much to carry its scale";
+  return agreement;
 }
 
 // What drives have wrong in common, and how errors of neighbours hang together, are found beside a
@@ -351,6 +381,45 @@ void BlameTheRight(const std::vector<GnssDrive>& drives, Georeference& result) {
                                    "that look alike are taken for one"});
 }
 
+void DoubtAgreement(const Agreement& agreement, Georeference& result) {
+  result.checks.push_back(
+      {.name = "gnss_agreement",
+       .value = agreement.Share(),
+       .limit = kUsualAgreeingShare,
+       .unit = "",
+       .level = CheckLevel::kDoubtful,
+       .sentence = agreement.Sentence() +
+                   ", which stands where these have it: the others are off, or that part of the "
+                   "model is; compare them with a map"});
+}
+
+// Where no similarity holds, or hardly more than half of the positions agree with it: what else may
+// be wrong with them, or with the model.
+absl::Status Blame(const std::vector<GnssDrive>& drives,
+                   const std::optional<Gravity>& gravity,
+                   const Agreement& agreement,
+                   const StageContext& context,
+                   Georeference& result) {
+  bool is_mirrored = false;
+  if (gravity) {
+    ORBWEAVE_ASSIGN_OR_RETURN(is_mirrored, FitsMirrored(Collect(drives), *gravity, context));
+  }
+  if (!is_mirrored && result.enu_from_world) {
+    DoubtAgreement(agreement, result);
+    return absl::OkStatus();
+  }
+  // What was found beside a similarity that does not hold says nothing.
+  result.enu_from_world.reset();
+  result.drive_errors.clear();
+  result.checks.clear();
+  if (is_mirrored) {
+    BlameTheMirror(result);
+  } else {
+    BlameTheRight(drives, result);
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& reconstruction,
@@ -377,21 +446,9 @@ absl::StatusOr<Georeference> GeoreferenceReconstruction(const Reconstruction& re
     return result;
   }
   ORBWEAVE_RETURN_IF_ERROR(FitWithErrors(drives, gravity, context, positions, result));
-  Judge(positions, result);
-  if (!result.enu_from_world) {
-    // What was found beside a similarity that does not hold says nothing.
-    result.drive_errors.clear();
-    result.checks.clear();
-    bool is_mirrored = false;
-    if (gravity) {
-      ORBWEAVE_ASSIGN_OR_RETURN(is_mirrored, FitsMirrored(Collect(drives), *gravity, context));
-    }
-    if (is_mirrored) {
-      BlameTheMirror(result);
-    } else {
-      BlameTheRight(drives, result);
-    }
-  }
+  const Agreement agreement = Judge(positions, result);
+  if (!result.enu_from_world || !agreement.IsUsual())
+    ORBWEAVE_RETURN_IF_ERROR(Blame(drives, gravity, agreement, context, result));
   return result;
 }
 

@@ -14,9 +14,9 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<SharedImages> Grow(const ViewGraph& graph,
-                               const std::vector<uint32_t>& part_of,
-                               size_t overlap) {
+std::vector<LentImages> Grow(const ViewGraph& graph,
+                             const std::vector<uint32_t>& part_of,
+                             size_t overlap) {
   const Adjacency adjacency(graph.num_images, graph.edges);
   std::vector<double> weights;
   for (const ViewEdge& edge : graph.edges) weights.push_back(edge.num_inliers);

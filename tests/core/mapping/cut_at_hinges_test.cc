@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 #include "tests/core/mapping/broken_street.h"
@@ -15,9 +16,14 @@ namespace {
 
 using ::testing::ElementsAre;
 
+enum class Seen { kByThree, kByTwo };
+
 /// The street with its second half hung on to the first: on a scale of its own about where it
 /// begins, with so many points that both halves see.
-MappingState Hung(const BrokenStreet& street, double scale, uint32_t num_common) {
+MappingState Hung(const BrokenStreet& street,
+                  double scale,
+                  uint32_t num_common,
+                  Seen seen = Seen::kByThree) {
   MappingState state = street.First();
   const MappingState second = street.Part(BrokenStreet::kFirstOfSecond, BrokenStreet::kImages, {});
   const Eigen::Vector3d pivot = state.Centre(BrokenStreet::kFirstOfSecond - 1);
@@ -35,7 +41,13 @@ MappingState Hung(const BrokenStreet& street, double scale, uint32_t num_common)
       const Node b = street.Graph().node_of_feature[pair.b][match.b];
       if (num_common == 0 || state.PointOf(b) == kNoPoint) continue;
       if (state.PointOf(a) != kNoPoint) state.RemovePoint(state.PointOf(a));
-      state.AddObservation(state.PointOf(b), a);
+      if (seen == Seen::kByTwo) {
+        const Eigen::Vector3d position = state.Point(state.PointOf(b)).position;
+        state.RemovePoint(state.PointOf(b));
+        state.AddPoint(position, std::array{a, b});
+      } else {
+        state.AddObservation(state.PointOf(b), a);
+      }
       --num_common;
     }
   }
@@ -85,6 +97,13 @@ TEST(CutAtHinges, LeavesWhatIsHardlyBentHoweverExactPositionsAre) {
 TEST(CutAtHinges, LeavesWhatPointsHold) {
   const BrokenStreet street({.pairs_between = 4});
   EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.28, 40), {})), ElementsAre(24U));
+}
+
+TEST(CutAtHinges, CutsWhatHangsAtPointsOfTwoPanoramasHoweverMany) {
+  const BrokenStreet street({.pairs_between = 4});
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.28, 40, Seen::kByTwo), {})),
+              ElementsAre(12U, 12U));
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 1.0, 40, Seen::kByTwo), {})), ElementsAre(24U));
 }
 
 TEST(CutAtHinges, LeavesWhatGnssSaysNothingOf) {

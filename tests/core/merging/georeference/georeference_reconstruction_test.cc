@@ -129,6 +129,65 @@ TEST(GeoreferenceReconstruction, SeesThroughOutliers) {
   }
 }
 
+// Of a street of 40 panoramas the last `num_elsewhere` are a third as far apart as they are.
+GnssWorld Shrunken(int num_elsewhere, Random& random) {
+  std::vector<Eigen::Vector3d> street = StraightStreet(40, 8.0);
+  for (size_t i = 20; i < street.size(); ++i) street[i].y() = street[19].y();
+  GnssWorld world = MakeGnssWorld(street, 2.0, random);
+  const Eigen::Vector3d& joint = street[static_cast<size_t>(39 - num_elsewhere)];
+  for (size_t i = static_cast<size_t>(40 - num_elsewhere); i < street.size(); ++i) {
+    Rigid3& pose = world.model.images.at(ImageId(static_cast<uint32_t>(i))).cam_from_world;
+    pose = Rigid3::FromCentre(pose.rotation, joint + (street[i] - joint) / 3.0);
+  }
+  return world;
+}
+
+TEST(GeoreferenceReconstruction, PlacesAModelOfWhichAPartIsElsewhereAndDoubtsIt) {
+  for (const uint64_t seed : {1U, 2U, 3U}) {
+    Random random(seed);
+    GnssWorld world = Shrunken(16, random);
+    const Eigen::Vector3d first = world.model.images.at(ImageId(0)).cam_from_world.Centre();
+    world.model = Transformed(SomeFrame(random), std::move(world.model));
+    const Georeference result = Georeferenced(world);
+    ASSERT_TRUE(result.enu_from_world.has_value()) << result.reason;
+    const Reconstruction found = Transformed(*result.enu_from_world, world.model);
+    EXPECT_LT((found.images.at(ImageId(0)).cam_from_world.Centre() - first).norm(), 5.0) << seed;
+    const auto check = std::ranges::find(result.checks, "gnss_agreement", &CrossCheck::name);
+    ASSERT_NE(check, result.checks.end());
+    EXPECT_EQ(check->level, CheckLevel::kDoubtful);
+    EXPECT_THAT(check->sentence, HasSubstr("% of the GNSS positions agree"));
+  }
+}
+
+TEST(GeoreferenceReconstruction, TakesAHandfulThatAgreesAsWellAsItStates) {
+  Random random(8);
+  GnssWorld world = MakeGnssWorld(StraightStreet(8, 9.0), 0.0, random);
+  for (ImageRecord& image : world.manifest.images) image.prior.horizontal_sigma_m = 5.0;
+  // Half are exact, so that the scatter is; of the others one is wrong.
+  for (const uint32_t i : {1U, 4U, 6U})
+    world.manifest.images[i].prior.position_in_enu->head<2>() += Eigen::Vector2d(4.0, 3.0);
+  world.manifest.images[3].prior.position_in_enu->x() += 36.0;
+  world.model = Transformed(SomeFrame(random), std::move(world.model));
+  const Georeference result = Georeferenced(world);
+  EXPECT_TRUE(result.enu_from_world.has_value()) << result.reason;
+  EXPECT_TRUE(std::ranges::none_of(
+      result.checks, [](const CrossCheck& check) { return check.name == "gnss_agreement"; }));
+}
+
+TEST(GeoreferenceReconstruction, TakesNoHandfulThatAgreesByChance) {
+  int refused = 0;
+  for (uint64_t seed = 0; seed < 30; ++seed) {
+    Random random(seed);
+    GnssWorld world = MakeGnssWorld(Room(7, 60.0, random), 1.0, random);
+    for (uint32_t i = 4; i < 7; ++i)
+      *world.manifest.images[i].prior.position_in_enu += 40.0 * RandomDirection(random);
+    const Georeference result = Georeferenced(world);
+    refused += result.enu_from_world ? 0 : 1;
+    for (const CrossCheck& check : result.checks) EXPECT_NE(check.name, "gnss_agreement") << seed;
+  }
+  EXPECT_GE(refused, 20);
+}
+
 TEST(GeoreferenceReconstruction, RefusesAScaleFromAPhoneIndoors) {
   for (uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed);
