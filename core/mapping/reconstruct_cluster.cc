@@ -15,6 +15,7 @@
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/find_small_motions.h"
 #include "core/mapping/join_by_bridges.h"
+#include "core/mapping/leave_out_carrier.h"
 #include "core/mapping/lengths/asked_rays.h"
 #include "core/mapping/lengths/gnss_ways.h"
 #include "core/mapping/lengths/matches_in_planes.h"
@@ -170,6 +171,8 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       return ReconstructCluster(*alike, stated, context);
   }
   if (ScheduleOf(stated).tightens) {
+    if (const auto scene = LeaveOutCarrier(problem, stated.max_error_px))
+      return ReconstructCluster(*scene, stated, context);
     if (const auto told = FindSmallMotions(problem))
       return ReconstructCluster(*told, stated, context);
   }

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "core/mapping/model/cluster_problem.h"
+
+namespace orbweave {
+
+/// The cluster without matches of what goes along with the camera: the edge of a windscreen, a roof
+/// rack, a mark that a program wrote into every panorama. Where the street goes straight they fit a
+/// pose that has not turned, as if they were far away, and may be most of what a pair of distant
+/// panoramas has in common, which then contradicts all others: beside a mask that leaves the edge
+/// of a dashboard free, 331 matches of which nearly all were that edge, between panoramas 37 m
+/// apart.
+///
+/// Matches are fixed when the camera has turned, by the pair, and their rays by no more than
+/// `max_error_px`. Positions tell what they are: of two panoramas so far apart that what is fixed
+/// would lie two kilometres away, which streets do not see, and further than four of their sigmas.
+/// Cells of the sphere (SphereCell, 64 x 64) with fixed matches of three such pairs of a drive hold
+/// its carrier; fixed matches there are left out of all its pairs, and so are pairs of which less
+/// than half is left. nullopt where there are none.
+[[nodiscard]] std::optional<ClusterProblem> LeaveOutCarrier(const ClusterProblem& problem,
+                                                            double max_error_px);
+
+}  // namespace orbweave
