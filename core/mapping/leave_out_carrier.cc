@@ -90,19 +90,21 @@ std::vector<FeatureMatch> WithoutCarrier(const UnturnedPair& unturned,
 
 }  // namespace
 
-std::optional<ClusterProblem> LeaveOutCarrier(const ClusterProblem& problem, double max_error_px) {
+std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem, double max_error_px) {
   const CellsOfDrives carriers = FindCarriers(problem, max_error_px);
   if (carriers.empty()) return std::nullopt;
-  ClusterProblem scene{.images = problem.images};
+  SceneAlone scene{.problem = {.images = problem.images}};
   for (const TwoViewGeometry& pair : problem.pairs) {
     const UnturnedPair unturned(problem, pair, max_error_px);
     const auto carrier = carriers.find(unturned.Drive());
-    scene.pairs.push_back(pair);
+    scene.problem.pairs.push_back(pair);
     if (!unturned.IsOne() || carrier == carriers.end()) continue;
-    std::vector<FeatureMatch>& matches = scene.pairs.back().inliers;
+    std::vector<FeatureMatch>& matches = scene.problem.pairs.back().inliers;
     matches = WithoutCarrier(unturned, carrier->second, std::move(matches));
     const double fewest = kLeft * static_cast<double>(pair.inliers.size());
-    if (static_cast<double>(matches.size()) < fewest) scene.pairs.pop_back();
+    if (static_cast<double>(matches.size()) >= fewest) continue;
+    scene.problem.pairs.pop_back();
+    scene.pairs_of_carrier.push_back(pair.pair);
   }
   return scene;
 }

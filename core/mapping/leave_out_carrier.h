@@ -3,10 +3,17 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/mapping/model/cluster_problem.h"
 
 namespace orbweave {
+
+/// A cluster as it was seen by who drives along.
+struct SceneAlone {
+  ClusterProblem problem{};
+  std::vector<ImagePair> pairs_of_carrier{};  ///< that it lacks, sorted
+};
 
 /// The cluster without matches of what goes along with the camera: the edge of a windscreen, a roof
 /// rack, a mark that a program wrote into every panorama. Where the street goes straight they fit a
@@ -21,7 +28,7 @@ namespace orbweave {
 /// Cells of the sphere (SphereCell, 64 x 64) with fixed matches of three such pairs of a drive hold
 /// its carrier; fixed matches there are left out of all its pairs, and so are pairs of which less
 /// than half is left. nullopt where there are none.
-[[nodiscard]] std::optional<ClusterProblem> LeaveOutCarrier(const ClusterProblem& problem,
-                                                            double max_error_px);
+[[nodiscard]] std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem,
+                                                        double max_error_px);
 
 }  // namespace orbweave

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "core/bundle/bearing_error.h"
 #include "core/mapping/adapt_to_parallax.h"
@@ -171,8 +172,12 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       return ReconstructCluster(*alike, stated, context);
   }
   if (ScheduleOf(stated).tightens) {
-    if (const auto scene = LeaveOutCarrier(problem, stated.max_error_px))
-      return ReconstructCluster(*scene, stated, context);
+    if (auto scene = LeaveOutCarrier(problem, stated.max_error_px)) {
+      ORBWEAVE_ASSIGN_OR_RETURN(ClusterReconstruction result,
+                                ReconstructCluster(scene->problem, stated, context));
+      result.pairs_of_carrier = std::move(scene->pairs_of_carrier);
+      return result;
+    }
     if (const auto told = FindSmallMotions(problem))
       return ReconstructCluster(*told, stated, context);
   }

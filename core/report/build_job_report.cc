@@ -116,6 +116,21 @@ void TellWeakCuts(const Partition& partition, JobReport& report) {
   }
 }
 
+/// Pairs in which the mapper found little but what goes along with the camera.
+void TellCarriers(const JobResults& results, JobReport& report) {
+  std::set<ImagePair> pairs;
+  for (const ClusterSummary& cluster : results.clusters)
+    pairs.insert(cluster.pairs_of_carrier.begin(), cluster.pairs_of_carrier.end());
+  if (pairs.empty()) return;
+  report.warnings.push_back(
+      std::to_string(pairs.size()) +
+      " verified pairs show little but what goes along with the camera, as GNSS has it moved "
+      "between them, and are left out; for example " +
+      results.manifest.At(pairs.begin()->a).name + " and " +
+      results.manifest.At(pairs.begin()->b).name +
+      "; a mask over it (--masks) leaves its features to the street");
+}
+
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {
   std::vector<ReportCluster> rows(results.view_graph.partition.clusters.size());
   for (size_t c = 0; c < rows.size(); ++c) {
@@ -278,6 +293,7 @@ ClusterSummary SummariseCluster(const ClusterResult& result) {
                          .not_registered = cluster.not_registered,
                          .contradicted_pairs = cluster.contradicted_pairs,
                          .explained_pairs = cluster.explained_pairs,
+                         .pairs_of_carrier = cluster.pairs_of_carrier,
                          .pair_lengths = cluster.pair_lengths,
                          .gap_lengths = cluster.gap_lengths,
                          .residual_rms_px = cluster.residual_rms_px};
@@ -313,6 +329,7 @@ JobReport BuildJobReport(const JobResults& results) {
   ListMissingImages(results, report);
   TellReviews(results.review, report);
   TellWeakCuts(results.view_graph.partition, report);
+  TellCarriers(results, report);
   report.checks.push_back(CheckPairs(results));
   report.checks.push_back(CheckLengths(results));
   report.checks.push_back(CheckToldSteps(results));

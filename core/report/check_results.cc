@@ -38,7 +38,8 @@ absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
       for (const ImageId& image : {length.between.a, length.between.b})
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&image, 1}, manifest, whose));
     }
-    for (const auto* pairs : {&cluster.contradicted_pairs, &cluster.explained_pairs}) {
+    for (const auto* pairs :
+         {&cluster.contradicted_pairs, &cluster.explained_pairs, &cluster.pairs_of_carrier}) {
       for (const ImagePair& pair : *pairs) {
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.a, 1}, manifest, whose));
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.b, 1}, manifest, whose));

@@ -33,6 +33,7 @@ struct ClusterSummary {
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};
   std::vector<ImagePair> explained_pairs{};
+  std::vector<ImagePair> pairs_of_carrier{};
   std::vector<PairLength> pair_lengths{};
   std::vector<GapLength> gap_lengths{};
   double residual_rms_px = 0.0;

@@ -28,6 +28,16 @@ absl::Status CheckLength(const PairLength& length) {
                        "images of a length are out of order");
 }
 
+/// `what` they are.
+absl::StatusOr<std::vector<ImagePair>> UnpackPairs(const std::string& bytes, const char* what) {
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<ImagePair> pairs, codec::Unpack<ImagePair>(bytes, what));
+  for (const ImagePair& pair : pairs) {
+    if (!(pair.a < pair.b))
+      return absl::DataLossError("cluster reconstruction: images of a pair out of order");
+  }
+  return pairs;
+}
+
 absl::Status CheckLength(const GapLength& length) {
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.agreement));
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.matches));
@@ -69,6 +79,7 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_image_b(pair.b.value);
   }
   proto.set_explained_pairs(codec::Pack(result.reconstruction.explained_pairs));
+  proto.set_pairs_of_carrier(codec::Pack(result.reconstruction.pairs_of_carrier));
   for (const PairLength& length : result.reconstruction.pair_lengths) {
     v1::PairLength* out = proto.add_pair_lengths();
     out->set_image_a(length.pair.a.value);
@@ -121,11 +132,9 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
         {ImageId(pair.image_a()), ImageId(pair.image_b())});
   }
   ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.explained_pairs,
-                            codec::Unpack<ImagePair>(proto.explained_pairs(), "explained pairs"));
-  for (const ImagePair& pair : result.reconstruction.explained_pairs) {
-    if (!(pair.a < pair.b))
-      return absl::DataLossError("cluster reconstruction: images of a pair out of order");
-  }
+                            UnpackPairs(proto.explained_pairs(), "explained pairs"));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.pairs_of_carrier,
+                            UnpackPairs(proto.pairs_of_carrier(), "pairs of the carrier"));
   for (const v1::PairLength& length : proto.pair_lengths()) {
     result.reconstruction.pair_lengths.push_back(
         {.pair = {ImageId(length.image_a()), ImageId(length.image_b())},

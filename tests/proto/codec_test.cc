@@ -580,6 +580,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                          .not_registered = {{ImageId(77), "no verified matches"}},
                          .contradicted_pairs = {{ImageId(3), ImageId(8)}},
                          .explained_pairs = {{ImageId(3), ImageId(4)}},
+                         .pairs_of_carrier = {{ImageId(2), ImageId(9)}},
                          .pair_lengths = {{.pair = {ImageId(3), ImageId(4)},
                                            .agreement = {.told = 80.5, .agreeing = 20.25}}},
                          .gap_lengths = {{.between = {ImageId(4), ImageId(5)},
@@ -624,6 +625,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_TRUE(cluster_out->reconstruction.gap_lengths[0].is_borne_out);
   EXPECT_EQ(cluster_out->reconstruction.explained_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(4)}}));
+  EXPECT_EQ(cluster_out->reconstruction.pairs_of_carrier,
+            (std::vector<ImagePair>{{ImageId(2), ImageId(9)}}));
   EXPECT_TRUE(cluster_out->reconstruction.started_globally);
   EXPECT_EQ(cluster_out->reconstruction.start_remark, "29 of 30 images stay registered");
   ExpectSame(cluster_out->reconstruction.submodels[0], cluster.reconstruction.submodels[0]);

@@ -386,11 +386,12 @@ void DoubtAgreement(const Agreement& agreement, Georeference& result) {
       {.name = "gnss_agreement",
        .value = agreement.Share(),
        .limit = kUsualAgreeingShare,
-       .unit = "",
+       .unit = "share",
        .level = CheckLevel::kDoubtful,
        .sentence = agreement.Sentence() +
                    ", which stands where these have it: the others are off, or that part of the "
-                   "model is; compare them with a map"});
+                   "model is; compare them with a map",
+       .bound = CheckBound::kAtLeast});
 }
 
 // Where no similarity holds, or hardly more than half of the positions agree with it: what else may

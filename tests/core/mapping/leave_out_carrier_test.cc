@@ -84,7 +84,7 @@ TEST(LeaveOutCarrier, LeavesTheScene) {
   ASSERT_TRUE(scene.has_value());
   size_t left = 0;
   size_t of_scene = 0;
-  for (const TwoViewGeometry& pair : scene->pairs) {
+  for (const TwoViewGeometry& pair : scene->problem.pairs) {
     EXPECT_LT(pair.pair.b.value - pair.pair.a.value, kReach) << "of which nothing is left";
     for (const FeatureMatch& match : pair.inliers)
       EXPECT_FALSE(IsOfCarrier(world.problem, pair.pair.a, match.a));
@@ -96,7 +96,9 @@ TEST(LeaveOutCarrier, LeavesTheScene) {
     }));
   }
   EXPECT_EQ(left, of_scene);
-  EXPECT_FALSE(LeaveOutCarrier(*scene, kMaxErrorPx).has_value()) << "there is no more of it";
+  EXPECT_EQ(scene->pairs_of_carrier.size(), static_cast<size_t>(kPanoramas - kReach));
+  EXPECT_FALSE(LeaveOutCarrier(scene->problem, kMaxErrorPx).has_value())
+      << "there is no more of it";
 }
 
 TEST(LeaveOutCarrier, IsSilentWhereNothingSaysThatTheCameraMoved) {
@@ -122,9 +124,9 @@ TEST(LeaveOutCarrier, PairsThatTurnKeepWhatTheyHave) {
   const auto scene = LeaveOutCarrier(world.problem, kMaxErrorPx);
   ASSERT_TRUE(scene.has_value());
   for (const TwoViewGeometry& pair : world.problem.pairs) {
-    const auto kept = std::ranges::find(scene->pairs, pair.pair, &TwoViewGeometry::pair);
+    const auto kept = std::ranges::find(scene->problem.pairs, pair.pair, &TwoViewGeometry::pair);
     const bool is_carrier_alone = pair.inliers.size() == kOfCarrier;
-    ASSERT_EQ(kept == scene->pairs.end(), is_carrier_alone);
+    ASSERT_EQ(kept == scene->problem.pairs.end(), is_carrier_alone);
     if (is_carrier_alone) continue;
     EXPECT_EQ(kept->inliers.size(), pair.inliers.size());
   }
@@ -135,6 +137,7 @@ TEST(LeaveOutCarrier, TheStreetComesOutAsItIs) {
   const auto result = ReconstructCluster(world.problem, {}, {.seed = 5});
   ASSERT_TRUE(result.ok()) << result.status();
   ASSERT_EQ(result->submodels.size(), 1U);
+  EXPECT_EQ(result->pairs_of_carrier.size(), static_cast<size_t>(kPanoramas - kReach));
   EXPECT_EQ(result->submodels[0].images.size(), static_cast<size_t>(kPanoramas));
   EXPECT_LT(ErrorOf(result->submodels[0], world.cams_from_world).position_rmse, 0.05);
   for (const Track& track : result->submodels[0].tracks) {

@@ -16,6 +16,7 @@
 namespace orbweave {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -104,6 +105,19 @@ TEST(JudgeModel, ImagesLeftOutMakeItDoubtfulThenBad) {
   EXPECT_EQ(doubtful.level, CheckLevel::kDoubtful);
   EXPECT_THAT(doubtful.reasons.front(), HasSubstr("31 of 36 panoramas are registered"));
   EXPECT_EQ(Reported(Street(36, {{0, 17}})).verdict.level, CheckLevel::kBad);
+}
+
+TEST(BuildJobReport, SaysThatPairsShowTheCarrierAlone) {
+  JobResults results = Street(9, {{0, 9}});
+  EXPECT_THAT(BuildJobReport(results).warnings, IsEmpty());
+  results.view_graph.partition.clusters.resize(2);  // which share a pair
+  results.clusters = {{.cluster = 0}, {.cluster = 1}};
+  results.clusters[0].pairs_of_carrier = {{ImageId(2), ImageId(5)}, {ImageId(3), ImageId(6)}};
+  results.clusters[1].pairs_of_carrier = {{ImageId(3), ImageId(6)}};
+  EXPECT_THAT(BuildJobReport(results).warnings,
+              ElementsAre(AllOf(HasSubstr("2 verified pairs show little but what goes along"),
+                                HasSubstr("pano_2.jpg and pano_5.jpg"),
+                                HasSubstr("--masks"))));
 }
 
 TEST(JudgeModel, OneImageLeftOutOfAFewIsWithinTheLimit) {

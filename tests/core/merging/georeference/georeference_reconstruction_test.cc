@@ -155,6 +155,7 @@ TEST(GeoreferenceReconstruction, PlacesAModelOfWhichAPartIsElsewhereAndDoubtsIt)
     const auto check = std::ranges::find(result.checks, "gnss_agreement", &CrossCheck::name);
     ASSERT_NE(check, result.checks.end());
     EXPECT_EQ(check->level, CheckLevel::kDoubtful);
+    EXPECT_FALSE(check->IsWithinLimit());
     EXPECT_THAT(check->sentence, HasSubstr("% of the GNSS positions agree"));
   }
 }
