@@ -1,7 +1,8 @@
 # A build from nothing spends most of the time of a test file, a command or a service on headers and templates that
 # its neighbours need as well. With this option files of one target are compiled several at a time; names of
 # files and lines in messages stay. The change of one then costs its neighbours too: the preset `dev` does without.
-# Groups are the same wherever the files are, so that one build gives the bits of another.
+# Groups depend on what the files say alone, so that one build with it gives the bits of another; a build without may
+# differ in a last bit where the compiler folds more, as one of another optimisation level may.
 option(ORBWEAVE_UNITY "Compile files of one target several at a time" OFF)
 
 # orbweave_defined_names(RESULT FILE): what a file defines for itself (in its unnamed namespace) outside functions and

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/estimators/bearing_pairs.h"
+#include "core/estimators/two_view_inliers.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/model/correspondence_graph.h"
@@ -51,6 +53,17 @@ class UnturnedPair {
   [[nodiscard]] uint32_t Cell(const FeatureMatch& match) const {
     return SphereCell(a_.bearings[match.a], kCells);
   }
+  /// The pair without fixed matches in these cells.
+  [[nodiscard]] TwoViewGeometry Without(const std::set<uint32_t>& cells) const {
+    TwoViewGeometry scene = pair_;
+    std::erase_if(scene.inliers, [&](const FeatureMatch& match) {
+      return IsFixed(match) && cells.contains(Cell(match));
+    });
+    if (scene.inliers.empty() || scene.inliers.size() == pair_.inliers.size()) return scene;
+    const std::vector<FeatureMatch> left = scene.inliers;
+    SetInliers(ArrangePairs(a_.bearings, b_.bearings, left, 0), left, scene);
+    return scene;
+  }
 
  private:
   const TwoViewGeometry& pair_;
@@ -79,15 +92,6 @@ CellsOfDrives FindCarriers(const ClusterProblem& problem, double max_error_px) {
   return carriers;
 }
 
-std::vector<FeatureMatch> WithoutCarrier(const UnturnedPair& unturned,
-                                         const std::set<uint32_t>& carrier,
-                                         std::vector<FeatureMatch> matches) {
-  std::erase_if(matches, [&](const FeatureMatch& match) {
-    return unturned.IsFixed(match) && carrier.contains(unturned.Cell(match));
-  });
-  return matches;
-}
-
 }  // namespace
 
 std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem, double max_error_px) {
@@ -97,14 +101,14 @@ std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem, double 
   for (const TwoViewGeometry& pair : problem.pairs) {
     const UnturnedPair unturned(problem, pair, max_error_px);
     const auto carrier = carriers.find(unturned.Drive());
-    scene.problem.pairs.push_back(pair);
-    if (!unturned.IsOne() || carrier == carriers.end()) continue;
-    std::vector<FeatureMatch>& matches = scene.problem.pairs.back().inliers;
-    matches = WithoutCarrier(unturned, carrier->second, std::move(matches));
-    const double fewest = kLeft * static_cast<double>(pair.inliers.size());
-    if (static_cast<double>(matches.size()) >= fewest) continue;
-    scene.problem.pairs.pop_back();
-    scene.pairs_of_carrier.push_back(pair.pair);
+    const bool has_carrier = unturned.IsOne() && carrier != carriers.end();
+    TwoViewGeometry left = has_carrier ? unturned.Without(carrier->second) : pair;
+    if (static_cast<double>(left.inliers.size()) <
+        kLeft * static_cast<double>(pair.inliers.size())) {
+      scene.pairs_of_carrier.push_back(pair.pair);
+    } else {
+      scene.problem.pairs.push_back(std::move(left));
+    }
   }
   return scene;
 }

@@ -22,12 +22,14 @@ struct SceneAlone {
 /// of a dashboard free, 331 matches of which nearly all were that edge, between panoramas 37 m
 /// apart.
 ///
-/// Matches are fixed when the camera has turned, by the pair, and their rays by no more than
-/// `max_error_px`. Positions tell what they are: of two panoramas so far apart that what is fixed
-/// would lie two kilometres away, which streets do not see, and further than four of their sigmas.
-/// Cells of the sphere (SphereCell, 64 x 64) with fixed matches of three such pairs of a drive hold
-/// its carrier; fixed matches there are left out of all its pairs, and so are pairs of which less
-/// than half is left. nullopt where there are none.
+/// A pair of one drive is unturned where its rotation is no more than `max_error_px`, and a match
+/// of it is fixed where its rays are no further apart. Positions tell what fixed matches show: of
+/// panoramas so far apart that it would lie two kilometres away, which streets do not see, and
+/// further than four of their sigmas. Cells of the sphere (SphereCell, 64 x 64) with fixed matches
+/// of three such pairs of a drive hold its carrier. Fixed matches there are left out of all
+/// unturned pairs of the drive, and so are pairs of which less than half is left: what goes on
+/// agreeing with a pose that the carrier made is no evidence for it. nullopt where no cell holds a
+/// carrier.
 [[nodiscard]] std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem,
                                                         double max_error_px);
 

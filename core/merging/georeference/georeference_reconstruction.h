@@ -23,14 +23,13 @@ namespace orbweave {
 /// GNSS carries the scale when its scatter leaves the scale uncertain by 10 % at most and is
 /// smaller than the extent of the centres (rms distance from their mean), and 70 % of the positions
 /// agree within three sigmas, of what they state or of their scatter; a phone indoors fails. A
-/// smaller majority that is none by chance
-/// (Log10FalseAlarms) is used and doubted ("gnss_agreement"): a part of the model may have come out
-/// elsewhere, and lies better in the frame of the others than in none. Drives of eight positions or
-/// more are judged without their bias. Where GNSS does not carry the scale, or few agree, but it
-/// would fit the upright model's likeness in a mirror, or runs smoothly along the sequence
-/// (MeasureGnssSmoothness) and far from the model, the reason and a bad check ("gnss_mirrored",
-/// "gnss_against_model") say so. Loose images take no part. `use` kOff: not attempted. Cancelled
-/// when asked to stop.
+/// smaller majority that is none by chance (Log10FalseAlarms) is used and doubted
+/// ("gnss_agreement"): a part of the model may have come out elsewhere, and lies better in the
+/// frame of the others than in none. Drives of eight positions or more are judged without their
+/// bias. Where GNSS does not carry the scale, or few agree, but it would fit the upright model's
+/// likeness in a mirror, or runs smoothly along the sequence (MeasureGnssSmoothness) and far from
+/// the model, the reason and a bad check ("gnss_mirrored", "gnss_against_model") say so. Loose
+/// images take no part. `use` kOff: not attempted. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<Georeference> GeoreferenceReconstruction(
     const Reconstruction& reconstruction,
     const ImageManifest& manifest,
