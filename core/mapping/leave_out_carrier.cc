@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/estimators/bearing_pairs.h"
-#include "core/estimators/two_view_inliers.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
 #include "core/mapping/model/correspondence_graph.h"
@@ -53,15 +51,12 @@ class UnturnedPair {
   [[nodiscard]] uint32_t Cell(const FeatureMatch& match) const {
     return SphereCell(a_.bearings[match.a], kCells);
   }
-  /// The pair without fixed matches in these cells.
+  /// The pair without fixed matches in these cells, otherwise as it was found.
   [[nodiscard]] TwoViewGeometry Without(const std::set<uint32_t>& cells) const {
     TwoViewGeometry scene = pair_;
     std::erase_if(scene.inliers, [&](const FeatureMatch& match) {
       return IsFixed(match) && cells.contains(Cell(match));
     });
-    if (scene.inliers.empty() || scene.inliers.size() == pair_.inliers.size()) return scene;
-    const std::vector<FeatureMatch> left = scene.inliers;
-    SetInliers(ArrangePairs(a_.bearings, b_.bearings, left, 0), left, scene);
     return scene;
   }
 

@@ -28,8 +28,9 @@ struct SceneAlone {
 /// further than four of their sigmas. Cells of the sphere (SphereCell, 64 x 64) with fixed matches
 /// of three such pairs of a drive hold its carrier. Fixed matches there are left out of all
 /// unturned pairs of the drive, and so are pairs of which less than half is left: what goes on
-/// agreeing with a pose that the carrier made is no evidence for it. nullopt where no cell holds a
-/// carrier.
+/// agreeing with a pose that the carrier made is no evidence for it. Angles and spread of a pair
+/// stay those with its carrier, which are small: models that began with such pairs fell to pieces.
+/// nullopt where no cell holds a carrier.
 [[nodiscard]] std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem,
                                                         double max_error_px);
 

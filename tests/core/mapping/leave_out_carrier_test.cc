@@ -58,7 +58,6 @@ RayStreet BehindADashboard(double spacing_m, bool random_rotations = false) {
     const std::vector<FeatureMatch> more = CarrierMatches(world.problem.images[pair.pair.a.value],
                                                           world.problem.images[pair.pair.b.value]);
     pair.inliers.insert(pair.inliers.end(), more.begin(), more.end());
-    pair.median_angle_rad = 0.0;  // as of what is fixed
   }
   for (uint32_t a = 0; a + kReach < kPanoramas; ++a) {
     const ImagePair pair{ImageId(a), ImageId(a + kReach)};
@@ -87,7 +86,6 @@ TEST(LeaveOutCarrier, LeavesTheScene) {
   size_t of_scene = 0;
   for (const TwoViewGeometry& pair : scene->problem.pairs) {
     EXPECT_LT(pair.pair.b.value - pair.pair.a.value, kReach) << "of which nothing is left";
-    EXPECT_GT(pair.median_angle_rad, 0.1);
     for (const FeatureMatch& match : pair.inliers)
       EXPECT_FALSE(IsOfCarrier(world.problem, pair.pair.a, match.a));
     left += pair.inliers.size();
