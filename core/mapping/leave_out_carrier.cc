@@ -23,21 +23,23 @@ constexpr double kFarthest_m = 2000.0;
 constexpr double kSigmasApart = 4.0;
 constexpr double kLeft = 0.5;
 
-/// A pair of one drive whose camera has not turned.
-class UnturnedPair {
+/// Drives, and cells in which their panoramas show the carrier.
+using Carriers = std::set<std::pair<uint32_t, uint32_t>>;
+
+/// A verified pair and the rays of its matches.
+class PairOfRays {
  public:
-  UnturnedPair(const ClusterProblem& problem, const TwoViewGeometry& pair, double max_error_px)
+  PairOfRays(const ClusterProblem& problem, const TwoViewGeometry& pair, double max_error_px)
       : pair_(pair),
         a_(problem.images[*SlotOf(problem, pair.pair.a)]),
         b_(problem.images[*SlotOf(problem, pair.pair.b)]),
         max_error_rad_(std::max(a_.camera.AngleFromPixels(max_error_px),
                                 b_.camera.AngleFromPixels(max_error_px))) {}
 
-  [[nodiscard]] bool IsOne() const {
+  /// Whether the images are of one drive whose camera has not turned.
+  [[nodiscard]] bool IsUnturned() const {
     return a_.drive == b_.drive && RotationAngle(pair_.b_from_a.rotation) <= max_error_rad_;
   }
-  [[nodiscard]] uint32_t Drive() const { return a_.drive; }
-
   /// Whether positions have the images so far apart that nothing they see can be fixed.
   [[nodiscard]] bool HasMovedFar() const {
     if (!a_.prior.position_in_enu || !b_.prior.position_in_enu) return false;
@@ -48,14 +50,14 @@ class UnturnedPair {
   [[nodiscard]] bool IsFixed(const FeatureMatch& match) const {
     return IsWithinAngle(a_.bearings[match.a], b_.bearings[match.b], max_error_rad_);
   }
-  [[nodiscard]] uint32_t Cell(const FeatureMatch& match) const {
-    return SphereCell(a_.bearings[match.a], kCells);
+  [[nodiscard]] Carriers::value_type Cell(const FeatureMatch& match) const {
+    return {a_.drive, SphereCell(a_.bearings[match.a], kCells)};
   }
   /// The pair without fixed matches in these cells, otherwise as it was found.
-  [[nodiscard]] TwoViewGeometry Without(const std::set<uint32_t>& cells) const {
+  [[nodiscard]] TwoViewGeometry Without(const Carriers& carriers) const {
     TwoViewGeometry scene = pair_;
     std::erase_if(scene.inliers, [&](const FeatureMatch& match) {
-      return IsFixed(match) && cells.contains(Cell(match));
+      return IsFixed(match) && carriers.contains(Cell(match));
     });
     return scene;
   }
@@ -67,22 +69,20 @@ class UnturnedPair {
   double max_error_rad_;
 };
 
-using CellsOfDrives = std::map<uint32_t, std::set<uint32_t>>;
-
-CellsOfDrives FindCarriers(const ClusterProblem& problem, double max_error_px) {
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> pairs_in_cell;  // by drive and cell
+Carriers FindCarriers(const ClusterProblem& problem, double max_error_px) {
+  std::map<Carriers::value_type, uint32_t> pairs_in_cell;
   for (const TwoViewGeometry& pair : problem.pairs) {
-    const UnturnedPair unturned(problem, pair, max_error_px);
-    if (!unturned.IsOne() || !unturned.HasMovedFar()) continue;
-    std::set<uint32_t> cells;
+    const PairOfRays rays(problem, pair, max_error_px);
+    if (!rays.IsUnturned() || !rays.HasMovedFar()) continue;
+    Carriers cells;
     for (const FeatureMatch& match : pair.inliers) {
-      if (unturned.IsFixed(match)) cells.insert(unturned.Cell(match));
+      if (rays.IsFixed(match)) cells.insert(rays.Cell(match));
     }
-    for (const uint32_t cell : cells) ++pairs_in_cell[{unturned.Drive(), cell}];
+    for (const auto& cell : cells) ++pairs_in_cell[cell];
   }
-  CellsOfDrives carriers;
-  for (const auto& [drive_and_cell, count] : pairs_in_cell) {
-    if (count >= kFewestPairs) carriers[drive_and_cell.first].insert(drive_and_cell.second);
+  Carriers carriers;
+  for (const auto& [cell, count] : pairs_in_cell) {
+    if (count >= kFewestPairs) carriers.insert(cell);
   }
   return carriers;
 }
@@ -90,14 +90,12 @@ CellsOfDrives FindCarriers(const ClusterProblem& problem, double max_error_px) {
 }  // namespace
 
 std::optional<SceneAlone> LeaveOutCarrier(const ClusterProblem& problem, double max_error_px) {
-  const CellsOfDrives carriers = FindCarriers(problem, max_error_px);
+  const Carriers carriers = FindCarriers(problem, max_error_px);
   if (carriers.empty()) return std::nullopt;
   SceneAlone scene{.problem = {.images = problem.images}};
   for (const TwoViewGeometry& pair : problem.pairs) {
-    const UnturnedPair unturned(problem, pair, max_error_px);
-    const auto carrier = carriers.find(unturned.Drive());
-    const bool has_carrier = unturned.IsOne() && carrier != carriers.end();
-    TwoViewGeometry left = has_carrier ? unturned.Without(carrier->second) : pair;
+    const PairOfRays rays(problem, pair, max_error_px);
+    TwoViewGeometry left = rays.IsUnturned() ? rays.Without(carriers) : pair;
     if (static_cast<double>(left.inliers.size()) <
         kLeft * static_cast<double>(pair.inliers.size())) {
       scene.pairs_of_carrier.push_back(pair.pair);

@@ -28,16 +28,6 @@ absl::Status CheckLength(const PairLength& length) {
                        "images of a length are out of order");
 }
 
-/// `what` they are.
-absl::StatusOr<std::vector<ImagePair>> UnpackPairs(const std::string& bytes, const char* what) {
-  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<ImagePair> pairs, codec::Unpack<ImagePair>(bytes, what));
-  for (const ImagePair& pair : pairs) {
-    if (!(pair.a < pair.b))
-      return absl::DataLossError("cluster reconstruction: images of a pair out of order");
-  }
-  return pairs;
-}
-
 absl::Status CheckLength(const GapLength& length) {
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.agreement));
   ORBWEAVE_RETURN_IF_ERROR(CheckAgreement(length.matches));
@@ -46,6 +36,15 @@ absl::Status CheckLength(const GapLength& length) {
                            codec::IsAmount(length.elsewhere) && codec::IsAmount(length.scale_jump),
                        "cluster reconstruction",
                        "a way leads nowhere, or its rays are no number");
+}
+
+absl::StatusOr<std::vector<ImagePair>> UnpackPairs(const std::string& bytes, const char* what) {
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<ImagePair> pairs, codec::Unpack<ImagePair>(bytes, what));
+  for (const ImagePair& pair : pairs) {
+    if (!(pair.a < pair.b))
+      return absl::DataLossError("cluster reconstruction: images of a pair out of order");
+  }
+  return pairs;
 }
 
 }  // namespace

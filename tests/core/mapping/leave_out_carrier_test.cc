@@ -61,7 +61,6 @@ RayStreet BehindADashboard(double spacing_m, bool random_rotations = false) {
   }
   for (uint32_t a = 0; a + kReach < kPanoramas; ++a) {
     const ImagePair pair{ImageId(a), ImageId(a + kReach)};
-    if (std::ranges::find(pairs, pair, &TwoViewGeometry::pair) != pairs.end()) continue;
     pairs.push_back(
         {.pair = pair,
          .kind = TwoViewKind::kGeneral,
