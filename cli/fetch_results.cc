@@ -18,6 +18,7 @@
 #include "stages/plans.h"
 #include "stages/reconstruct_cluster/stage.h"
 #include "stages/review_seams/stage.h"
+#include "stages/select_image_pairs/stage.h"
 #include "stages/select_wider_pairs/stage.h"
 
 namespace orbweave {
@@ -33,12 +34,20 @@ std::vector<std::string> ImageProblems(const JobReader& job) {
   return problems;
 }
 
-/// Nothing of a job on given matches.
+/// Not by a job on given matches.
+bool SelectsPairs(const JobPlan& plan) {
+  const std::string_view stage = SelectImagePairsStage::kFacts.name;
+  return std::ranges::find(plan.stages, stage, &StageRule::stage) != plan.stages.end();
+}
+
 absl::StatusOr<std::optional<WiderPairs>> FetchWiderPairs(const JobPlan& plan, JobReader& job) {
-  const std::string_view stage = SelectWiderPairsStage::kFacts.name;
-  if (std::ranges::find(plan.stages, stage, &StageRule::stage) == plan.stages.end())
-    return std::nullopt;
+  if (!SelectsPairs(plan)) return std::nullopt;
   return job.Read(&SelectWiderPairsStage::Outputs::wider);
+}
+
+absl::StatusOr<std::vector<Carrier>> ReadCarriers(const JobPlan& plan, JobReader& job) {
+  if (!SelectsPairs(plan)) return std::vector<Carrier>{};
+  return job.Read(&SelectImagePairsStage::Outputs::carriers);
 }
 
 absl::StatusOr<std::vector<ClusterSummary>> FetchClusters(JobReader& job) {
@@ -93,6 +102,14 @@ absl::StatusOr<ImageManifest> FetchManifest(BlobAccess& coordinator,
   return manifest;
 }
 
+absl::StatusOr<std::vector<Carrier>> FetchCarriers(BlobAccess& coordinator,
+                                                   const JobSpec& job,
+                                                   const std::vector<TaskOutcome>& outcomes) {
+  ORBWEAVE_ASSIGN_OR_RETURN(const JobPlan plan, FindJobPlan(job.kind));
+  JobReader reader(plan, job, outcomes, coordinator);
+  return ReadCarriers(plan, reader);
+}
+
 absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
                                         const JobSpec& job,
                                         const std::vector<TaskOutcome>& outcomes,
@@ -104,6 +121,8 @@ absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
   ORBWEAVE_RETURN_IF_ERROR(CheckManifest(results.manifest));
   results.image_problems = ImageProblems(reader);
   results.image_problems.resize(results.manifest.images.size());
+  ORBWEAVE_ASSIGN_OR_RETURN(results.carriers, ReadCarriers(plan, reader));
+  ORBWEAVE_RETURN_IF_ERROR(CheckCarriers(results.carriers, results.manifest));
   ORBWEAVE_ASSIGN_OR_RETURN(results.wider_pairs, FetchWiderPairs(plan, reader));
   ORBWEAVE_ASSIGN_OR_RETURN(results.view_graph,
                             reader.Read(&PartitionViewGraphStage::Outputs::divided));

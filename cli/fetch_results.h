@@ -30,6 +30,10 @@ class ModelListener {
                                                       const std::vector<TaskOutcome>& outcomes,
                                                       ModelListener* listener);
 
+/// What goes along with the cameras, where the job looked for it. NotFound: it has not come so far.
+[[nodiscard]] absl::StatusOr<std::vector<Carrier>> FetchCarriers(
+    BlobAccess& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes);
+
 /// The names of every image's features, in id order.
 [[nodiscard]] absl::StatusOr<std::vector<Digest>> FetchFeatureNames(
     BlobAccess& coordinator, const JobSpec& job, const std::vector<TaskOutcome>& outcomes);

@@ -30,6 +30,7 @@ struct ImageFacts {
   std::optional<JobResults> results{};
   std::optional<JobReport> report{};
   std::map<FeatureIndex, FeatureInModel> tracked{};
+  size_t num_of_carrier = 0;  ///< features that were not matched
 };
 
 ImageId Partner(const ImagePair& pair, ImageId image) { return pair.a == image ? pair.b : pair.a; }
@@ -47,6 +48,8 @@ absl::StatusOr<ImageFacts> GatherFacts(InspectedJob& job, ImageId image) {
   ORBWEAVE_RETURN_IF_ERROR(job.FeatureNames().status());
   ORBWEAVE_ASSIGN_OR_RETURN(facts.features,
                             FetchFeatures(job.blobs(), job.FeatureNames()->at(image.value)));
+  ORBWEAVE_ASSIGN_OR_RETURN(const SceneFeatures scene, job.FetchScene(image));
+  facts.num_of_carrier = facts.features.size() - scene.index.size();
   TracksOfImages tracks({image});
   ORBWEAVE_ASSIGN_OR_RETURN(facts.results, job.Results(tracks));
   if (facts.results) facts.report = BuildJobReport(*facts.results);
@@ -56,7 +59,11 @@ absl::StatusOr<ImageFacts> GatherFacts(InspectedJob& job, ImageId image) {
 
 std::string FeaturesText(const ImageFacts& facts) {
   if (!facts.features.problem.empty()) return "none: " + facts.features.problem;
-  return absl::StrFormat("%u, of which %u in tracks", facts.features.size(), facts.tracked.size());
+  std::string text = absl::StrFormat("%u", facts.features.size());
+  if (facts.num_of_carrier > 0)
+    absl::StrAppendFormat(
+        &text, ", of which %u go along with the camera and were not matched", facts.num_of_carrier);
+  return text + absl::StrFormat(", and %u in tracks", facts.tracked.size());
 }
 
 std::string ModelText(const ImageFacts& facts) {

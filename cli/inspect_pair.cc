@@ -36,6 +36,8 @@ struct PairFacts {
   std::optional<JobResults> results{};
   uint32_t common_points = 0;
   std::string remark{};  ///< on the pixels
+  SceneFeatures a{};     ///< by whose numbers the inspection names features
+  SceneFeatures b{};
 
   [[nodiscard]] ImageId First() const { return is_swapped ? pair.b : pair.a; }
   [[nodiscard]] ImageId Second() const { return is_swapped ? pair.a : pair.b; }
@@ -74,6 +76,12 @@ std::optional<Vector3d> Baseline(const PairFacts& facts) {
   return SecondFromFirst(facts).Centre().normalized();
 }
 
+/// Of a feature that was matched.
+FeatureIndex NumberInScene(const SceneFeatures& scene, FeatureIndex feature) {
+  return static_cast<FeatureIndex>(std::ranges::lower_bound(scene.index, feature) -
+                                   scene.index.begin());
+}
+
 absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId second) {
   const ImagePair pair = MakePair(first, second);
   PairFacts facts{.pair = pair, .is_swapped = second < first};
@@ -84,23 +92,25 @@ absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId 
       }));
   facts.was_tried = !pairs.tried.empty();
   facts.was_verified = !pairs.verified.empty();
-  ORBWEAVE_RETURN_IF_ERROR(job.FeatureNames().status());
-  const Digest name_a = job.FeatureNames()->at(pair.a.value);
-  const Digest name_b = job.FeatureNames()->at(pair.b.value);
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features a, FetchFeatures(job.blobs(), name_a));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features b, FetchFeatures(job.blobs(), name_b));
+  ORBWEAVE_ASSIGN_OR_RETURN(facts.a, job.FetchScene(pair.a));
+  ORBWEAVE_ASSIGN_OR_RETURN(facts.b, job.FetchScene(pair.b));
   std::optional<TwoViewGeometry> verified;
-  if (facts.was_verified) verified = pairs.verified.front();
+  if (facts.was_verified) {
+    verified = pairs.verified.front();
+    for (FeatureMatch& match : verified->inliers)
+      match = {NumberInScene(facts.a, match.a), NumberInScene(facts.b, match.b)};
+  }
   ORBWEAVE_ASSIGN_OR_RETURN(
       facts.inspection,
       InspectPair(pair,
-                  PairSide(a),
-                  PairSide(b),
+                  PairSide(facts.a.features),
+                  PairSide(facts.b.features),
                   facts.was_tried ? pairs.tried.front().matches : std::vector<FeatureMatch>{},
                   verified,
                   job.options().matching,
                   job.options().two_view,
-                  {.seed = PairSeed(name_a, name_b)}));
+                  {.seed = PairSeed(job.FeatureNames()->at(pair.a.value),
+                                    job.FeatureNames()->at(pair.b.value))}));
   TracksOfImages tracks({pair.a, pair.b});
   ORBWEAVE_ASSIGN_OR_RETURN(facts.results, job.Results(tracks));
   facts.common_points = tracks.num_common();
@@ -272,11 +282,9 @@ std::vector<PictureMatch> PictureMatches(const std::vector<FeatureMatch>& matche
 }
 
 absl::StatusOr<std::string> Draw(InspectedJob& job, PairFacts& facts) {
-  const ImagePair& pair = facts.pair;
   const PairInspection& inspection = facts.inspection;
-  const std::vector<Digest>& names = *job.FeatureNames();
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features a, FetchFeatures(job.blobs(), names[pair.a.value]));
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features b, FetchFeatures(job.blobs(), names[pair.b.value]));
+  const Features& a = facts.a.features;
+  const Features& b = facts.b.features;
   const Eigen::Quaterniond& R = inspection.geometry.b_from_a.rotation;
   PairPicture picture{
       .a = job.Picture(facts.First(), facts.remark),

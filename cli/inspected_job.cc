@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inspected_job.h"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include "cli/finished_job.h"
@@ -31,6 +33,15 @@ absl::StatusOr<std::vector<Digest>> NamesOfFeatures(BlobAccess& coordinator,
   return absl::FailedPreconditionError("the job stopped before all features were extracted");
 }
 
+/// None while nobody looked for them.
+absl::StatusOr<std::vector<Carrier>> CarriersSoFar(BlobAccess& coordinator,
+                                                   const JobSpec& job,
+                                                   const std::vector<TaskOutcome>& outcomes) {
+  absl::StatusOr<std::vector<Carrier>> carriers = FetchCarriers(coordinator, job, outcomes);
+  if (absl::IsNotFound(carriers.status())) return std::vector<Carrier>{};
+  return carriers;
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<InspectedJob>> InspectedJob::Open(const std::string& output,
@@ -48,6 +59,8 @@ absl::StatusOr<std::unique_ptr<InspectedJob>> InspectedJob::Open(const std::stri
   }
   ORBWEAVE_RETURN_IF_ERROR(manifest.status());
   job->manifest_ = *std::move(manifest);
+  ORBWEAVE_ASSIGN_OR_RETURN(job->carriers_,
+                            CarriersSoFar(*job->coordinator_, spec, job->outcomes_));
   job->names_ = NamesOfFeatures(
       *job->coordinator_, job->status_, job->outcomes_, job->manifest_.images.size());
   return job;
@@ -58,6 +71,16 @@ absl::StatusOr<std::optional<JobResults>> InspectedJob::Results(ModelListener& l
   ORBWEAVE_ASSIGN_OR_RETURN(JobResults results,
                             FetchResults(*coordinator_, status_.spec, outcomes_, &listener));
   return results;
+}
+
+absl::StatusOr<SceneFeatures> InspectedJob::FetchScene(ImageId image) {
+  ORBWEAVE_RETURN_IF_ERROR(names_.status());
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features features,
+                            FetchFeatures(*coordinator_, names_->at(image.value)));
+  std::span<const uint32_t> cells;
+  for (const Carrier& carrier : carriers_)
+    if (std::ranges::binary_search(carrier.images, image)) cells = carrier.cells;
+  return HideCarrier(features, cells);
 }
 
 PictureImage InspectedJob::Picture(ImageId image, std::string& remark) {

@@ -10,6 +10,7 @@
 #include "cli/fetch_results.h"
 #include "coordinator/coordinator.h"
 #include "core/drawing/picture_image.h"
+#include "core/features/hide_carrier.h"
 #include "stages/pipeline_options.h"
 
 namespace orbweave {
@@ -34,6 +35,9 @@ class InspectedJob {
   /// FailedPrecondition: they have not been extracted.
   [[nodiscard]] const absl::StatusOr<std::vector<Digest>>& FeatureNames() const { return names_; }
 
+  /// What of the image's features was matched: without those of what goes along with the camera.
+  [[nodiscard]] absl::StatusOr<SceneFeatures> FetchScene(ImageId image);
+
   /// The image's file, where the job has it and it still is what it was: else without pixels, and
   /// `remark` says why in a sentence.
   [[nodiscard]] PictureImage Picture(ImageId image, std::string& remark);
@@ -47,6 +51,7 @@ class InspectedJob {
   PipelineOptions options_{};
   ImageManifest manifest_{};
   absl::StatusOr<std::vector<Digest>> names_{std::vector<Digest>{}};
+  std::vector<Carrier> carriers_{};
 };
 
 /// `name` as part of a file's name: without folders and ending, and with '_' for what a shell or a

@@ -6,6 +6,7 @@
 
 #include "core/pipeline/job_plan.h"
 #include "proto/codec/adjustment_codec.h"
+#include "proto/codec/carrier_codec.h"
 #include "proto/codec/features_codec.h"
 #include "proto/codec/inspection_codec.h"
 #include "proto/codec/manifest_codec.h"
@@ -82,6 +83,13 @@ struct Codec<PairCandidates> {
   static constexpr std::string_view kName = "pair_candidates";
   static constexpr auto Encode = EncodePairCandidates;
   static constexpr auto Decode = DecodePairCandidates;
+};
+
+template <>
+struct Codec<std::vector<Carrier>> {
+  static constexpr std::string_view kName = "carriers";
+  static constexpr auto Encode = EncodeCarriers;
+  static constexpr auto Decode = DecodeCarriers;
 };
 
 template <>

@@ -65,6 +65,7 @@ VerifiedImages AddImageStages(const SparseJob& job, PlanBuilder& plan) {
       plan.Add(SelectImagePairsStage{.manifest = ingested.manifest, .features = features});
   const auto listed =
       plan.Add(ListPairsStage{.candidates = pairs.candidates,
+                              .carriers = pairs.carriers,
                               .features = features,
                               .wider = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider)});
   const auto matched = plan.Add(MatchImagesStage{.run = listed.runs});

@@ -56,7 +56,7 @@ absl::StatusOr<std::vector<Digest>> PutMatches(BlobDepot& depot,
   for (size_t i = 0; i < feature_blobs.size(); i += 2) features.push_back(feature_blobs[i]);
   std::vector<Digest> recipes;
   for (const MatchRecipe& recipe :
-       PlanMatching(std::move(pairs), features, kPairsPerVerification)) {
+       PlanMatching(std::move(pairs), features, {}, kPairsPerVerification)) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Digest digest, PutBlob(recipe, depot));
     recipes.push_back(digest);
   }

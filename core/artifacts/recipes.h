@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/digest.h"
+#include "core/scene/carrier.h"
 #include "core/scene/ids.h"
 #include "core/scene/predicted_pose.h"
 
@@ -46,6 +47,7 @@ struct MatchRecipe {
   };
   std::vector<FeatureFile> images{};  ///< of all images in `pairs`, sorted
   std::vector<Pair> pairs{};          ///< sorted
+  std::vector<Carrier> carriers{};    ///< of these images; what is in their cells is not matched
 };
 
 /// Where GNSS and its drive have an image (PositionsByMotion), in the job's local frame.

@@ -16,7 +16,6 @@
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/find_small_motions.h"
 #include "core/mapping/join_by_bridges.h"
-#include "core/mapping/leave_out_carrier.h"
 #include "core/mapping/lengths/asked_rays.h"
 #include "core/mapping/lengths/gnss_ways.h"
 #include "core/mapping/lengths/matches_in_planes.h"
@@ -172,12 +171,6 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       return ReconstructCluster(*alike, stated, context);
   }
   if (ScheduleOf(stated).tightens) {
-    if (auto scene = LeaveOutCarrier(problem, stated.max_error_px)) {
-      ORBWEAVE_ASSIGN_OR_RETURN(ClusterReconstruction result,
-                                ReconstructCluster(scene->problem, stated, context));
-      result.pairs_of_carrier = std::move(scene->pairs_of_carrier);
-      return result;
-    }
     if (const auto told = FindSmallMotions(problem))
       return ReconstructCluster(*told, stated, context);
   }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "absl/strings/str_format.h"
 #include "core/report/check_contradicted_pairs.h"
 #include "core/report/check_hinges.h"
 #include "core/report/check_job.h"
@@ -116,19 +117,19 @@ void TellWeakCuts(const Partition& partition, JobReport& report) {
   }
 }
 
-/// Pairs in which the mapper found little but what goes along with the camera.
+/// What was not matched as it goes along with the camera.
 void TellCarriers(const JobResults& results, JobReport& report) {
-  std::set<ImagePair> pairs;
-  for (const ClusterSummary& cluster : results.clusters)
-    pairs.insert(cluster.pairs_of_carrier.begin(), cluster.pairs_of_carrier.end());
-  if (pairs.empty()) return;
-  report.warnings.push_back(
-      std::to_string(pairs.size()) +
-      " verified pairs show little but what goes along with the camera, as GNSS has it moved "
-      "between them, and are left out; for example " +
-      results.manifest.At(pairs.begin()->a).name + " and " +
-      results.manifest.At(pairs.begin()->b).name +
-      "; a mask over it (--masks) leaves its features to the street");
+  if (results.carriers.empty()) return;
+  const Carrier& largest = *std::ranges::max_element(
+      results.carriers, {}, [](const Carrier& carrier) { return carrier.cells.size(); });
+  const double share = static_cast<double>(largest.cells.size()) / kNumCarrierCells;
+  report.warnings.push_back(absl::StrFormat(
+      "what goes along with the camera shows in up to %.1f %% of what it sees around it (drives: "
+      "%u, for example that of %s), and is not matched there; a mask over it (--masks) leaves its "
+      "features to the street",
+      100.0 * share,
+      results.carriers.size(),
+      results.manifest.At(largest.images.front()).name));
 }
 
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {
@@ -293,7 +294,6 @@ ClusterSummary SummariseCluster(const ClusterResult& result) {
                          .not_registered = cluster.not_registered,
                          .contradicted_pairs = cluster.contradicted_pairs,
                          .explained_pairs = cluster.explained_pairs,
-                         .pairs_of_carrier = cluster.pairs_of_carrier,
                          .pair_lengths = cluster.pair_lengths,
                          .gap_lengths = cluster.gap_lengths,
                          .residual_rms_px = cluster.residual_rms_px};

@@ -23,6 +23,12 @@ absl::Status CheckManifest(const ImageManifest& manifest) {
   return absl::OkStatus();
 }
 
+absl::Status CheckCarriers(const std::vector<Carrier>& carriers, const ImageManifest& manifest) {
+  for (const Carrier& carrier : carriers)
+    ORBWEAVE_RETURN_IF_ERROR(CheckImages(carrier.images, manifest, "a carrier"));
+  return absl::OkStatus();
+}
+
 absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
                            const Partition& partition,
                            const ImageManifest& manifest) {
@@ -38,8 +44,7 @@ absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
       for (const ImageId& image : {length.between.a, length.between.b})
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&image, 1}, manifest, whose));
     }
-    for (const auto* pairs :
-         {&cluster.contradicted_pairs, &cluster.explained_pairs, &cluster.pairs_of_carrier}) {
+    for (const auto* pairs : {&cluster.contradicted_pairs, &cluster.explained_pairs}) {
       for (const ImagePair& pair : *pairs) {
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.a, 1}, manifest, whose));
         ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.b, 1}, manifest, whose));

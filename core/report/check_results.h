@@ -18,6 +18,10 @@ namespace orbweave {
 /// Images lie where their ids say.
 [[nodiscard]] absl::Status CheckManifest(const ImageManifest& manifest);
 
+/// They are of images of the manifest.
+[[nodiscard]] absl::Status CheckCarriers(const std::vector<Carrier>& carriers,
+                                         const ImageManifest& manifest);
+
 /// Each is one of the partition's, and speaks of images of the manifest.
 [[nodiscard]] absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
                                          const Partition& partition,

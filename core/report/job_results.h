@@ -16,6 +16,7 @@
 #include "core/merging/checks/certify_seams.h"
 #include "core/merging/checks/find_hinges.h"
 #include "core/partitioned_ba/global_options.h"
+#include "core/scene/carrier.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/pair_candidates.h"
 #include "core/scene/reconstruction.h"
@@ -33,7 +34,6 @@ struct ClusterSummary {
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};
   std::vector<ImagePair> explained_pairs{};
-  std::vector<ImagePair> pairs_of_carrier{};
   std::vector<PairLength> pair_lengths{};
   std::vector<GapLength> gap_lengths{};
   double residual_rms_px = 0.0;
@@ -52,6 +52,7 @@ struct JobResults {
   ImageManifest manifest{};
   std::vector<std::string>
       image_problems{};  ///< per image: why it has no features, mostly empty; or empty list
+  std::vector<Carrier> carriers{};          ///< whose features were not matched
   std::optional<WiderPairs> wider_pairs{};  ///< absent: matches were given
   DividedViewGraph view_graph{};
   std::vector<ClusterSummary> clusters{};

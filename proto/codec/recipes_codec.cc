@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "proto/codec/carrier_codec.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/pack_matrices.h"
 #include "proto/codec/plausible.h"
@@ -115,6 +116,7 @@ absl::StatusOr<std::string> EncodeMatchRecipe(const MatchRecipe& recipe) {
     out->set_matches(codec::Pack(pair.matches));
     if (pair.predicted) codec::ToProto(*pair.predicted, out->mutable_predicted());
   }
+  codec::ToProto(recipe.carriers, proto.mutable_carriers());
   return codec::Serialize(proto, "match recipe");
 }
 
@@ -133,6 +135,12 @@ absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes) {
       return absl::DataLossError("match recipe: a pair out of order or without its images");
     }
     recipe.pairs.push_back(std::move(pair));
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(recipe.carriers, codec::FromProto(proto.carriers()));
+  for (const Carrier& carrier : recipe.carriers) {
+    for (const ImageId id : carrier.images)
+      if (!Lists(recipe.images, id))
+        return absl::DataLossError("match recipe: carrier of no image");
   }
   return recipe;
 }

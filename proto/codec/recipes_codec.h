@@ -14,7 +14,7 @@ namespace orbweave {
 [[nodiscard]] absl::StatusOr<ExtractRecipe> DecodeExtractRecipe(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeMatchRecipe(const MatchRecipe& recipe);
-/// DataLoss: a pair out of order or of an image the recipe does not list.
+/// DataLoss: a pair out of order, or a pair or a carrier of an image the recipe does not list.
 [[nodiscard]] absl::StatusOr<MatchRecipe> DecodeMatchRecipe(std::string_view bytes);
 
 [[nodiscard]] absl::StatusOr<std::string> EncodeClusterRecipe(const ClusterRecipe& recipe);

@@ -78,7 +78,6 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_image_b(pair.b.value);
   }
   proto.set_explained_pairs(codec::Pack(result.reconstruction.explained_pairs));
-  proto.set_pairs_of_carrier(codec::Pack(result.reconstruction.pairs_of_carrier));
   for (const PairLength& length : result.reconstruction.pair_lengths) {
     v1::PairLength* out = proto.add_pair_lengths();
     out->set_image_a(length.pair.a.value);
@@ -132,8 +131,6 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
   }
   ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.explained_pairs,
                             UnpackPairs(proto.explained_pairs(), "explained pairs"));
-  ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.pairs_of_carrier,
-                            UnpackPairs(proto.pairs_of_carrier(), "pairs of the carrier"));
   for (const v1::PairLength& length : proto.pair_lengths()) {
     result.reconstruction.pair_lengths.push_back(
         {.pair = {ImageId(length.image_a()), ImageId(length.image_b())},

@@ -19,6 +19,8 @@ constexpr size_t kPairsPerTask = 16;
 absl::Status ListPairsStage::Run(StageTask<ListPairsStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const PairCandidates candidates,
                             task.Read(&ListPairsStage::candidates));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Carrier> carriers,
+                            task.Read(&ListPairsStage::carriers));
   ORBWEAVE_ASSIGN_OR_RETURN(const InterleavedDigests features,
                             task.Read(&ListPairsStage::features));
   ORBWEAVE_ASSIGN_OR_RETURN(const WiderPairs wider, task.Read(&ListPairsStage::wider));
@@ -31,7 +33,7 @@ absl::Status ListPairsStage::Run(StageTask<ListPairsStage>& task) {
   const auto leave = [&](std::vector<MatchRecipe::Pair> listed) {
     count += listed.size();
     return task.LeaveAll(&Outputs::runs,
-                         PlanMatching(std::move(listed), features.first, kPairsPerTask));
+                         PlanMatching(std::move(listed), features.first, carriers, kPairsPerTask));
   };
   for (const std::vector<ImagePair>* pairs : {&candidates.first, &wider.second, &wider.reserve}) {
     std::vector<MatchRecipe::Pair> listed;

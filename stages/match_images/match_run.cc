@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
+#include "core/features/hide_carrier.h"
 #include "stages/codecs.h"
 #include "stages/match_images/pair_seed.h"
 #include "stages/stage_task.h"
@@ -14,19 +16,38 @@
 namespace orbweave {
 namespace {
 
+/// An image without what goes along with its camera.
 struct LoadedImage {
   PairSide side;
+  std::vector<FeatureIndex> index;  ///< in the image's own features, of each of the side's
   Digest digest{};
 };
 
-absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const std::vector<FeatureFile>& files,
+std::map<ImageId, std::span<const uint32_t>> CellsByImage(const std::vector<Carrier>& carriers) {
+  std::map<ImageId, std::span<const uint32_t>> cells;
+  for (const Carrier& carrier : carriers)
+    for (const ImageId id : carrier.images) cells[id] = carrier.cells;
+  return cells;
+}
+
+absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const MatchRecipe& recipe,
                                                           BlobAccess& blobs) {
+  auto cells = CellsByImage(recipe.carriers);
   std::map<ImageId, LoadedImage> images;
-  for (const FeatureFile& file : files) {
-    ORBWEAVE_ASSIGN_OR_RETURN(Features features, FetchBlob<Features>(file.features, blobs));
-    images.emplace(file.image, LoadedImage{PairSide(std::move(features)), file.features});
+  for (const FeatureFile& file : recipe.images) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const Features features, FetchBlob<Features>(file.features, blobs));
+    SceneFeatures scene = HideCarrier(features, cells[file.image]);
+    images.emplace(file.image,
+                   LoadedImage{.side = PairSide(std::move(scene.features)),
+                               .index = std::move(scene.index),
+                               .digest = file.features});
   }
   return images;
+}
+
+/// Names features as the images themselves do.
+void CountAllFeatures(const LoadedImage& a, const LoadedImage& b, TwoViewGeometry& geometry) {
+  for (FeatureMatch& match : geometry.inliers) match = {a.index[match.a], b.index[match.b]};
 }
 
 StageContext PairContext(const StageContext& context, const LoadedImage& a, const LoadedImage& b) {
@@ -48,7 +69,7 @@ absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
                                     const MatchOptions& match_options,
                                     const TwoViewOptions& two_view_options,
                                     const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const auto images, LoadImages(recipe.images, blobs));
+  ORBWEAVE_ASSIGN_OR_RETURN(const auto images, LoadImages(recipe, blobs));
   MatchedRun run;
   size_t putative = 0;
   size_t done = 0;
@@ -70,6 +91,7 @@ absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
     putative += geometry.num_putative;
     if (geometry.kind != TwoViewKind::kNone) {
       run.matched.push_back(WithoutMatches(geometry, a.side, b.side, two_view_options));
+      CountAllFeatures(a, b, geometry);
       run.verified.push_back(std::move(geometry));
     }
     context.Report(++done, recipe.pairs.size(), "pairs");

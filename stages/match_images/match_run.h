@@ -18,9 +18,10 @@ struct MatchedRun {
   std::string report_json{};
 };
 
-/// MatchImagePair for each pair of a recipe. A pair's seed follows from the content of its two
-/// images: it gets the same answer in any task. InvalidArgument: a match names a keypoint that its
-/// image does not have. Errors of `blobs`.
+/// MatchImagePair for each pair of a recipe, without what goes along with the cameras
+/// (HideCarrier). A pair's seed follows from the content of its two images: it gets the same answer
+/// in any task. InvalidArgument: a match names a keypoint that its image does not have. Errors of
+/// `blobs`.
 [[nodiscard]] absl::StatusOr<MatchedRun> MatchRun(const MatchRecipe& recipe,
                                                   BlobAccess& blobs,
                                                   const MatchOptions& match_options,

@@ -7,6 +7,7 @@
 #include "core/features/retrieve_images.h"
 #include "core/graph/list_pair_candidates.h"
 #include "stages/codecs.h"
+#include "stages/select_image_pairs/find_carriers.h"
 
 namespace orbweave {
 namespace {
@@ -53,9 +54,15 @@ absl::Status SelectImagePairsStage::Run(StageTask<SelectImagePairsStage>& task) 
   for (std::vector<ImagePair>* pairs : {&candidates.first, &candidates.second, &candidates.reserve})
     RemoveBlindImages(places, *pairs);
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::candidates, candidates).status());
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<Carrier> carriers,
+                            FindCarriers(manifest, [&](ImageId id) {
+                              return task.Fetch<Features>(features.first[id.value]);
+                            }));
+  ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::carriers, carriers).status());
   task.Report(nlohmann::json{{"first", candidates.first.size()},
                              {"second", candidates.second.size()},
-                             {"reserve", candidates.reserve.size()}}
+                             {"reserve", candidates.reserve.size()},
+                             {"carriers", carriers.size()}}
                   .dump());
   return absl::OkStatus();
 }

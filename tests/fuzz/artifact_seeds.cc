@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "core/pipeline/job_plan.h"
+#include "proto/codec/carrier_codec.h"
 #include "proto/codec/features_codec.h"
 #include "proto/codec/manifest_codec.h"
 #include "proto/codec/pairs_codec.h"
@@ -59,6 +60,8 @@ void AddViewGraph(Seeds& seeds) {
   const std::vector<ImagePair> pairs = {{ImageId(0), ImageId(3)}, {ImageId(1), ImageId(2)}};
   seeds["pair_candidates"] = {
       EncodePairCandidates({.first = pairs, .second = pairs, .reserve = pairs}).value()};
+  seeds["carriers"] = {
+      EncodeCarriers({{.images = {ImageId(0), ImageId(3)}, .cells = {7, 4095}}}).value()};
   const Rigid3& pose = pair.b_from_a;
   seeds["matched_pairs"] = {
       EncodeMatchedPairs({{.pair = pairs[0], .kind = TwoViewKind::kGeneral, .b_from_a = pose},

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "proto/codec/carrier_codec.h"
+
 namespace orbweave {
 namespace {
 
@@ -23,6 +25,18 @@ TEST(PairsCodec, KeepsEveryListOfCandidates) {
   EXPECT_EQ(out->first, in.first);
   EXPECT_EQ(out->second, in.second);
   EXPECT_TRUE(out->reserve.empty());
+}
+
+TEST(CarrierCodec, KeepsCarriersAndRefusesWhatIsNone) {
+  const std::vector<Carrier> in = {{.images = {ImageId(0), ImageId(3)}, .cells = {7, 4095}},
+                                   {.images = {ImageId(9)}, .cells = {0}}};
+  const auto out = DecodeCarriers(EncodeCarriers(in).value());
+  ASSERT_TRUE(out.ok()) << out.status();
+  EXPECT_EQ(*out, in);
+  for (const Carrier& wrong : {Carrier{.cells = {kNumCarrierCells}},
+                               Carrier{.cells = {7, 7}},
+                               Carrier{.images = {ImageId(3), ImageId(0)}}})
+    EXPECT_TRUE(absl::IsDataLoss(DecodeCarriers(EncodeCarriers({wrong}).value()).status()));
 }
 
 const Rigid3 kPose = {Eigen::Quaterniond(0.6, 0.0, 0.8, 0.0), {0.0, 0.6, 0.8}};

@@ -18,6 +18,7 @@
 #include "orbweave/v1/artifacts.pb.h"
 #include "orbweave/v1/dense.pb.h"
 #include "proto/codec/adjustment_codec.h"
+#include "proto/codec/carrier_codec.h"
 #include "proto/codec/dense_bulk_codec.h"
 #include "proto/codec/dense_codec.h"
 #include "proto/codec/features_codec.h"
@@ -91,6 +92,7 @@ std::map<std::string, Artifact> Artifacts() {
        ArtifactOf<v1::Partition>(DecodeDividedViewGraph, EncodeDividedViewGraph)},
       {"pair_candidates",
        ArtifactOf<v1::PairCandidates>(DecodePairCandidates, EncodePairCandidates)},
+      {"carriers", ArtifactOf<v1::Carriers>(DecodeCarriers, EncodeCarriers)},
       {"matched_pairs", ArtifactOf<v1::MatchedPairs>(DecodeMatchedPairs, EncodeMatchedPairs)},
       {"wider_pairs", ArtifactOf<v1::WiderPairs>(DecodeWiderPairs, EncodeWiderPairs)},
       {"match_recipe", ArtifactOf<v1::MatchRecipe>(DecodeMatchRecipe, EncodeMatchRecipe)},

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/random_features.h"
 #include "tests/support/random_world.h"
 
 namespace orbweave {
@@ -36,52 +37,36 @@ struct Sides {
   Features b{.camera = {4096, 2048}};
 };
 
-std::vector<uint8_t> RandomDescriptor(Random& random) {
-  std::vector<double> values(kDescriptorSize);
-  double squares = 0.0;
-  for (double& value : values) {
-    value = std::pow(random.Uniform(), 3.0);
-    squares += value * value;
-  }
-  std::vector<uint8_t> descriptor;
-  for (const double value : values)
-    descriptor.push_back(static_cast<uint8_t>(std::lround(value * 512.0 / std::sqrt(squares))));
-  return descriptor;
-}
-
-void Append(Features& features,
-            const Eigen::Vector3d& bearing,
-            float scale_px,
-            const std::vector<uint8_t>& descriptor) {
-  const Eigen::Vector2d pixel = features.camera.PixelFromBearing(bearing);
-  features.keypoints.push_back(
-      {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), scale_px, 0.0F});
-  features.descriptors.insert(features.descriptors.end(), descriptor.begin(), descriptor.end());
-}
-
 Sides MakeSides(uint64_t seed, const Common& common) {
   Random random(seed);
   Sides sides{.b_from_a = {testing::RandomRotation(random), testing::RandomDirection(random)}};
   const auto add_common = [&](size_t count, float scale_px) {
     for (size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d point = testing::RandomPoint(random, 2.0, 10.0);
-      const std::vector<uint8_t> descriptor = RandomDescriptor(random);
-      Append(sides.a, point.normalized(), scale_px, descriptor);
-      Append(sides.b, testing::BearingOf(sides.b_from_a, point), scale_px, descriptor);
+      const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
+      testing::AppendFeature(sides.a, point.normalized(), descriptor, scale_px);
+      testing::AppendFeature(
+          sides.b, testing::BearingOf(sides.b_from_a, point), descriptor, scale_px);
     }
   };
   add_common(common.large, kLargeScale_px);
   add_common(common.small, kSmallScale_px);
   for (size_t i = 0; i < common.alike; ++i) {
-    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
+    const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
     for (Features* side : {&sides.a, &sides.b})
-      Append(*side, testing::RandomDirection(random), kLargeScale_px, descriptor);
+      testing::AppendFeature(*side, testing::RandomDirection(random), descriptor, kLargeScale_px);
   }
   for (Features* side : {&sides.a, &sides.b}) {
     for (size_t i = common.large + common.alike; i < kLarge; ++i)
-      Append(*side, testing::RandomDirection(random), kLargeScale_px, RandomDescriptor(random));
+      testing::AppendFeature(*side,
+                             testing::RandomDirection(random),
+                             testing::RandomDescriptor(random),
+                             kLargeScale_px);
     for (size_t i = common.small; i < kSmall; ++i)
-      Append(*side, testing::RandomDirection(random), kSmallScale_px, RandomDescriptor(random));
+      testing::AppendFeature(*side,
+                             testing::RandomDirection(random),
+                             testing::RandomDescriptor(random),
+                             kSmallScale_px);
   }
   return sides;
 }
@@ -131,9 +116,10 @@ void AddFacades(Sides& sides, uint64_t seed, size_t right) {
   for (Features* side : {&sides.a, &sides.b}) side->view.assign(side->size(), 0);
   for (size_t i = 0; i < right; ++i) {
     const Eigen::Vector3d point = testing::RandomPoint(random, 2.0, 10.0);
-    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
-    Append(sides.a, point.normalized(), kSmallScale_px, descriptor);
-    Append(sides.b, testing::BearingOf(sides.b_from_a, point), kSmallScale_px, descriptor);
+    const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
+    testing::AppendFeature(sides.a, point.normalized(), descriptor, kSmallScale_px);
+    testing::AppendFeature(
+        sides.b, testing::BearingOf(sides.b_from_a, point), descriptor, kSmallScale_px);
     for (Features* side : {&sides.a, &sides.b})
       side->view.push_back(static_cast<uint8_t>(1 + 8 * i / right));
   }
@@ -207,12 +193,12 @@ std::pair<Rigid3, Rigid3> AddBoth(Sides& sides, size_t standing, size_t leaning)
                         Eigen::Vector3d(0.6, 0.8, 0.0)};
   for (size_t i = 0; i < standing + leaning; ++i) {
     const Eigen::Vector3d point = testing::RandomPoint(random, 2.0, 10.0);
-    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
-    Append(sides.a, point.normalized(), kSmallScale_px, descriptor);
-    Append(sides.b,
-           testing::BearingOf(i < standing ? stands : leans, point),
-           kSmallScale_px,
-           descriptor);
+    const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
+    testing::AppendFeature(sides.a, point.normalized(), descriptor, kSmallScale_px);
+    testing::AppendFeature(sides.b,
+                           testing::BearingOf(i < standing ? stands : leans, point),
+                           descriptor,
+                           kSmallScale_px);
   }
   return {stands, leans};
 }

@@ -36,12 +36,14 @@ struct MatchingJob {
   static constexpr std::string_view kKind = "matching";
   One<ImageManifest> manifest;
   One<PairCandidates> candidates;
+  One<std::vector<Carrier>> carriers;
   Interleaved<Features, PlaceSample> features;
 
   template <typename Visitor>
   static void VisitPorts(Visitor&& visit) {
     visit("manifest", &MatchingJob::manifest);
     visit("candidates", &MatchingJob::candidates);
+    visit("carriers", &MatchingJob::carriers);
     visit("features", &MatchingJob::features);
   }
 };
@@ -50,8 +52,10 @@ JobPlan MatchingPlan() {
   PlanBuilder plan(MatchingJob::kKind);
   const auto job = InputsOf<MatchingJob>();
   const auto wider = OutputsOf<SelectWiderPairsStage>().wider;
-  const auto listed = plan.Add(ListPairsStage{
-      .candidates = job.candidates, .features = job.features, .wider = RoundBefore(wider)});
+  const auto listed = plan.Add(ListPairsStage{.candidates = job.candidates,
+                                              .carriers = job.carriers,
+                                              .features = job.features,
+                                              .wider = RoundBefore(wider)});
   const auto matched = plan.Add(MatchImagesStage{.run = listed.runs});
   plan.Add(SelectWiderPairsStage{.manifest = job.manifest,
                                  .candidates = job.candidates,
@@ -80,12 +84,14 @@ class Matching {
     candidates_ = ListPairCandidates(manifest, {}, 0, {});
     std::vector<Digest> features;
     for (uint32_t i = 0; i < 2 * kImages; ++i) features.push_back(DigestOf(std::to_string(i)));
-    job_ = {.kind = std::string(MatchingJob::kKind),
-            .inputs = JobInputs<MatchingJob>()
-                          .Set(&MatchingJob::manifest, PutBlob(manifest, blobs_).value())
-                          .Set(&MatchingJob::candidates, PutBlob(candidates_, blobs_).value())
-                          .Set(&MatchingJob::features, PutBlob(features, blobs_).value())
-                          .InOrder()};
+    job_ = {
+        .kind = std::string(MatchingJob::kKind),
+        .inputs = JobInputs<MatchingJob>()
+                      .Set(&MatchingJob::manifest, PutBlob(manifest, blobs_).value())
+                      .Set(&MatchingJob::candidates, PutBlob(candidates_, blobs_).value())
+                      .Set(&MatchingJob::carriers, PutBlob(std::vector<Carrier>{}, blobs_).value())
+                      .Set(&MatchingJob::features, PutBlob(features, blobs_).value())
+                      .InOrder()};
   }
 
   void Run() {

@@ -21,7 +21,7 @@ TEST(PlanMatching, CutsPairsIntoRunsThatListTheirImages) {
   std::vector<MatchRecipe::Pair> pairs;
   for (uint32_t i = 0; i < 10; ++i) pairs.push_back({{ImageId(i), ImageId(i + 1)}, {}});
   const auto digests = SomeDigests(11);
-  const auto recipes = PlanMatching(pairs, digests, 4);
+  const auto recipes = PlanMatching(pairs, digests, {}, 4);
   ASSERT_EQ(recipes.size(), 3U);
   EXPECT_EQ(recipes[0].pairs.size(), 4U);
   EXPECT_EQ(recipes[2].pairs.size(), 2U);
@@ -30,7 +30,7 @@ TEST(PlanMatching, CutsPairsIntoRunsThatListTheirImages) {
   EXPECT_EQ(recipes[1].images[0].features, digests[4]);
 }
 
-TEST(PlanMatching, MakesNoTaskOfNoPairs) { EXPECT_TRUE(PlanMatching({}, {}, 4).empty()); }
+TEST(PlanMatching, MakesNoTaskOfNoPairs) { EXPECT_TRUE(PlanMatching({}, {}, {}, 4).empty()); }
 
 TEST(PlanClusters, GivesEachClusterItsEdgesAndTheirBlobs) {
   ViewGraph graph{.num_images = 5};

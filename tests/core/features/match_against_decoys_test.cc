@@ -10,6 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/features/find_nearest_two.h"
+#include "tests/support/random_features.h"
 
 namespace orbweave {
 namespace {
@@ -18,35 +19,6 @@ using Eigen::Vector3d;
 
 constexpr EquirectangularCamera kCamera{.width_px = 2048, .height_px = 1024};
 const double kMaxErrorRad = kCamera.AngleFromPixels(4.0);
-
-std::vector<uint8_t> RandomDescriptor(Random& random) {
-  std::vector<double> values(kDescriptorSize);
-  double squares = 0.0;
-  for (double& value : values) {
-    value = std::pow(random.Uniform(), 3.0);
-    squares += value * value;
-  }
-  std::vector<uint8_t> descriptor;
-  for (const double value : values)
-    descriptor.push_back(static_cast<uint8_t>(std::lround(value * 512.0 / std::sqrt(squares))));
-  return descriptor;
-}
-
-/// The descriptor as another day shows it.
-std::vector<uint8_t> Changed(Random& random, std::vector<uint8_t> descriptor, double noise) {
-  for (uint8_t& value : descriptor) {
-    const double changed = value + noise * random.Normal();
-    value = static_cast<uint8_t>(std::clamp(changed, 0.0, 255.0));
-  }
-  return descriptor;
-}
-
-void Append(Features& features, const Vector3d& ray, const std::vector<uint8_t>& descriptor) {
-  const Eigen::Vector2d pixel = features.camera.PixelFromBearing(ray);
-  features.keypoints.push_back(
-      {.x_px = static_cast<float>(pixel.x()), .y_px = static_cast<float>(pixel.y())});
-  features.descriptors.insert(features.descriptors.end(), descriptor.begin(), descriptor.end());
-}
 
 struct Scene {
   Features a{.camera = kCamera};
@@ -63,13 +35,14 @@ Scene MakeScene(uint64_t seed, int num_common, int num_others) {
   Scene scene;
   for (int i = 0; i < num_common; ++i) {
     const Vector3d point = random.Uniform(2.0, 20.0) * direction();
-    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
-    Append(scene.a, point, descriptor);
-    Append(scene.b, scene.b_from_a * point, Changed(random, descriptor, 8.0));
+    const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
+    testing::AppendFeature(scene.a, point, descriptor);
+    testing::AppendFeature(
+        scene.b, scene.b_from_a * point, testing::ChangedDescriptor(random, descriptor, 8.0));
   }
   for (int i = 0; i < num_others; ++i) {
-    Append(scene.a, direction(), RandomDescriptor(random));
-    Append(scene.b, direction(), RandomDescriptor(random));
+    testing::AppendFeature(scene.a, direction(), testing::RandomDescriptor(random));
+    testing::AppendFeature(scene.b, direction(), testing::RandomDescriptor(random));
   }
   return scene;
 }

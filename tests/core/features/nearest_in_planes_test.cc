@@ -17,6 +17,7 @@
 #include "core/geometry/rigid3.h"
 #include "core/geometry/rotation.h"
 #include "tests/core/features/squared_distance.h"
+#include "tests/support/random_features.h"
 
 namespace orbweave {
 namespace {
@@ -25,29 +26,6 @@ using std::numbers::pi;
 
 constexpr EquirectangularCamera kCamera{.width_px = 4000, .height_px = 2000};
 const double kMaxErrorRad = kCamera.AngleFromPixels(4.0);
-
-std::vector<uint8_t> RandomDescriptor(Random& random) {
-  std::vector<double> values(kDescriptorSize);
-  double squares = 0.0;
-  for (double& value : values) {
-    value = std::pow(random.Uniform(), 3.0);
-    squares += value * value;
-  }
-  std::vector<uint8_t> descriptor;
-  for (const double value : values) {
-    descriptor.push_back(static_cast<uint8_t>(std::lround(value * 512.0 / std::sqrt(squares))));
-  }
-  return descriptor;
-}
-
-void Append(Features& features,
-            const Eigen::Vector3d& point_in_cam,
-            const std::vector<uint8_t>& descriptor) {
-  const Eigen::Vector2d pixel = features.camera.PixelFromBearing(point_in_cam);
-  features.keypoints.push_back(
-      {.x_px = static_cast<float>(pixel.x()), .y_px = static_cast<float>(pixel.y())});
-  features.descriptors.insert(features.descriptors.end(), descriptor.begin(), descriptor.end());
-}
 
 struct Scene {
   Features a{.camera = kCamera};
@@ -79,9 +57,9 @@ Scene MakeScene(uint64_t seed, int count) {
     const Eigen::Vector3d direction =
         Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
     const Eigen::Vector3d point = random.Uniform(1.0, 20.0) * direction;
-    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
-    Append(scene.a, point, descriptor);
-    Append(scene.b, scene.b_from_a * point, descriptor);
+    const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
+    testing::AppendFeature(scene.a, point, descriptor);
+    testing::AppendFeature(scene.b, scene.b_from_a * point, descriptor);
   }
   return scene;
 }
@@ -101,9 +79,9 @@ TEST(NearestInPlanes, FindsPointsOnTheBaselineItself) {
   scene.b_from_a.translation = {0.0, 0.0, -1.0};  // b one step ahead of a
   Random random(7);
   for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 5), Eigen::Vector3d(0, 0, -5)}) {
-    const std::vector<uint8_t> descriptor = RandomDescriptor(random);
-    Append(scene.a, point, descriptor);
-    Append(scene.b, scene.b_from_a * point, descriptor);
+    const std::vector<uint8_t> descriptor = testing::RandomDescriptor(random);
+    testing::AppendFeature(scene.a, point, descriptor);
+    testing::AppendFeature(scene.b, scene.b_from_a * point, descriptor);
   }
   EXPECT_EQ(MatchGuided(scene.a, scene.b, scene.b_from_a, kMaxErrorRad, {}),
             (std::vector<FeatureMatch>{{0, 0}, {1, 1}}));

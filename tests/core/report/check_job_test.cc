@@ -107,16 +107,13 @@ TEST(JudgeModel, ImagesLeftOutMakeItDoubtfulThenBad) {
   EXPECT_EQ(Reported(Street(36, {{0, 17}})).verdict.level, CheckLevel::kBad);
 }
 
-TEST(BuildJobReport, SaysThatPairsShowTheCarrierAlone) {
+TEST(BuildJobReport, SaysWhatWasNotMatchedAsItGoesAlong) {
   JobResults results = Street(9, {{0, 9}});
-  EXPECT_THAT(BuildJobReport(results).warnings, IsEmpty());
-  results.view_graph.partition.clusters.resize(2);  // which share a pair
-  results.clusters = {{.cluster = 0}, {.cluster = 1}};
-  results.clusters[0].pairs_of_carrier = {{ImageId(2), ImageId(5)}, {ImageId(3), ImageId(6)}};
-  results.clusters[1].pairs_of_carrier = {{ImageId(3), ImageId(6)}};
+  results.carriers = {{.images = {ImageId(2), ImageId(3)}, .cells = std::vector<uint32_t>(41)},
+                      {.images = {ImageId(5), ImageId(6)}, .cells = std::vector<uint32_t>(1024)}};
   EXPECT_THAT(BuildJobReport(results).warnings,
-              ElementsAre(AllOf(HasSubstr("2 verified pairs show little but what goes along"),
-                                HasSubstr("pano_2.jpg and pano_5.jpg"),
+              ElementsAre(AllOf(HasSubstr("up to 25.0 % of what it sees"),
+                                HasSubstr("drives: 2, for example that of pano_5.jpg"),
                                 HasSubstr("--masks"))));
 }
 

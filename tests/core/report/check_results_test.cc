@@ -56,9 +56,7 @@ TEST(CheckResults, RefusesImagesThatThereAreNot) {
   std::vector<ClusterSummary> pairs = Reconstructed();
   pairs[0].explained_pairs = {{ImageId(0), ImageId(9)}};
   ExpectDamaged(CheckClusters(pairs, TwoClusters(), Images(3)), "image 9 of 3");
-  pairs = Reconstructed();
-  pairs[0].pairs_of_carrier = {{ImageId(0), ImageId(8)}};
-  ExpectDamaged(CheckClusters(pairs, TwoClusters(), Images(3)), "image 8 of 3");
+  ExpectDamaged(CheckCarriers({{.images = {ImageId(6)}}}, Images(3)), "image 6 of 3");
 }
 
 TEST(CheckResults, RefusesClustersAndSubmodelsThatThereAreNot) {

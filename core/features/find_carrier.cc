@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/features/find_carrier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/geometry/rotation.h"
+#include "core/geometry/sphere_cells.h"
+#include "core/scene/carrier.h"
+
+namespace orbweave {
+namespace {
+
+constexpr double kFixed_rad = 0.5 * std::numbers::pi / 180.0;
+constexpr double kFarthest_m = 2000.0;
+constexpr double kSigmasApart = 4.0;
+constexpr int32_t kSame = 205;  // 0.4 of a unit descriptor
+constexpr double kFewestPairs = 3.0;
+constexpr double kShareOfPairs = 0.05;
+constexpr double kShareBesideOthers = 0.01;
+
+bool AreFarApart(const PlacedPanorama& a, const PlacedPanorama& b) {
+  const double apart_m = (b.position_in_enu - a.position_in_enu).norm();
+  return apart_m >=
+         std::max(kFarthest_m * kFixed_rad, kSigmasApart * std::hypot(a.sigma_m, b.sigma_m));
+}
+
+bool AreSame(const uint8_t* a, const uint8_t* b) {
+  int32_t squared = 0;
+  for (int i = 0; i < kDescriptorSize; ++i) {
+    const int32_t difference = int32_t{a[i]} - int32_t{b[i]};
+    squared += difference * difference;
+  }
+  return squared <= kSame * kSame;
+}
+
+/// The features of a panorama, those of facade views too, cell by cell.
+class FeaturesByCell {
+ public:
+  explicit FeaturesByCell(const Features& features)
+      : features_(features), bearings_(BearingsOf(features)), in_cell_(kNumCarrierCells) {
+    for (FeatureIndex i = 0; i < features.size(); ++i)
+      in_cell_[SphereCell(bearings_[i], kCarrierCells)].push_back(i);
+  }
+
+  /// Whether a feature of the cell is fixed.
+  [[nodiscard]] bool SharesOneWith(const FeaturesByCell& other, uint32_t cell) const {
+    return std::ranges::any_of(in_cell_[cell], [&](FeatureIndex i) {
+      return std::ranges::any_of(other.in_cell_[cell], [&](FeatureIndex j) {
+        return IsWithinAngle(bearings_[i], other.bearings_[j], kFixed_rad) &&
+               AreSame(features_.Descriptor(i), other.features_.Descriptor(j));
+      });
+    });
+  }
+
+ private:
+  const Features& features_;
+  std::vector<Eigen::Vector3d> bearings_;
+  std::vector<std::vector<FeatureIndex>> in_cell_;
+};
+
+/// In how many of the pairs each cell has fixed features.
+struct FixedPairs {
+  std::vector<double> in_cell = std::vector<double>(kNumCarrierCells);
+  double all = 0.0;
+};
+
+FixedPairs CountFixedPairs(std::span<const PlacedPanorama> panoramas) {
+  std::vector<FeaturesByCell> by_cell;
+  for (const PlacedPanorama& panorama : panoramas) by_cell.emplace_back(panorama.features);
+  FixedPairs pairs;
+  for (size_t a = 0; a < panoramas.size(); ++a) {
+    for (size_t b = a + 1; b < panoramas.size(); ++b) {
+      if (!AreFarApart(panoramas[a], panoramas[b])) continue;
+      ++pairs.all;
+      for (uint32_t cell = 0; cell < kNumCarrierCells; ++cell)
+        if (by_cell[a].SharesOneWith(by_cell[b], cell)) ++pairs.in_cell[cell];
+    }
+  }
+  return pairs;
+}
+
+/// The eight cells round one, fewer beside a pole.
+std::vector<uint32_t> CellsAround(uint32_t cell) {
+  const int band = static_cast<int>(cell) / kCarrierCells;
+  const int sector = static_cast<int>(cell) % kCarrierCells;
+  std::vector<uint32_t> around;
+  for (int b = std::max(band - 1, 0); b <= std::min(band + 1, kCarrierCells - 1); ++b) {
+    for (const int s : {sector + kCarrierCells - 1, sector, sector + 1})
+      if (b != band || s != sector)
+        around.push_back(static_cast<uint32_t>(b * kCarrierCells + s % kCarrierCells));
+  }
+  return around;
+}
+
+}  // namespace
+
+std::vector<uint32_t> FindCarrier(std::span<const PlacedPanorama> panoramas) {
+  const FixedPairs pairs = CountFixedPairs(panoramas);
+  const auto has = [&](uint32_t cell, double share) {
+    return pairs.in_cell[cell] >= std::max(kFewestPairs, share * pairs.all);
+  };
+  std::set<uint32_t> carrier;
+  std::vector<uint32_t> to_grow;
+  const auto take = [&](uint32_t cell) {
+    if (carrier.insert(cell).second) to_grow.push_back(cell);
+  };
+  for (uint32_t cell = 0; cell < kNumCarrierCells; ++cell)
+    if (has(cell, kShareOfPairs)) take(cell);
+  while (!to_grow.empty()) {
+    const std::vector<uint32_t> around = CellsAround(to_grow.back());
+    to_grow.pop_back();
+    for (const uint32_t cell : around)
+      if (has(cell, kShareBesideOthers)) take(cell);
+  }
+  return {carrier.begin(), carrier.end()};
+}
+
+}  // namespace orbweave
