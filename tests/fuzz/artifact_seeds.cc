@@ -88,9 +88,10 @@ void AddRecipes(Seeds& seeds) {
   const Digest digest = DigestOf("blob");
   const std::vector<FeatureFile> images = {{ImageId(1), digest}, {ImageId(4), digest}};
   seeds["extract_recipe"] = {EncodeExtractRecipe({.image = digest, .mask = digest}).value()};
-  seeds["match_recipe"] = {
-      EncodeMatchRecipe({.images = images, .pairs = {{{ImageId(1), ImageId(4)}, {{3, 4}}}}})
-          .value()};
+  seeds["match_recipe"] = {EncodeMatchRecipe({.images = images,
+                                              .pairs = {{{ImageId(1), ImageId(4)}, {{3, 4}}}},
+                                              .carriers = {{.images = {ImageId(4)}, .cells = {7}}}})
+                               .value()};
   seeds["cluster_recipe"] = {EncodeClusterRecipe({.cluster = 3,
                                                   .images = images,
                                                   .drives = {0, 7},
