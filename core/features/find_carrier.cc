@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
-#include "core/geometry/rotation.h"
 #include "core/geometry/sphere_cells.h"
 #include "core/scene/carrier.h"
 
 namespace orbweave {
 namespace {
 
-constexpr double kFixed_rad = 0.5 * std::numbers::pi / 180.0;
+constexpr double kFixed_rad = 0.5 * std::numbers::pi / 180.0;  // of which the chord is as long
 constexpr double kFarthest_m = 2000.0;
 constexpr double kSigmasApart = 4.0;
 constexpr int32_t kSame = 205;  // 0.4 of a unit descriptor
@@ -42,25 +42,36 @@ bool AreSame(const uint8_t* a, const uint8_t* b) {
 class FeaturesByCell {
  public:
   explicit FeaturesByCell(const Features& features)
-      : features_(features), bearings_(BearingsOf(features)), in_cell_(kNumCarrierCells) {
-    for (FeatureIndex i = 0; i < features.size(); ++i)
-      in_cell_[SphereCell(bearings_[i], kCarrierCells)].push_back(i);
+      : features_(features), first_(kNumCarrierCells + 1) {
+    const std::vector<Eigen::Vector3d> bearings = BearingsOf(features);
+    std::vector<uint32_t> cells;
+    for (const Eigen::Vector3d& bearing : bearings)
+      cells.push_back(SphereCell(bearing, kCarrierCells));
+    for (const uint32_t cell : cells) ++first_[cell + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    order_.resize(cells.size());
+    std::iota(order_.begin(), order_.end(), FeatureIndex{0});
+    std::ranges::stable_sort(order_, {}, [&](FeatureIndex i) { return cells[i]; });
+    for (const FeatureIndex i : order_) bearings_.push_back(bearings[i]);
   }
 
   /// Whether a feature of the cell is fixed.
   [[nodiscard]] bool SharesOneWith(const FeaturesByCell& other, uint32_t cell) const {
-    return std::ranges::any_of(in_cell_[cell], [&](FeatureIndex i) {
-      return std::ranges::any_of(other.in_cell_[cell], [&](FeatureIndex j) {
-        return IsWithinAngle(bearings_[i], other.bearings_[j], kFixed_rad) &&
-               AreSame(features_.Descriptor(i), other.features_.Descriptor(j));
-      });
-    });
+    for (uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      for (uint32_t j = other.first_[cell]; j < other.first_[cell + 1]; ++j) {
+        if ((bearings_[i] - other.bearings_[j]).squaredNorm() <= kFixed_rad * kFixed_rad &&
+            AreSame(features_.Descriptor(order_[i]), other.features_.Descriptor(other.order_[j])))
+          return true;
+      }
+    }
+    return false;
   }
 
  private:
   const Features& features_;
-  std::vector<Eigen::Vector3d> bearings_;
-  std::vector<std::vector<FeatureIndex>> in_cell_;
+  std::vector<uint32_t> first_;            ///< by cell, and the end of the last one
+  std::vector<FeatureIndex> order_;        ///< of the cells
+  std::vector<Eigen::Vector3d> bearings_;  ///< in this order
 };
 
 /// In how many of the pairs each cell has fixed features.
