@@ -38,11 +38,13 @@ bool AreSame(const uint8_t* a, const uint8_t* b) {
   return squared <= kSame * kSame;
 }
 
-/// The features of a panorama, those of facade views too, cell by cell.
+/// The features of a panorama, those of facade views too, cell by cell; none where they are not
+/// described.
 class FeaturesByCell {
  public:
   explicit FeaturesByCell(const Features& features)
       : features_(features), first_(kNumCarrierCells + 1) {
+    if (features.descriptors.empty()) return;
     const std::vector<Eigen::Vector3d> bearings = BearingsOf(features);
     std::vector<uint32_t> cells;
     for (const Eigen::Vector3d& bearing : bearings)

@@ -111,6 +111,12 @@ TEST(FindCarrier, IsSilentWhereTheCameraMayHaveStood) {
   EXPECT_THAT(FindCarrier({}), IsEmpty());
 }
 
+TEST(FindCarrier, IsSilentOfFeaturesThatNobodyDescribed) {
+  Drive drive = AlongAStreet(10.0, kOfCarrier);
+  for (PlacedPanorama& panorama : drive.panoramas) panorama.features.descriptors.clear();
+  EXPECT_THAT(FindCarrier(drive.panoramas), IsEmpty());
+}
+
 TEST(FindCarrier, TwoPairsAreNotEnough) {
   Drive drive = AlongAStreet(100.0, kOfCarrier);
   drive.panoramas.resize(2);
