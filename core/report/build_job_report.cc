@@ -27,6 +27,8 @@
 namespace orbweave {
 namespace {
 
+constexpr double kWorthAMask = 0.01;  // of what a camera sees around it
+
 /// Image rows as far as the partition knows them.
 std::vector<ReportImage> StartRows(const JobResults& results) {
   std::vector<ReportImage> rows(results.manifest.images.size());
@@ -117,12 +119,14 @@ void TellWeakCuts(const Partition& partition, JobReport& report) {
   }
 }
 
-/// What was not matched as it goes along with the camera.
+/// What was not matched as it goes along with the camera, where it is worth a mask: the shadow of a
+/// car is a few thousandths.
 void TellCarriers(const JobResults& results, JobReport& report) {
   if (results.carriers.empty()) return;
   const Carrier& largest = *std::ranges::max_element(
       results.carriers, {}, [](const Carrier& carrier) { return carrier.cells.size(); });
   const double share = static_cast<double>(largest.cells.size()) / kNumCarrierCells;
+  if (share < kWorthAMask) return;
   report.warnings.push_back(absl::StrFormat(
       "what goes along with the camera shows in up to %.1f %% of what it sees around it (drives: "
       "%u, for example that of %s), and is not matched there; a mask over it (--masks) leaves its "

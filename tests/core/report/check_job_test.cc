@@ -115,6 +115,9 @@ TEST(BuildJobReport, SaysWhatWasNotMatchedAsItGoesAlong) {
               ElementsAre(AllOf(HasSubstr("up to 25.0 % of what it sees"),
                                 HasSubstr("drives: 2, for example that of pano_5.jpg"),
                                 HasSubstr("--masks"))));
+  results.carriers.resize(1);
+  results.carriers[0].cells.resize(40);
+  EXPECT_THAT(BuildJobReport(results).warnings, IsEmpty()) << "of less than a hundredth";
 }
 
 TEST(JudgeModel, OneImageLeftOutOfAFewIsWithinTheLimit) {
