@@ -19,6 +19,8 @@ constexpr double kFixed_rad = 0.5 * std::numbers::pi / 180.0;  // of which the c
 constexpr double kFarthest_m = 2000.0;
 constexpr double kSigmasApart = 4.0;
 constexpr int32_t kSame = 205;  // 0.4 of a unit descriptor
+constexpr double kRatio = 0.8;
+constexpr int kReach = 2;  // cells: seven degrees
 constexpr double kFewestPairs = 3.0;
 constexpr double kShareOfPairs = 0.05;
 constexpr double kShareBesideOthers = 0.01;
@@ -29,13 +31,26 @@ bool AreFarApart(const PlacedPanorama& a, const PlacedPanorama& b) {
          std::max(kFarthest_m * kFixed_rad, kSigmasApart * std::hypot(a.sigma_m, b.sigma_m));
 }
 
-bool AreSame(const uint8_t* a, const uint8_t* b) {
+int32_t SquaredDistance(const uint8_t* a, const uint8_t* b) {
   int32_t squared = 0;
   for (int i = 0; i < kDescriptorSize; ++i) {
     const int32_t difference = int32_t{a[i]} - int32_t{b[i]};
     squared += difference * difference;
   }
-  return squared <= kSame * kSame;
+  return squared;
+}
+
+/// The cells at most `reach` bands and sectors from one, itself among them; fewer beside a pole.
+std::vector<uint32_t> CellsAround(uint32_t cell, int reach) {
+  const int band = static_cast<int>(cell) / kCarrierCells;
+  const int sector = static_cast<int>(cell) % kCarrierCells;
+  std::vector<uint32_t> around;
+  for (int b = std::max(band - reach, 0); b <= std::min(band + reach, kCarrierCells - 1); ++b) {
+    for (int s = sector - reach; s <= sector + reach; ++s)
+      around.push_back(
+          static_cast<uint32_t>(b * kCarrierCells + (s + kCarrierCells) % kCarrierCells));
+  }
+  return around;
 }
 
 /// The features of a panorama, those of facade views too, cell by cell; none where they are not
@@ -61,15 +76,38 @@ class FeaturesByCell {
   [[nodiscard]] bool SharesOneWith(const FeaturesByCell& other, uint32_t cell) const {
     for (uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
       for (uint32_t j = other.first_[cell]; j < other.first_[cell + 1]; ++j) {
-        if ((bearings_[i] - other.bearings_[j]).squaredNorm() <= kFixed_rad * kFixed_rad &&
-            AreSame(features_.Descriptor(order_[i]), other.features_.Descriptor(other.order_[j])))
-          return true;
+        if (!IsWithin(kFixed_rad, bearings_[i], other.bearings_[j])) continue;
+        const int32_t squared = SquaredDistance(Descriptor(i), other.Descriptor(j));
+        if (squared <= kSame * kSame && !IsLike(i, other, cell, squared)) return true;
       }
     }
     return false;
   }
 
  private:
+  static bool IsWithin(double angle_rad, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return (a - b).squaredNorm() <= angle_rad * angle_rad;
+  }
+  [[nodiscard]] const uint8_t* Descriptor(uint32_t i) const {
+    return features_.Descriptor(order_[i]);
+  }
+  /// Whether feature i of the cell looks like what the other has beside the same place as well, but
+  /// for the ratio that matches are to have.
+  [[nodiscard]] bool IsLike(uint32_t i,
+                            const FeaturesByCell& other,
+                            uint32_t cell,
+                            int32_t squared_at_place) const {
+    for (const uint32_t near : CellsAround(cell, kReach)) {
+      for (uint32_t k = other.first_[near]; k < other.first_[near + 1]; ++k) {
+        if (IsWithin(2.0 * kFixed_rad, bearings_[i], other.bearings_[k])) continue;
+        if (kRatio * kRatio * SquaredDistance(Descriptor(i), other.Descriptor(k)) <
+            squared_at_place)
+          return true;
+      }
+    }
+    return false;
+  }
+
   const Features& features_;
   std::vector<uint32_t> first_;            ///< by cell, and the end of the last one
   std::vector<FeatureIndex> order_;        ///< of the cells
@@ -97,19 +135,6 @@ FixedPairs CountFixedPairs(std::span<const PlacedPanorama> panoramas) {
   return pairs;
 }
 
-/// The eight cells round one, fewer beside a pole.
-std::vector<uint32_t> CellsAround(uint32_t cell) {
-  const int band = static_cast<int>(cell) / kCarrierCells;
-  const int sector = static_cast<int>(cell) % kCarrierCells;
-  std::vector<uint32_t> around;
-  for (int b = std::max(band - 1, 0); b <= std::min(band + 1, kCarrierCells - 1); ++b) {
-    for (const int s : {sector + kCarrierCells - 1, sector, sector + 1})
-      if (b != band || s != sector)
-        around.push_back(static_cast<uint32_t>(b * kCarrierCells + s % kCarrierCells));
-  }
-  return around;
-}
-
 }  // namespace
 
 std::vector<uint32_t> FindCarrier(std::span<const PlacedPanorama> panoramas) {
@@ -125,7 +150,7 @@ std::vector<uint32_t> FindCarrier(std::span<const PlacedPanorama> panoramas) {
   for (uint32_t cell = 0; cell < kNumCarrierCells; ++cell)
     if (has(cell, kShareOfPairs)) take(cell);
   while (!to_grow.empty()) {
-    const std::vector<uint32_t> around = CellsAround(to_grow.back());
+    const std::vector<uint32_t> around = CellsAround(to_grow.back(), 1);
     to_grow.pop_back();
     for (const uint32_t cell : around)
       if (has(cell, kShareBesideOthers)) take(cell);

@@ -119,8 +119,7 @@ void TellWeakCuts(const Partition& partition, JobReport& report) {
   }
 }
 
-/// What was not matched as it goes along with the camera, where it is worth a mask: the shadow of a
-/// car is a few thousandths.
+/// What was not matched as it goes along with the camera, where that is worth a mask.
 void TellCarriers(const JobResults& results, JobReport& report) {
   if (results.carriers.empty()) return;
   const Carrier& largest = *std::ranges::max_element(

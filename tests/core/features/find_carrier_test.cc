@@ -103,6 +103,20 @@ TEST(FindCarrier, IsSilentWhereNothingIsFixed) {
   EXPECT_THAT(FindCarrier(turning.panoramas), IsEmpty());
 }
 
+TEST(FindCarrier, IsSilentAlongAKerb) {
+  Drive drive = AlongAStreet(10.0, 0);
+  Random random(11);
+  const std::vector<uint8_t> look = testing::RandomDescriptor(random);
+  for (PlacedPanorama& panorama : drive.panoramas) {
+    for (int k = 0; k < 200; ++k) {  // seen at the same angles from wherever one drives
+      const double along_m = random.Uniform(-8.0, 8.0);
+      testing::AppendFeature(
+          panorama.features, {3.0, 2.0, along_m}, testing::ChangedDescriptor(random, look, 5.0));
+    }
+  }
+  EXPECT_THAT(FindCarrier(drive.panoramas), IsEmpty());
+}
+
 TEST(FindCarrier, IsSilentWhereTheCameraMayHaveStood) {
   EXPECT_THAT(FindCarrier(AlongAStreet(0.5, kOfCarrier).panoramas), IsEmpty());
   Drive vague = AlongAStreet(10.0, kOfCarrier);
