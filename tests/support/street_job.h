@@ -33,7 +33,7 @@ inline JobSpec StreetJob(const CorridorOptions& corridor,
   std::vector<MatchRecipe::Pair> pairs;
   for (const PairMatches& pair : street.pairs) pairs.push_back({pair.pair, pair.matches});
   std::vector<Digest> recipes;
-  for (const MatchRecipe& recipe : PlanMatching(std::move(pairs), names, 64))
+  for (const MatchRecipe& recipe : PlanMatching(std::move(pairs), names, {}, 64))
     recipes.push_back(PutBlob(recipe, blobs).value());
   PipelineOptions options;
   for (const std::string& assignment : assignments)
