@@ -25,13 +25,14 @@ struct PlacedPanorama {
 /// within half a degree of it in the same cell, and nothing within seven degrees looks as much like
 /// it (ratio 0.8): along a kerb or the eaves of a straight street all looks alike. Of two panoramas
 /// that positions have so far apart that a thing would have to be two kilometres away to seem
-/// fixed, and further than four of their sigmas, features of the scene hardly ever are: 1.5 of
-/// 10,000 per pair of a town's streets, of which 1.2 by chance, as many as when one of the two is
-/// turned by a tenth of the circle; across a dashboard 430, and 1 by chance. A cell with fixed
-/// features in a twentieth of these pairs, three at least, is the carrier's, and so is one beside
-/// such a cell with a hundredth: a driver moves, and light changes. Twenty-four panoramas across
-/// that dashboard leave fixed what chance leaves in the town. Where a street goes straight on for
-/// the whole of a drive, hills beyond its end and clouds are taken for a part of the carrier.
+/// fixed, and further than four of their sigmas, features of the scene hardly ever are: by place
+/// and descriptor alone 1.5 of 10,000 per pair of a town's streets, of which 1.2 by chance, as many
+/// as when one of the two is turned by a tenth of the circle; across a dashboard 430, and 1 by
+/// chance. A cell with fixed features in a twentieth of these pairs, three at least, is the
+/// carrier's, and so is one beside such a cell with a hundredth: a driver moves, and light changes.
+/// Twenty-four panoramas across that dashboard leave twice as much fixed as the town has. Where a
+/// street goes straight on for the whole of a drive, hills beyond its end and clouds are taken for
+/// a part of the carrier.
 [[nodiscard]] std::vector<uint32_t> FindCarrier(std::span<const PlacedPanorama> panoramas);
 
 }  // namespace orbweave
