@@ -45,11 +45,8 @@ absl::StatusOr<ImageFacts> GatherFacts(InspectedJob& job, ImageId image) {
   std::ranges::stable_sort(facts.pairs.verified, std::ranges::greater{}, [](const auto& geometry) {
     return geometry.inliers.size();
   });
-  ORBWEAVE_RETURN_IF_ERROR(job.FeatureNames().status());
-  ORBWEAVE_ASSIGN_OR_RETURN(facts.features,
-                            FetchFeatures(job.blobs(), job.FeatureNames()->at(image.value)));
-  ORBWEAVE_ASSIGN_OR_RETURN(const SceneFeatures scene, job.FetchScene(image));
-  facts.num_of_carrier = facts.features.size() - scene.index.size();
+  ORBWEAVE_ASSIGN_OR_RETURN(facts.features, job.FetchFeaturesOf(image));
+  facts.num_of_carrier = facts.features.size() - job.SceneOf(image, facts.features).index.size();
   TracksOfImages tracks({image});
   ORBWEAVE_ASSIGN_OR_RETURN(facts.results, job.Results(tracks));
   if (facts.results) facts.report = BuildJobReport(*facts.results);
@@ -59,11 +56,12 @@ absl::StatusOr<ImageFacts> GatherFacts(InspectedJob& job, ImageId image) {
 
 std::string FeaturesText(const ImageFacts& facts) {
   if (!facts.features.problem.empty()) return "none: " + facts.features.problem;
-  std::string text = absl::StrFormat("%u", facts.features.size());
+  std::string text =
+      absl::StrFormat("%u, of which %u in tracks", facts.features.size(), facts.tracked.size());
   if (facts.num_of_carrier > 0)
     absl::StrAppendFormat(
-        &text, ", of which %u go along with the camera and were not matched", facts.num_of_carrier);
-  return text + absl::StrFormat(", and %u in tracks", facts.tracked.size());
+        &text, "; %u go along with the camera and were not matched", facts.num_of_carrier);
+  return text;
 }
 
 std::string ModelText(const ImageFacts& facts) {

@@ -92,8 +92,10 @@ absl::StatusOr<PairFacts> GatherFacts(InspectedJob& job, ImageId first, ImageId 
       }));
   facts.was_tried = !pairs.tried.empty();
   facts.was_verified = !pairs.verified.empty();
-  ORBWEAVE_ASSIGN_OR_RETURN(facts.a, job.FetchScene(pair.a));
-  ORBWEAVE_ASSIGN_OR_RETURN(facts.b, job.FetchScene(pair.b));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features a, job.FetchFeaturesOf(pair.a));
+  ORBWEAVE_ASSIGN_OR_RETURN(const Features b, job.FetchFeaturesOf(pair.b));
+  facts.a = job.SceneOf(pair.a, a);
+  facts.b = job.SceneOf(pair.b, b);
   std::optional<TwoViewGeometry> verified;
   if (facts.was_verified) {
     verified = pairs.verified.front();

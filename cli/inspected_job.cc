@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inspected_job.h"
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <span>
 #include <utility>
 
 #include "cli/finished_job.h"
@@ -73,14 +71,9 @@ absl::StatusOr<std::optional<JobResults>> InspectedJob::Results(ModelListener& l
   return results;
 }
 
-absl::StatusOr<SceneFeatures> InspectedJob::FetchScene(ImageId image) {
+absl::StatusOr<Features> InspectedJob::FetchFeaturesOf(ImageId image) {
   ORBWEAVE_RETURN_IF_ERROR(names_.status());
-  ORBWEAVE_ASSIGN_OR_RETURN(const Features features,
-                            FetchFeatures(*coordinator_, names_->at(image.value)));
-  std::span<const uint32_t> cells;
-  for (const Carrier& carrier : carriers_)
-    if (std::ranges::binary_search(carrier.images, image)) cells = carrier.cells;
-  return HideCarrier(features, cells);
+  return FetchFeatures(*coordinator_, names_->at(image.value));
 }
 
 PictureImage InspectedJob::Picture(ImageId image, std::string& remark) {

@@ -35,8 +35,12 @@ class InspectedJob {
   /// FailedPrecondition: they have not been extracted.
   [[nodiscard]] const absl::StatusOr<std::vector<Digest>>& FeatureNames() const { return names_; }
 
-  /// What of the image's features was matched: without those of what goes along with the camera.
-  [[nodiscard]] absl::StatusOr<SceneFeatures> FetchScene(ImageId image);
+  /// FailedPrecondition: they have not been extracted.
+  [[nodiscard]] absl::StatusOr<Features> FetchFeaturesOf(ImageId image);
+  /// What of an image's features was matched: without those of what goes along with the camera.
+  [[nodiscard]] SceneFeatures SceneOf(ImageId image, const Features& features) const {
+    return HideCarrier(features, CellsOfCarrier(carriers_, image));
+  }
 
   /// The image's file, where the job has it and it still is what it was: else without pixels, and
   /// `remark` says why in a sentence.

@@ -6,9 +6,14 @@
 #include <algorithm>
 
 #include "core/geometry/sphere_cells.h"
-#include "core/scene/carrier.h"
 
 namespace orbweave {
+
+std::span<const uint32_t> CellsOfCarrier(std::span<const Carrier> carriers, ImageId image) {
+  for (const Carrier& carrier : carriers)
+    if (std::ranges::binary_search(carrier.images, image)) return carrier.cells;
+  return {};
+}
 
 SceneFeatures HideCarrier(const Features& features, std::span<const uint32_t> cells) {
   SceneFeatures scene{.features = {.camera = features.camera, .problem = features.problem}};

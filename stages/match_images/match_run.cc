@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "core/features/hide_carrier.h"
@@ -23,20 +22,12 @@ struct LoadedImage {
   Digest digest{};
 };
 
-std::map<ImageId, std::span<const uint32_t>> CellsByImage(const std::vector<Carrier>& carriers) {
-  std::map<ImageId, std::span<const uint32_t>> cells;
-  for (const Carrier& carrier : carriers)
-    for (const ImageId id : carrier.images) cells[id] = carrier.cells;
-  return cells;
-}
-
 absl::StatusOr<std::map<ImageId, LoadedImage>> LoadImages(const MatchRecipe& recipe,
                                                           BlobAccess& blobs) {
-  auto cells = CellsByImage(recipe.carriers);
   std::map<ImageId, LoadedImage> images;
   for (const FeatureFile& file : recipe.images) {
     ORBWEAVE_ASSIGN_OR_RETURN(const Features features, FetchBlob<Features>(file.features, blobs));
-    SceneFeatures scene = HideCarrier(features, cells[file.image]);
+    SceneFeatures scene = HideCarrier(features, CellsOfCarrier(recipe.carriers, file.image));
     images.emplace(file.image,
                    LoadedImage{.side = PairSide(std::move(scene.features)),
                                .index = std::move(scene.index),
