@@ -51,7 +51,7 @@ void AddDenseCommand(CLI::App& app, SelectedCommand& selected) {
                       "Instead: a COLMAP model with EQUIRECTANGULAR or SPHERE cameras; its points "
                       "are used, but not needed");
   command->add_option("--images", arguments->images.image_folder, "With --colmap: the panoramas");
-  command->add_option("--masks", arguments->images.mask_folder, "With --colmap: their masks");
+  command->add_option("--masks", arguments->images.masks, "With --colmap: their masks");
   command->add_option("--output", arguments->output, "With --colmap: where the cloud goes");
   AddFleetArguments(*command, arguments->fleet);
   AddOptionArguments(*command, arguments->options);

@@ -25,9 +25,11 @@ inline void AddImageArguments(CLI::App& command, ScanRequest& request) {
                      "Positions: CSV with name,latitude,longitude,altitude[,accuracy,"
                      "vertical_accuracy,fix,time,drive,heading,pitch,roll,heading_accuracy,"
                      "pitch_accuracy,roll_accuracy], or POS.txt; a file, or s3://BUCKET/KEY");
-  command.add_option("--masks",
-                     request.mask_folder,
-                     "Folder of masks, named like the images, or s3://BUCKET/PREFIX");
+  command.add_option(
+      "--masks",
+      request.masks,
+      "Folder of masks, each named like its image or like a folder of images, or one "
+      "file for all images; or s3://BUCKET/PREFIX");
   AddStoreKeysArgument(command, request.store_keys);
   command
       .add_option("--mask-ignores",

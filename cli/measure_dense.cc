@@ -53,7 +53,7 @@ absl::StatusOr<DenseMeasurement> MeasureDenseJob(const std::string& street,
                                                  const std::string& folder) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ColmapModel model, TrueModel(street));
   ScanRequest images{.image_folder = street + "/images"};
-  if (std::filesystem::exists(street + "/masks")) images.mask_folder = street + "/masks";
+  if (std::filesystem::exists(street + "/masks")) images.masks = street + "/masks";
   DenseMeasurement measurement{.workers = workers};
   const auto prepare = [&](BlobDepot& depot, const StageContext& context) {
     return PrepareDenseJob(depot, model, images, options, context);

@@ -93,6 +93,19 @@ absl::StatusOr<std::unique_ptr<FilePlace>> OpenPlace(const std::string& where,
   return ObjectPlace::Open(where, keys_path);
 }
 
+/// Masks in a store: below a prefix, or one object that is called like an image, for all images.
+absl::Status OpenMasks(const ScanRequest& request, ImagePlaces& places) {
+  std::string address = request.masks;
+  const size_t end = std::min(address.find('?'), address.size());
+  if (const std::string path = address.substr(0, end); IsCalledLikeAnImage(path)) {
+    const size_t slash = path.rfind('/');
+    places.mask_for_all = path.substr(slash + 1);
+    address.erase(slash, end - slash);
+  }
+  ORBWEAVE_ASSIGN_OR_RETURN(places.masks, ObjectPlace::Open(address, request.store_keys));
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<ObjectPlace>> ObjectPlace::Open(const std::string& address,
@@ -181,8 +194,10 @@ absl::StatusOr<std::string> ObjectPlace::Read(const std::string& path,
 absl::StatusOr<ImagePlaces> OpenImagePlaces(const ScanRequest& request) {
   ImagePlaces places;
   ORBWEAVE_ASSIGN_OR_RETURN(places.images, OpenPlace(request.image_folder, request.store_keys));
-  if (!request.mask_folder.empty()) {
-    ORBWEAVE_ASSIGN_OR_RETURN(places.masks, OpenPlace(request.mask_folder, request.store_keys));
+  if (IsS3Address(request.masks)) {
+    ORBWEAVE_RETURN_IF_ERROR(OpenMasks(request, places));
+  } else if (!request.masks.empty()) {
+    PlaceMasks(request.masks, places);
   }
   if (IsS3Address(request.gnss_table)) {
     ORBWEAVE_ASSIGN_OR_RETURN(places.gnss_bytes, ReadTable(request.gnss_table, request.store_keys));

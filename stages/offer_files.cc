@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,16 @@ struct Offer {
   bool is_known = false;  ///< the depot has it
 };
 
+/// Each content once: many images may have the same mask.
 std::vector<Offer> OffersOf(const ImageSources& sources, const ImagePlaces& places) {
   std::vector<Offer> offers;
+  std::set<Digest> offered = {Digest{}};
   for (const SourceImage& image : sources.images) {
     if (!image.problem.empty()) continue;
-    offers.push_back({places.images.get(), image.path, image.content});
-    if (!image.mask.IsZero()) offers.push_back({places.masks.get(), image.mask_path, image.mask});
+    if (offered.insert(image.content).second)
+      offers.push_back({places.images.get(), image.path, image.content});
+    if (offered.insert(image.mask).second)
+      offers.push_back({places.masks.get(), image.mask_path, image.mask});
   }
   return offers;
 }

@@ -128,8 +128,8 @@ void TellCarriers(const JobResults& results, JobReport& report) {
   if (share < kWorthAMask) return;
   report.warnings.push_back(absl::StrFormat(
       "what goes along with the camera shows in up to %.1f %% of what it sees around it (drives: "
-      "%u, for example that of %s), and is not matched there; a mask over it (--masks) leaves its "
-      "features to the street",
+      "%u, for example that of %s), and is not matched there; a mask over it (--masks FILE is one "
+      "for all) leaves its features to the street",
       100.0 * share,
       results.carriers.size(),
       results.manifest.At(largest.images.front()).name));

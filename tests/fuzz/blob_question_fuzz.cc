@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "proto/codec/grants_codec.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/message_round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(blob_question) {
   orbweave::CheckMessageRoundTrip<orbweave::v1::GrantBlobsRequest>(orbweave::BytesOf(data, size));
-  return 0;
 }

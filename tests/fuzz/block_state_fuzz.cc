@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "proto/codec/subproblem_codec.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(block_state) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
                            orbweave::DecodeSubproblemState,
                            orbweave::EncodeSubproblemState);
-  return 0;
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "proto/codec/adjustment_codec.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(block_task) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
                            orbweave::DecodeSubproblemTask,
                            orbweave::EncodeSubproblemTask);
-  return 0;
 }

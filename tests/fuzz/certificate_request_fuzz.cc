@@ -3,6 +3,7 @@
 
 #include "security/certificate.h"
 #include "security/certificate_authority.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
 namespace {
@@ -17,7 +18,7 @@ orbweave::CertificateAuthority MakeAuthority() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(certificate_request) {
   static const orbweave::CertificateAuthority authority = MakeAuthority();
   const auto issued = authority.Issue(orbweave::BytesOf(data, size),
                                       {.identity = {"city", orbweave::Role::kWorker, "node"},
@@ -25,5 +26,4 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                                        .valid_s = 60});
   // Whatever it was asked for, a certificate says what the authority meant.
   if (issued.ok()) ORBWEAVE_CHECK(orbweave::ReadCertificate(*issued)->identity.name == "node");
-  return 0;
 }

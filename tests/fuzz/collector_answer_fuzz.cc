@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "coordinator/otlp_json.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  (void)orbweave::RejectedSpans(orbweave::BytesOf(data, size));
-  return 0;
-}
+FUZZ_TARGET(collector_answer) { (void)orbweave::RejectedSpans(orbweave::BytesOf(data, size)); }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "core/io/colmap/colmap_model.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/temporary_folder.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(colmap_model) {
   // cameras.bin, images.bin and points3D.bin one after the other, each behind its size.
   static const orbweave::TemporaryFolder folder;
   std::string_view rest = orbweave::BytesOf(data, size);
@@ -18,8 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     rest.remove_prefix(std::min(length, rest.size()));
   }
   const auto model = orbweave::ReadColmapModel(folder.path());
-  if (!model.ok()) return 0;
+  if (!model.ok()) return;
   for (const orbweave::ColmapCamera& camera : model->cameras)
     ORBWEAVE_CHECK(camera.camera.width_px > 0 && camera.camera.height_px > 0);
-  return 0;
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "core/base/digest.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(digest) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
                            orbweave::Digest::FromHex,
                            [](const auto& digest) { return digest.ToHex(); });
-  return 0;
 }

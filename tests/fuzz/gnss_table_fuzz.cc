@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "core/io/gnss/gnss_table.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(gnss_table) {
   const auto table = orbweave::ParseGnssTable(orbweave::BytesOf(data, size), "table");
-  if (!table.ok()) return 0;
+  if (!table.ok()) return;
   ORBWEAVE_CHECK(!table->rows.empty());
   for (const orbweave::GnssRow& row : table->rows) {
     ORBWEAVE_CHECK(!row.name.empty() &&
@@ -19,5 +20,4 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     ORBWEAVE_CHECK(std::abs(row.geodetic->longitude_deg) <= 180.0);
     ORBWEAVE_CHECK(std::isfinite(row.geodetic->altitude_m));
   }
-  return 0;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "coordinator/http_server.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 #include "tests/support/tcp_talk.h"
 
@@ -19,12 +20,11 @@ HttpServer& Server() {
 }  // namespace
 }  // namespace orbweave
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(http_request) {
   orbweave::testing::TcpTalk talk(orbweave::Server().address());
   talk.Say(orbweave::BytesOf(data, size));
   talk.EndSaying();
   const std::string answer = talk.HearAll();
   ORBWEAVE_CHECK(answer.empty() || answer.starts_with("HTTP/1."));
   ORBWEAVE_CHECK(!talk.IsOpen());  // who has nothing more to say is not waited for
-  return 0;
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "security/identity.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(identity) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
                            orbweave::Identity::FromUri,
                            [](const auto& identity) { return identity.ToUri(); });
-  return 0;
 }

@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include "core/io/images/image_metadata.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(image_metadata) {
   const auto metadata = orbweave::ReadImageMetadata(orbweave::BytesOf(data, size));
-  if (!metadata.ok()) return 0;
+  if (!metadata.ok()) return;
   ORBWEAVE_CHECK(metadata->width_px > 0 && metadata->height_px > 0);
   if (metadata->heading_deg) ORBWEAVE_CHECK(std::isfinite(*metadata->heading_deg));
-  if (!metadata->position) return 0;
+  if (!metadata->position) return;
   ORBWEAVE_CHECK(std::abs(metadata->position->latitude_deg) <= 90.0);
   ORBWEAVE_CHECK(std::abs(metadata->position->longitude_deg) <= 180.0);
   ORBWEAVE_CHECK(std::isfinite(metadata->position->altitude_m));
-  return 0;
 }

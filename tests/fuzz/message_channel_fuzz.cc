@@ -3,10 +3,11 @@
 
 #include <sys/socket.h>
 
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 #include "worker/message_channel.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(message_channel) {
   constexpr size_t kFitsSocket_bytes = 65'536;
   auto ends = orbweave::MessageChannel::MakePair();
   ORBWEAVE_CHECK(ends.ok());
@@ -20,5 +21,4 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     received_bytes += frame->message.size() + frame->bulk.View().size();
   }
   ORBWEAVE_CHECK(received_bytes <= size);
-  return 0;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "proto/codec/coordinator_codec.h"
+#include "proto/codec/grants_codec.h"
 #include "tests/fuzz/round_trip.h"
 
 namespace orbweave {

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "objects/s3_answers.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  (void)orbweave::ParseObjectPage(orbweave::BytesOf(data, size));
-  return 0;
-}
+FUZZ_TARGET(object_page) { (void)orbweave::ParseObjectPage(orbweave::BytesOf(data, size)); }

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "stages/pipeline_options.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(pipeline_options) {
   orbweave::CheckRoundTrip(
       orbweave::BytesOf(data, size),
       [](std::string_view text) { return orbweave::PipelineOptionsFromText(text, "file"); },
       orbweave::PipelineOptionsToText);
-  return 0;
 }

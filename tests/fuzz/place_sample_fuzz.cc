@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "proto/codec/features_codec.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(place_sample) {
   orbweave::CheckRoundTrip(
       orbweave::BytesOf(data, size), orbweave::DecodePlaceSample, orbweave::EncodePlaceSample);
-  return 0;
 }

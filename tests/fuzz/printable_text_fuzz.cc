@@ -5,9 +5,10 @@
 
 #include "core/io/page/html_text.h"
 #include "core/io/printable_text.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(printable_text) {
   const std::string printable = orbweave::PrintableText(orbweave::BytesOf(data, size));
   ORBWEAVE_CHECK(orbweave::PrintableText(printable) == printable);
   ORBWEAVE_CHECK(std::all_of(printable.begin(), printable.end(), [](char c) {
@@ -15,5 +16,4 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }));
   const std::string html = orbweave::EscapeHtml(orbweave::BytesOf(data, size));
   ORBWEAVE_CHECK(html.find_first_of("<>\"'\x1b") == std::string::npos);
-  return 0;
 }

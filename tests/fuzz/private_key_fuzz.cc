@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "security/certificate_request.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(private_key) {
   const auto request = orbweave::MakeCertificateRequest(orbweave::BytesOf(data, size));
   if (request.ok()) ORBWEAVE_CHECK(request->starts_with("-----BEGIN CERTIFICATE REQUEST-----"));
-  return 0;
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "proto/codec/reconstruction_codec.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(reconstruction) {
   orbweave::CheckRoundTrip(orbweave::BytesOf(data, size),
                            orbweave::DecodeReconstruction,
                            orbweave::EncodeReconstruction);
-  return 0;
 }

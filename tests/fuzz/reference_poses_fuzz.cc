@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "core/io/gnss/reference_poses.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(reference_poses) {
   const auto poses = orbweave::ParseReferencePoses(orbweave::BytesOf(data, size), "table");
-  if (!poses.ok()) return 0;
+  if (!poses.ok()) return;
   for (const auto& [name, pose] : *poses) {
     ORBWEAVE_CHECK(std::abs(pose.rotation.norm() - 1.0) < 1e-9);
     ORBWEAVE_CHECK(pose.translation.allFinite());
   }
-  return 0;
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs a fuzz target, without a fuzzer, on the files of its corpus and on damaged copies of them:
-// cut off at every length, one byte after the other changed. Of large files evenly spread places
-// are taken. An allocation out of proportion to the input ends the process.
+// replay TARGET CORPUS: runs a fuzz target, without a fuzzer, on the files of its corpus and on
+// damaged copies of them: cut off at every length, one byte after the other changed. Of large files
+// evenly spread places are taken. An allocation out of proportion to the input ends the process.
 
 #include <algorithm>
 #include <atomic>
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/fuzz/round_trip.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace {
 
@@ -28,11 +28,11 @@ std::atomic<size_t> allowed_bytes = std::numeric_limits<size_t>::max();
 
 void AllowFor(size_t input_bytes) { allowed_bytes = (size_t{16} << 20) + 1024 * input_bytes; }
 
-void Try(const std::string& input) {
+void Try(orbweave::FuzzTarget target, const std::string& input) {
   // Exactly as large as the input, so that a sanitizer sees a read beyond its end.
   const std::vector<uint8_t> bytes(input.begin(), input.end());
   AllowFor(bytes.size());
-  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  target(bytes.data(), bytes.size());
 }
 
 /// All places of `size` bytes, or as many as are tried, evenly spread.
@@ -42,13 +42,13 @@ std::vector<size_t> Places(size_t size) {
   return places;
 }
 
-void TryDamaged(const std::string& input) {
-  for (const size_t length : Places(input.size())) Try(input.substr(0, length));
+void TryDamaged(orbweave::FuzzTarget target, const std::string& input) {
+  for (const size_t length : Places(input.size())) Try(target, input.substr(0, length));
   for (const size_t at : Places(input.size())) {
     for (const unsigned char change : {0x01, 0x80, 0xff}) {
       std::string changed = input;
       changed[at] = static_cast<char>(static_cast<unsigned char>(changed[at]) ^ change);
-      Try(changed);
+      Try(target, changed);
     }
   }
 }
@@ -75,19 +75,23 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
 int main(int argc, char** argv) {
-  std::vector<std::filesystem::path> files;
-  for (int i = 1; i < argc; ++i) {
-    for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
-      files.push_back(entry.path());
+  const auto& targets = orbweave::FuzzTargets();
+  const auto target = argc == 3 ? targets.find(argv[1]) : targets.end();
+  if (target == targets.end()) {
+    std::fprintf(stderr, "replay TARGET CORPUS, one of %zu targets\n", targets.size());
+    return 1;
   }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(argv[2]))
+    files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  Try("");
+  Try(target->second, "");
   for (const std::filesystem::path& file : files) {
     std::printf("%s\n", file.c_str());
     std::fflush(stdout);
     const std::string input = ReadBytes(file);
-    Try(input);
-    TryDamaged(input);
+    Try(target->second, input);
+    TryDamaged(target->second, input);
   }
   return files.empty() ? 1 : 0;
 }

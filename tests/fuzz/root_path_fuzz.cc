@@ -5,6 +5,7 @@
 
 #include "coordinator/file_roots.h"
 #include "coordinator/object_roots.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/temporary_folder.h"
 
 namespace {
@@ -32,7 +33,7 @@ void TryObject(const std::string& path) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(root_path) {
   static const orbweave::TemporaryFolder folder;
   static const orbweave::FileRoots roots = MakeRoots(folder);
   const std::string path(orbweave::BytesOf(data, size));
@@ -40,5 +41,4 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (file.ok()) ORBWEAVE_CHECK(*file == roots.at("r") + "/a/b");
   TryObject(path);
   TryObject("s3://b/r/" + path);
-  return 0;
 }

@@ -9,9 +9,6 @@
 
 #include "core/base/status.h"
 
-/// What every fuzz target defines: takes any bytes, ends the process when a law is broken.
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
-
 namespace orbweave {
 
 [[nodiscard]] inline std::string_view BytesOf(const uint8_t* data, size_t size) {

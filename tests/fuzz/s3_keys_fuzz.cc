@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "objects/s3_keys.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  (void)orbweave::ParseS3Keys(orbweave::BytesOf(data, size));
-  return 0;
-}
+FUZZ_TARGET(s3_keys) { (void)orbweave::ParseS3Keys(orbweave::BytesOf(data, size)); }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "objects/s3_answers.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(upload_list) {
   (void)orbweave::ParseUploads(orbweave::BytesOf(data, size));
   (void)orbweave::ParseUpload(orbweave::BytesOf(data, size));
-  return 0;
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "proto/codec/pairs_codec.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(wider_pairs) {
   orbweave::CheckRoundTrip(
       orbweave::BytesOf(data, size), orbweave::DecodeWiderPairs, orbweave::EncodeWiderPairs);
-  return 0;
 }

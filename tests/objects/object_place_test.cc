@@ -63,13 +63,13 @@ class ObjectPlaceTest : public ::testing::Test {
   std::string Url(const std::string& name) { return store_.Url("street/" + name); }
   ScanRequest InStore() {
     return {.image_folder = Url("images"),
-            .mask_folder = Url("images/masks"),
+            .masks = Url("images/masks"),
             .gnss_table = Url("gnss.csv"),
             .store_keys = folder_ / "keys"};
   }
   ScanRequest InFolder() {
     return {.image_folder = folder_ / "street/images",
-            .mask_folder = folder_ / "street/images/masks",
+            .masks = folder_ / "street/images/masks",
             .gnss_table = folder_ / "street/gnss.csv"};
   }
   static absl::StatusOr<ImageSources> Scan(const ScanRequest& request,
@@ -112,13 +112,28 @@ void ExpectSame(const ImageSources& a, const ImageSources& b) {
 TEST_F(ObjectPlaceTest, ImagesMayLieBelowTheirMasks) {
   WriteStreet();
   ScanRequest in_store = InStore();
-  in_store.mask_folder = store_.Url("street");
+  in_store.masks = store_.Url("street");
   ScanRequest in_folder = InFolder();
-  in_folder.mask_folder = folder_ / "street";
+  in_folder.masks = folder_ / "street";
   const absl::StatusOr<ImageSources> found = Scan(in_store);
   ASSERT_TRUE(found.ok()) << found.status();
   EXPECT_FALSE(found->images.empty());
   ExpectSame(*found, *Scan(in_folder));
+}
+
+TEST_F(ObjectPlaceTest, OneObjectMayBeTheMaskOfAll) {
+  WriteStreet();
+  ScanRequest in_store = InStore();
+  in_store.masks = store_.Url("street/images/masks/img2.jpg.png");
+  ScanRequest in_folder = InFolder();
+  in_folder.masks = folder_ / "street/images/masks/img2.jpg.png";
+  const absl::StatusOr<ImageSources> found = Scan(in_store);
+  ASSERT_TRUE(found.ok()) << found.status();
+  for (const SourceImage& image : found->images) EXPECT_FALSE(image.mask.IsZero()) << image.name;
+  ExpectSame(*found, *Scan(in_folder));
+  in_store.masks = store_.Url("street/none.png");
+  EXPECT_THAT(Scan(in_store).status().message(),
+              HasSubstr("there is no mask s3://blobs/street/none.png"));
 }
 
 TEST_F(ObjectPlaceTest, IsScannedLikeAFolderWithTheSameFiles) {
@@ -155,7 +170,7 @@ TEST_F(FaultyObjectPlaceTest, IsScannedLikeAFolderWhereTheStoreFailsNowAndThen) 
 TEST_F(ObjectPlaceTest, TakesFoldersBesideIt) {
   WriteStreet();
   ScanRequest mixed = InStore();
-  mixed.mask_folder = InFolder().mask_folder;
+  mixed.masks = InFolder().masks;
   mixed.gnss_table = InFolder().gnss_table;
   store_.RemoveObject("street/images/masks/img2.jpg.png");
   store_.RemoveObject("street/images/masks/unused.png");
@@ -223,7 +238,7 @@ TEST_F(ObjectPlaceTest, SaysThatATableOrMasksAreMissing) {
   request.gnss_table = store_.Url("");
   EXPECT_TRUE(absl::IsInvalidArgument(Scan(request).status()));
   request = InStore();
-  request.mask_folder = Url("no_masks");
+  request.masks = Url("no_masks");
   const absl::Status masks = Scan(request).status();
   EXPECT_TRUE(absl::IsNotFound(masks)) << masks;
   EXPECT_THAT(std::string(masks.message()), HasSubstr("s3://blobs/street/no_masks"));

@@ -66,7 +66,7 @@ class NotingDepot final : public BlobDepot {
   std::set<Digest> known;
   absl::Status on_link;  ///< what links are answered
   std::set<std::string> linked;
-  std::set<std::string> sent;
+  std::multiset<std::string> sent;
 
  private:
   std::mutex mutex_;
@@ -113,6 +113,14 @@ TEST_P(OfferFilesTest, SendsImagesAndMasksThatCannotBeLinked) {
     ASSERT_TRUE(Offer().ok());
     EXPECT_THAT(depot_.sent, ElementsAre("mask a", "pixels a", "pixels b"));
   }
+}
+
+TEST_P(OfferFilesTest, SendsTheMaskOfManyOnce) {
+  depot_.on_link = absl::NotFoundError("beneath no root");
+  sources_.images[1].mask_path = "a.png";
+  sources_.images[1].mask = DigestOf("mask a");
+  ASSERT_TRUE(Offer().ok());
+  EXPECT_THAT(depot_.sent, ElementsAre("mask a", "pixels a", "pixels b"));
 }
 
 TEST_P(OfferFilesTest, SendsNothingThatIsKnown) {

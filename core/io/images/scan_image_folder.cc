@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
@@ -14,8 +15,9 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/parallel_for.h"
 #include "core/io/first_names.h"
+#include "core/io/images/list_files.h"
+#include "core/io/images/mask_names.h"
 #include "core/io/printable_text.h"
-#include "core/io/text_fields.h"
 #include "core/io/text_file.h"
 
 namespace orbweave {
@@ -25,31 +27,41 @@ namespace fs = std::filesystem;
 
 constexpr size_t kNamesShown = 3;  ///< in a warning
 
-/// Paths below the mask folder by their name in lower case.
-using MaskIndex = std::map<std::string, std::string>;
-
-absl::StatusOr<MaskIndex> IndexMasks(FilePlace* place, const StageContext& context) {
-  MaskIndex index;
-  if (place == nullptr) return index;
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names, place->List("", context));
-  if (names.empty()) {
-    return absl::NotFoundError(absl::StrCat(
-        "the mask folder ",
-        place->Name(),
-        " holds no image; the mask of a/b.jpg is called a/b.png or a/b.jpg.png there"));
-  }
-  for (const std::string& name : names) index.emplace(LowerText(name), name);
-  return index;
+/// What `places` says of masks; none where there is no place of them.
+absl::StatusOr<MaskNames> ListMasks(const ImagePlaces& places, const StageContext& context) {
+  if (!places.masks) return MaskNames();
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names, places.masks->List("", context));
+  const std::string& for_all = places.mask_for_all;
+  if (for_all.empty() && !names.empty()) return MaskNames(names);
+  if (std::find(names.begin(), names.end(), for_all) != names.end())
+    return MaskNames::OneForAll(for_all);
+  return absl::NotFoundError(
+      for_all.empty()
+          ? absl::StrCat("the mask folder ",
+                         places.masks->Name(),
+                         " holds no image; the mask of a/b.jpg is called a/b.png or a/b.jpg.png "
+                         "there, that of all in a/ a.png")
+          : absl::StrCat("there is no mask ", places.masks->PathOf(for_all), "; check the path"));
 }
 
-/// Name of an image's mask in the index; end() when it has none.
-MaskIndex::const_iterator FindMask(const MaskIndex& masks, const std::string& image_name) {
-  const std::string name = LowerText(image_name);
-  const std::string stem = name.substr(0, name.rfind('.'));
-  for (const std::string& candidate : {name + ".png", stem + ".png", name}) {
-    if (const auto mask = masks.find(candidate); mask != masks.end()) return mask;
+/// Names of images: not of what lies in the folder of masks, nor of the mask for all.
+absl::StatusOr<std::vector<std::string>> ListImages(const ImagePlaces& places,
+                                                    const StageContext& context) {
+  const bool has_mask_folder = places.masks && places.mask_for_all.empty();
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      std::vector<std::string> names,
+      places.images->List(has_mask_folder ? places.masks->Name() : "", context));
+  if (!places.mask_for_all.empty()) {
+    const fs::path mask = fs::path(places.masks->PathOf(places.mask_for_all)).lexically_normal();
+    std::erase_if(names, [&](const std::string& name) {
+      return fs::path(places.images->PathOf(name)).lexically_normal() == mask;
+    });
   }
-  return masks.end();
+  if (!names.empty()) return names;
+  return absl::NotFoundError(
+      absl::StrCat("no images in ",
+                   places.images->Name(),
+                   "; expected jpg, png, tif, bmp, webp, ppm or pgm files there or below"));
 }
 
 absl::Status ScanImage(FilePlace& place, const StageContext& context, SourceImage& image) {
@@ -59,19 +71,6 @@ absl::Status ScanImage(FilePlace& place, const StageContext& context, SourceImag
   image.size_bytes = facts.size_bytes;
   image.metadata = std::move(facts.metadata);
   image.problem = std::move(facts.problem);
-  return absl::OkStatus();
-}
-
-/// Turns the mask's name into its path and reads it. A mask that cannot be read keeps size 0 x 0,
-/// which IngestImages reports.
-absl::Status ScanMask(FilePlace* place, const StageContext& context, SourceImage& image) {
-  if (image.mask_path.empty()) return absl::OkStatus();
-  const std::string name = std::exchange(image.mask_path, place->PathOf(image.mask_path));
-  ORBWEAVE_ASSIGN_OR_RETURN(const FileFacts facts, place->Look(name, context));
-  image.mask = facts.content;
-  if (!facts.problem.empty()) return absl::OkStatus();
-  image.mask_width_px = facts.metadata.width_px;
-  image.mask_height_px = facts.metadata.height_px;
   return absl::OkStatus();
 }
 
@@ -85,13 +84,8 @@ void RefuseOtherEncodings(SourceImage& image) {
 }
 
 /// "3 masks have no image: a.png, b.png, ..." or nothing.
-void WarnOfUnusedMasks(const MaskIndex& masks,
-                       const std::set<std::string>& used,
-                       ImageSources& sources) {
-  std::vector<std::string> unused;
-  for (const auto& [lower, name] : masks) {
-    if (!used.contains(lower)) unused.push_back(name);
-  }
+void WarnOfUnusedMasks(const MaskNames& masks, ImageSources& sources) {
+  const std::vector<std::string> unused = masks.Unused();
   if (unused.empty()) return;
   sources.warnings.push_back(Utf8Text(absl::StrCat(unused.size(),
                                                    unused.size() == 1 ? " mask has" : " masks have",
@@ -132,43 +126,79 @@ void WarnOfImpossibleValues(ImageSources& sources) {
   for (const auto& [name, images] : left_out) WarnOfValues(name, images, sources);
 }
 
-/// One entry per name; `mask_path` is relative to the mask folder as yet.
+/// One entry per name; `mask_path` is relative to the place of masks as yet.
 void AssignNamesAndMasks(const std::vector<std::string>& names,
-                         const MaskIndex& masks,
+                         MaskNames masks,
                          ImageSources& sources) {
-  std::set<std::string> used;
   for (const std::string& name : names) {
     SourceImage& image = sources.images.emplace_back();
     image.name = name;
-    const auto mask = FindMask(masks, name);
-    if (mask == masks.end()) continue;
-    image.mask_path = mask->second;
-    used.insert(mask->first);
+    image.mask_path = masks.TakeFor(name);
   }
-  WarnOfUnusedMasks(masks, used, sources);
+  WarnOfUnusedMasks(masks, sources);
 }
 
-/// Reads all of them, several at a time; the error of the first that has one.
-absl::Status ScanAll(const ImagePlaces& places,
-                     const StageContext& context,
-                     ImageSources& sources) {
-  const size_t count = sources.images.size();
+/// Does `look_at` for the first `count` numbers, several at a time, unless asked to stop; the error
+/// of the first that has one.
+absl::Status LookAtEach(size_t count,
+                        int num_readers,
+                        const StageContext& context,
+                        const std::function<absl::Status(size_t)>& look_at) {
   std::vector<absl::Status> errors(count);
-  std::mutex mutex;
   std::atomic<bool> is_over{false};
-  uint64_t done = 0;
-  ParallelFor(count, std::max(context.num_threads, places.NumReaders()), [&](size_t i) {
+  ParallelFor(count, std::max(context.num_threads, num_readers), [&](size_t i) {
     if (context.stop.stop_requested() || is_over) return;
-    SourceImage& image = sources.images[i];
-    errors[i] = ScanImage(*places.images, context, image);
-    if (errors[i].ok()) errors[i] = ScanMask(places.masks.get(), context, image);
+    errors[i] = look_at(i);
     if (!errors[i].ok()) is_over = true;
-    RefuseOtherEncodings(image);
-    const std::lock_guard lock(mutex);
-    context.Report(++done, count, "images");
   });
   ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
   for (const absl::Status& error : errors) ORBWEAVE_RETURN_IF_ERROR(error);
+  return absl::OkStatus();
+}
+
+absl::Status ScanImages(const ImagePlaces& places,
+                        const StageContext& context,
+                        ImageSources& sources) {
+  std::mutex mutex;
+  uint64_t done = 0;
+  return LookAtEach(sources.images.size(), places.NumReaders(), context, [&](size_t i) {
+    const absl::Status status = ScanImage(*places.images, context, sources.images[i]);
+    RefuseOtherEncodings(sources.images[i]);
+    const std::lock_guard lock(mutex);
+    context.Report(++done, sources.images.size(), "images");
+    return status;
+  });
+}
+
+/// Turns the mask's name into its path and says what it is. A mask that cannot be read keeps size
+/// 0 x 0, which IngestImages reports.
+void SetMask(const FilePlace& place, const FileFacts& facts, SourceImage& image) {
+  image.mask_path = place.PathOf(image.mask_path);
+  image.mask = facts.content;
+  if (!facts.problem.empty()) return;
+  image.mask_width_px = facts.metadata.width_px;
+  image.mask_height_px = facts.metadata.height_px;
+}
+
+/// Each mask is read once, however many images it is of.
+absl::Status ScanMasks(const ImagePlaces& places,
+                       const StageContext& context,
+                       ImageSources& sources) {
+  std::set<std::string> names;
+  for (const SourceImage& image : sources.images) names.insert(image.mask_path);
+  names.erase("");
+  const std::vector<std::string> masks(names.begin(), names.end());
+  std::vector<FileFacts> facts(masks.size());
+  ORBWEAVE_RETURN_IF_ERROR(
+      LookAtEach(masks.size(), places.NumReaders(), context, [&](size_t i) -> absl::Status {
+        ORBWEAVE_ASSIGN_OR_RETURN(facts[i], places.masks->Look(masks[i], context));
+        return absl::OkStatus();
+      }));
+  for (SourceImage& image : sources.images) {
+    const auto mask = std::lower_bound(masks.begin(), masks.end(), image.mask_path);
+    if (image.mask_path.empty()) continue;
+    SetMask(*places.masks, facts[static_cast<size_t>(mask - masks.begin())], image);
+  }
   return absl::OkStatus();
 }
 
@@ -192,9 +222,20 @@ absl::Status ReadGnssFile(const std::string& path, ImageSources& sources) {
   return absl::OkStatus();
 }
 
+void PlaceMasks(const std::string& path, ImagePlaces& places) {
+  const fs::path file(path);
+  std::error_code error;
+  if (!IsCalledLikeAnImage(path) || fs::is_directory(file, error)) {
+    places.masks = FolderAt(path);
+    return;
+  }
+  places.masks = FolderAt(file.has_parent_path() ? file.parent_path().string() : ".");
+  places.mask_for_all = file.filename().string();
+}
+
 ImagePlaces FoldersOf(const ScanRequest& request) {
   ImagePlaces folders{.images = FolderAt(request.image_folder)};
-  if (!request.mask_folder.empty()) folders.masks = FolderAt(request.mask_folder);
+  if (!request.masks.empty()) PlaceMasks(request.masks, folders);
   return folders;
 }
 
@@ -206,21 +247,14 @@ absl::StatusOr<ImageSources> ScanImageFolder(const ScanRequest& request,
 absl::StatusOr<ImageSources> ScanImagePlaces(const ImagePlaces& places,
                                              const ScanRequest& request,
                                              const StageContext& context) {
-  ORBWEAVE_ASSIGN_OR_RETURN(const MaskIndex masks, IndexMasks(places.masks.get(), context));
-  const std::string except = places.masks ? places.masks->Name() : std::string();
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names,
-                            places.images->List(except, context));
-  if (names.empty()) {
-    return absl::NotFoundError(
-        absl::StrCat("no images in ",
-                     places.images->Name(),
-                     "; expected jpg, png, tif, bmp, webp, ppm or pgm files there or below"));
-  }
+  ORBWEAVE_ASSIGN_OR_RETURN(MaskNames masks, ListMasks(places, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<std::string> names, ListImages(places, context));
   ImageSources sources;
   sources.mask_ignores_white = request.mask_ignores_white;
   ORBWEAVE_RETURN_IF_ERROR(ReadGnss(places, request, sources));
-  AssignNamesAndMasks(names, masks, sources);
-  ORBWEAVE_RETURN_IF_ERROR(ScanAll(places, context, sources));
+  AssignNamesAndMasks(names, std::move(masks), sources);
+  ORBWEAVE_RETURN_IF_ERROR(ScanImages(places, context, sources));
+  ORBWEAVE_RETURN_IF_ERROR(ScanMasks(places, context, sources));
   WarnOfPositions(sources);
   WarnOfImpossibleValues(sources);
   return sources;

@@ -15,9 +15,9 @@ namespace orbweave {
 
 struct ScanRequest {
   std::string image_folder{};  ///< or s3://BUCKET/PREFIX, for OpenImagePlaces; so the others
-  /// Empty: no masks. The mask of `a/b.jpg` is `a/b.jpg.png`, else `a/b.png`, else `a/b.jpg` in
-  /// this folder, upper and lower case alike.
-  std::string mask_folder{};
+  /// Empty: no masks. A folder of masks, which are found by their names (MaskNames), or a file that
+  /// is called like an image: the mask of all of them.
+  std::string masks{};
   bool mask_ignores_white = true;
   std::string gnss_table{};  ///< path of the GNSS table; empty: none
   std::string store_keys{};  ///< file of the keys of object stores; empty: in the environment
@@ -27,6 +27,7 @@ struct ScanRequest {
 struct ImagePlaces {
   std::unique_ptr<FilePlace> images{};
   std::unique_ptr<FilePlace> masks{};       ///< null: no masks
+  std::string mask_for_all{};               ///< there, of every image; empty: by names (MaskNames)
   std::optional<std::string> gnss_bytes{};  ///< of a table that is no file of this machine
 
   /// How many files are best read at a time, whatever the number of processors.
@@ -35,6 +36,9 @@ struct ImagePlaces {
     return is_elsewhere ? 8 : 1;
   }
 };
+
+/// Sets where masks are that lie at a path of this machine (ScanRequest::masks).
+void PlaceMasks(const std::string& path, ImagePlaces& places);
 
 /// The places of a request whose paths are all of this machine.
 [[nodiscard]] ImagePlaces FoldersOf(const ScanRequest& request);

@@ -134,13 +134,48 @@ TEST(ScanImageFolder, FindsMasksByEveryConvention) {
   folder.Write("masks/SUB/B.PNG", EncodedImage(32, 16, ".png"));
   folder.Write("masks/d.jpg", EncodedImage(64, 32, ".jpg"));
   const ImageSources sources =
-      ScanImageFolder({.image_folder = folder.path(), .mask_folder = folder / "masks"}, {}).value();
+      ScanImageFolder({.image_folder = folder.path(), .masks = folder / "masks"}, {}).value();
   ASSERT_THAT(Names(sources), ElementsAre("a.jpg", "c.jpg", "d.jpg", "sub/b.jpg"));
   EXPECT_EQ(sources.images[0].mask, DigestOf(EncodedImage(64, 32, ".png")));
   EXPECT_TRUE(sources.images[1].mask.IsZero());
   EXPECT_THAT(sources.images[2].mask_path, HasSubstr("masks/d.jpg"));
   EXPECT_EQ(sources.images[3].mask_width_px, 32);
   EXPECT_THAT(sources.warnings, ElementsAre("1 mask has no image: a.png"));
+}
+
+TEST(ScanImageFolder, TakesOneMaskForAllImages) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.jpg", "sub/b.jpg"})
+    folder.Write(name, EncodedImage(64, 32, ".jpg", DigestOf(name).ToSeed()));
+  folder.Write("car.png", EncodedImage(32, 16, ".png"));  // among the images, but none of them
+  const ImageSources sources =
+      ScanImageFolder({.image_folder = folder.path(), .masks = folder / "sub/../car.png"}, {})
+          .value();
+  ASSERT_THAT(Names(sources), ElementsAre("a.jpg", "sub/b.jpg"));
+  for (const SourceImage& image : sources.images) {
+    EXPECT_EQ(image.mask, DigestOf(EncodedImage(32, 16, ".png"))) << image.name;
+    EXPECT_EQ(image.mask_width_px, 32) << image.name;
+    EXPECT_THAT(image.mask_path, HasSubstr("car.png")) << image.name;
+  }
+  EXPECT_THAT(sources.warnings, IsEmpty());
+}
+
+TEST(ScanImageFolder, TakesTheMaskOfAFolderForWhatHasNoneOfItsOwn) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.jpg", "Monday/b.jpg", "Monday/c.jpg", "Monday/late/d.jpg"})
+    folder.Write(name, EncodedImage(64, 32, ".jpg", DigestOf(name).ToSeed()));
+  folder.Write("masks/monday.png", EncodedImage(32, 16, ".png"));
+  folder.Write("masks/Monday/c.png", EncodedImage(16, 8, ".png"));
+  folder.Write("masks/late.png", EncodedImage(8, 4, ".png"));  // of no folder
+  const ImageSources sources =
+      ScanImageFolder({.image_folder = folder.path(), .masks = folder / "masks"}, {}).value();
+  ASSERT_THAT(Names(sources),
+              ElementsAre("Monday/b.jpg", "Monday/c.jpg", "Monday/late/d.jpg", "a.jpg"));
+  EXPECT_EQ(sources.images[0].mask_width_px, 32);
+  EXPECT_EQ(sources.images[1].mask_width_px, 16);
+  EXPECT_EQ(sources.images[2].mask_width_px, 32);
+  EXPECT_TRUE(sources.images[3].mask.IsZero());
+  EXPECT_THAT(sources.warnings, ElementsAre("1 mask has no image: late.png"));
 }
 
 TEST(ScanImageFolder, NamesWhatIsMissing) {
@@ -155,10 +190,14 @@ TEST(ScanImageFolder, NamesWhatIsMissing) {
                 .status()
                 .code(),
             absl::StatusCode::kNotFound);
-  EXPECT_EQ(ScanImageFolder({.image_folder = folder.path(), .mask_folder = folder / "masks"}, {})
+  EXPECT_EQ(ScanImageFolder({.image_folder = folder.path(), .masks = folder / "masks"}, {})
                 .status()
                 .code(),
             absl::StatusCode::kNotFound);
+  const absl::Status no_mask =
+      ScanImageFolder({.image_folder = folder.path(), .masks = folder / "car.png"}, {}).status();
+  EXPECT_EQ(no_mask.code(), absl::StatusCode::kNotFound);
+  EXPECT_THAT(no_mask.message(), HasSubstr("there is no mask " + (folder / "car.png")));
 }
 
 TEST(ScanImageFolder, StopsWhenAsked) {
