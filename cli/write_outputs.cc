@@ -9,6 +9,7 @@
 #include "cli/fetch_results.h"
 #include "cli/report_stages.h"
 #include "cli/write_models.h"
+#include "core/drawing/draw_carrier.h"
 #include "core/io/file.h"
 #include "core/io/page/cameras_csv.h"
 #include "core/io/page/georeference_json.h"
@@ -59,6 +60,15 @@ absl::Status WritePoseFiles(const JobReport& report,
   return WriteFileAtomically(geojson_path, geojson);
 }
 
+/// Masks that an earlier job left here stay: this one may have read them.
+absl::Status WriteCarrierMasks(const JobReport& report, const std::filesystem::path& folder) {
+  for (const ReportCarrier& carrier : report.carriers) {
+    ORBWEAVE_ASSIGN_OR_RETURN(const std::string mask, DrawCarrier(carrier.cells));
+    ORBWEAVE_RETURN_IF_ERROR(WriteFileAtomically((folder / carrier.mask_file).string(), mask));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status WriteTrace(JobApi& coordinator,
                         const Digest& job,
                         const std::filesystem::path& folder) {
@@ -95,6 +105,7 @@ absl::StatusOr<JobReport> WriteOutputs(ClientApi& coordinator,
   FillRun(status, workers, report);
 
   ORBWEAVE_RETURN_IF_ERROR(WritePoseFiles(report, results.manifest, path));
+  ORBWEAVE_RETURN_IF_ERROR(WriteCarrierMasks(report, path));
   ORBWEAVE_RETURN_IF_ERROR(WriteTrace(coordinator, status.id, path));
   ORBWEAVE_RETURN_IF_ERROR(
       WriteFileAtomically((path / "report.json").string(), ReportJson(report)));

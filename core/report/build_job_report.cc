@@ -22,12 +22,11 @@
 #include "core/report/list_missing_images.h"
 #include "core/report/list_unchecked.h"
 #include "core/report/summarise_uncertainty.h"
+#include "core/report/tell_carriers.h"
 #include "core/report/trace_paths.h"
 
 namespace orbweave {
 namespace {
-
-constexpr double kWorthAMask = 0.01;  // of what a camera sees around it
 
 /// Image rows as far as the partition knows them.
 std::vector<ReportImage> StartRows(const JobResults& results) {
@@ -117,22 +116,6 @@ void TellWeakCuts(const Partition& partition, JobReport& report) {
                               std::to_string(seam.cluster_b) +
                               " are divided where the seam may not hold: " + seam.weakness);
   }
-}
-
-/// What was not matched as it goes along with the camera, where that is worth a mask.
-void TellCarriers(const JobResults& results, JobReport& report) {
-  if (results.carriers.empty()) return;
-  const Carrier& largest = *std::ranges::max_element(
-      results.carriers, {}, [](const Carrier& carrier) { return carrier.cells.size(); });
-  const double share = static_cast<double>(largest.cells.size()) / kNumCarrierCells;
-  if (share < kWorthAMask) return;
-  report.warnings.push_back(absl::StrFormat(
-      "what goes along with the camera shows in up to %.1f %% of what it sees around it (drives: "
-      "%u, for example that of %s), and is not matched there; a mask over it (--masks FILE is one "
-      "for all) leaves its features to the street",
-      100.0 * share,
-      results.carriers.size(),
-      results.manifest.At(largest.images.front()).name));
 }
 
 std::vector<ReportCluster> ClusterRows(const JobResults& results) {

@@ -200,6 +200,12 @@ struct ReportWiderPairs {
 
 /// Everything report.json and report.html tell. Residuals are angles times W / 2pi: pixels at the
 /// equator.
+/// What goes along with the camera of a drive without masks.
+struct ReportCarrier {
+  std::string mask_file{};        ///< of the output: a mask to begin with
+  std::vector<uint32_t> cells{};  ///< of a Carrier
+};
+
 struct JobReport {
   std::string version{};
   std::string title{};  ///< of the page: the job's label
@@ -234,6 +240,7 @@ struct JobReport {
   std::vector<CrossCheck> checks{};  ///< of all models, the largest model's first
   Verdict verdict{};
   std::vector<std::string> warnings{};
+  std::vector<ReportCarrier> carriers{};  ///< those that are worth a mask and have none
   std::string options_text{};
   std::vector<ReportImage> images{};  ///< in id order
 

@@ -114,10 +114,26 @@ TEST(BuildJobReport, SaysWhatWasNotMatchedAsItGoesAlong) {
   EXPECT_THAT(BuildJobReport(results).warnings,
               ElementsAre(AllOf(HasSubstr("up to 25.0 % of what it sees"),
                                 HasSubstr("drives: 2, for example that of pano_5.jpg"),
-                                HasSubstr("--masks"))));
+                                HasSubstr("carrier_of_pano_2.png is one to begin with, --masks"))));
   results.carriers.resize(1);
   results.carriers[0].cells.resize(40);
   EXPECT_THAT(BuildJobReport(results).warnings, IsEmpty()) << "of less than a hundredth";
+}
+
+TEST(BuildJobReport, OffersMasksToDrivesWithoutAny) {
+  JobResults results = Street(9, {{0, 9}});
+  results.carriers = {{.images = {ImageId(2), ImageId(3)}, .cells = std::vector<uint32_t>(1024)},
+                      {.images = {ImageId(5), ImageId(6)}, .cells = std::vector<uint32_t>(41)},
+                      {.images = {ImageId(7), ImageId(8)}, .cells = std::vector<uint32_t>(40)}};
+  results.manifest.images[3].mask = DigestOf("mask");
+  results.manifest.images[5].name = "Monday/5.jpg";
+  const JobReport report = BuildJobReport(results);
+  ASSERT_EQ(report.carriers.size(), 1U);
+  EXPECT_EQ(report.carriers[0].mask_file, "carrier_of_Monday_5.png");
+  EXPECT_EQ(report.carriers[0].cells.size(), 41U);
+  results.manifest.images[5].mask = DigestOf("mask");
+  EXPECT_THAT(BuildJobReport(results).warnings,
+              ElementsAre(HasSubstr("a mask over it (--masks FILE is")));
 }
 
 TEST(JudgeModel, OneImageLeftOutOfAFewIsWithinTheLimit) {
