@@ -7,6 +7,7 @@
 
 #include "core/mapping/adjust_part.h"
 #include "core/mapping/model/complete_tracks.h"
+#include "core/mapping/model/drop_ghost_points.h"
 #include "core/mapping/model/drop_near_points.h"
 #include "core/mapping/model/drop_two_view_points.h"
 #include "core/mapping/model/filter_points.h"
@@ -62,6 +63,7 @@ absl::Status AdjustInRounds(MappingState& state,
     uint32_t changed = DensifyTracks(state, limits);
     if (rounds.tightens) changed += MergeCoincidentPoints(state, limits.max_error_px);
     changed += DropNearPoints(state, state.Registered());
+    if (ScheduleOf(options).tightens) DropGhostPoints(state);
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, how, context));
     changed += FilterPoints(state, AllPoints(state), LimitsOf(limits));
     if (changed <= rounds.max_changed_share * state.NumObservations()) break;

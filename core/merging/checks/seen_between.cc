@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/geometry/rotation.h"
+#include "core/geometry/stands_between.h"
 
 namespace orbweave {
 namespace {
@@ -14,11 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr size_t kMaxTracks = 100000;
-constexpr double kMinApart_rad = 0.05;
-constexpr double kOnTheWay = 1.05;
-constexpr double kOnTheWay_rad = 0.01;
-constexpr double kInside = 0.2;
-constexpr double kAsFar = 1.05;
+constexpr double kAsFar = 1.05;  // as StandsBetween has it
 
 struct Panorama {
   ImageId id{};
@@ -64,10 +61,7 @@ class Sights {
         if (images_[i] == image || images_[k] == image) continue;
         const double apart_rad = apart_rad_[i * images_.size() + k];
         const double farther = std::max(from_point_[i].norm(), from_point_[k].norm());
-        if (apart_rad >= kMinApart_rad &&
-            to_rad[i] + to_rad[k] <= kOnTheWay * apart_rad + kOnTheWay_rad &&
-            std::min(to_rad[i], to_rad[k]) >= kInside * apart_rad && distance <= kAsFar * farther)
-          return true;
+        if (StandsBetween({apart_rad, farther}, to_rad[i], to_rad[k], distance)) return true;
       }
     }
     return false;

@@ -17,10 +17,8 @@ struct SeenBetween {
 };
 
 /// For each panorama of the subproblem that is asked anything, sorted. It is asked for a point
-/// where two others see it from either side of where it does: with the angles at the point, X
-/// between the two, A and C to each of them, A + C <= 1.05 X + 0.01 rad, X >= 0.05 rad, A, C >= X /
-/// 5, and no further away than the farther of both, to a twentieth. What both see it should see,
-/// unless something stands in the way, or it stands elsewhere.
+/// where two others see it from either side of where it does (StandsBetween). What both see it
+/// should see, unless something stands in the way, or it stands elsewhere.
 ///
 /// Of tracks that the subproblem has for itself, 100,000 at most, evenly chosen. Time: these times
 /// its panoramas.
