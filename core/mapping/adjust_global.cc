@@ -28,6 +28,7 @@ struct Rounds {
   int max_rounds = 1;
   double max_changed_share = 0.0;  ///< of the observations, below which the model is at rest
   bool tightens = false;           ///< judges errors by the model's own exactness
+  bool drops_ghosts = false;       ///< DropGhostPoints
 };
 
 /// Returns the number of observations added and points merged.
@@ -63,10 +64,39 @@ absl::Status AdjustInRounds(MappingState& state,
     uint32_t changed = DensifyTracks(state, limits);
     if (rounds.tightens) changed += MergeCoincidentPoints(state, limits.max_error_px);
     changed += DropNearPoints(state, state.Registered());
-    if (ScheduleOf(options).tightens) DropGhostPoints(state);
+    if (rounds.drops_ghosts) DropGhostPoints(state);
     ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, how, context));
     changed += FilterPoints(state, AllPoints(state), LimitsOf(limits));
     if (changed <= rounds.max_changed_share * state.NumObservations()) break;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status AdjustUntilAtRest(MappingState& state,
+                               const MappingOptions& options,
+                               bool drops_ghosts,
+                               const StageContext& context) {
+  const bool tightens = ScheduleOf(options).tightens;
+  const BundleOptions robust = AsPresetAdjusts(
+      options, {.loss = BundleLoss::kCauchy, .max_iterations = 30, .function_tolerance = 1e-5});
+  ORBWEAVE_RETURN_IF_ERROR(AdjustInRounds(state,
+                                          options,
+                                          robust,
+                                          {.max_rounds = 5,
+                                           .max_changed_share = 0.001,
+                                           .tightens = tightens,
+                                           .drops_ghosts = drops_ghosts},
+                                          context));
+  if (tightens)
+    DropTwoViewPoints(state, kTwoViewMedians * MedianErrorPx(state), options.two_view_below);
+  const BundleOptions exact = AsPresetAdjusts(
+      options,
+      {.loss = BundleLoss::kLeastSquares, .max_iterations = 30, .function_tolerance = 1e-7});
+  constexpr int kMaxFinishes = 3;
+  for (int finish = 0; finish < kMaxFinishes; ++finish) {
+    ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, exact, context));
+    const TrackLimits limits = LimitsOf(tightens ? Tightened(state, options) : options);
+    if (FilterPoints(state, AllPoints(state), limits) == 0) break;
   }
   return absl::OkStatus();
 }
@@ -84,27 +114,14 @@ absl::Status AdjustGrowingModel(MappingState& state,
 absl::Status AdjustFinalModel(MappingState& state,
                               const MappingOptions& options,
                               const StageContext& context) {
-  const bool tightens = ScheduleOf(options).tightens;
-  const BundleOptions robust = AsPresetAdjusts(
-      options, {.loss = BundleLoss::kCauchy, .max_iterations = 30, .function_tolerance = 1e-5});
-  ORBWEAVE_RETURN_IF_ERROR(
-      AdjustInRounds(state,
-                     options,
-                     robust,
-                     {.max_rounds = 5, .max_changed_share = 0.001, .tightens = tightens},
-                     context));
-  if (tightens)
-    DropTwoViewPoints(state, kTwoViewMedians * MedianErrorPx(state), options.two_view_below);
-  const BundleOptions exact = AsPresetAdjusts(
-      options,
-      {.loss = BundleLoss::kLeastSquares, .max_iterations = 30, .function_tolerance = 1e-7});
-  constexpr int kMaxFinishes = 3;
-  for (int finish = 0; finish < kMaxFinishes; ++finish) {
-    ORBWEAVE_RETURN_IF_ERROR(AdjustAll(state, exact, context));
-    const TrackLimits limits = LimitsOf(tightens ? Tightened(state, options) : options);
-    if (FilterPoints(state, AllPoints(state), limits) == 0) break;
-  }
-  return absl::OkStatus();
+  return AdjustUntilAtRest(state, options, false, context);
+}
+
+absl::Status AdjustWithoutGhosts(MappingState& state,
+                                 const MappingOptions& options,
+                                 const StageContext& context) {
+  if (DropGhostPoints(state) == 0) return absl::OkStatus();
+  return AdjustUntilAtRest(state, options, true, context);
 }
 
 }  // namespace orbweave

@@ -19,4 +19,11 @@ namespace orbweave {
                                             const MappingOptions& options,
                                             const StageContext& context);
 
+/// The final model once more without walls that are not there (DropGhostPoints), where it has any.
+/// For models whose shape is settled: points that come into the place of others may be taken for
+/// what holds two streets together.
+[[nodiscard]] absl::Status AdjustWithoutGhosts(MappingState& state,
+                                               const MappingOptions& options,
+                                               const StageContext& context);
+
 }  // namespace orbweave

@@ -11,6 +11,7 @@
 
 #include "core/bundle/bearing_error.h"
 #include "core/mapping/adapt_to_parallax.h"
+#include "core/mapping/adjust_global.h"
 #include "core/mapping/cut_at_hinges.h"
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
@@ -83,7 +84,7 @@ std::vector<MappingState> CutAll(std::vector<MappingState> states, const Mapping
 }
 
 /// Grows submodels until no images are left, cuts off what hangs elsewhere than GNSS has it, then
-/// joins those that bridges hold together.
+/// joins those that bridges hold together, without walls that are not there.
 absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& problem,
                                                        const CorrespondenceGraph& graph,
                                                        const MappingOptions& options,
@@ -118,6 +119,8 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   ORBWEAVE_ASSIGN_OR_RETURN(
       states, JoinByBridges(std::move(states), problem, graph, options, log, context));
   result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
+  for (MappingState& state : states)
+    ORBWEAVE_RETURN_IF_ERROR(AdjustWithoutGhosts(state, options, context));
   return states;
 }
 
