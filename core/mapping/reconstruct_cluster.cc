@@ -84,7 +84,7 @@ std::vector<MappingState> CutAll(std::vector<MappingState> states, const Mapping
 }
 
 /// Grows submodels until no images are left, cuts off what hangs elsewhere than GNSS has it, then
-/// joins those that bridges hold together, without walls that are not there.
+/// joins those that bridges hold together.
 absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& problem,
                                                        const CorrespondenceGraph& graph,
                                                        const MappingOptions& options,
@@ -119,8 +119,6 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   ORBWEAVE_ASSIGN_OR_RETURN(
       states, JoinByBridges(std::move(states), problem, graph, options, log, context));
   result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
-  for (MappingState& state : states)
-    ORBWEAVE_RETURN_IF_ERROR(AdjustWithoutGhosts(state, options, context));
   return states;
 }
 
@@ -132,12 +130,29 @@ std::vector<Reconstruction> PiecesOf(const MappingState& state, const MappingOpt
   return whole;
 }
 
+/// What pairs and rays say of the model.
+void MeasureSubmodel(const MappingState& state,
+                     const MappingOptions& options,
+                     ClusterReconstruction& result) {
+  const JudgedPairs judged = JudgePairs(state, options);
+  result.contradicted_pairs.insert(
+      result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
+  result.explained_pairs.insert(
+      result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
+  const AskedRays asked(state, options);
+  std::ranges::copy(MeasurePairLengths(asked), std::back_inserter(result.pair_lengths));
+  const GnssWays gnss(state, kMatchTolerance * options.max_error_px);
+  std::vector<GapLength> gaps = MeasureGapLengths(asked, &gnss);
+  AddTyingRays(asked, gaps);
+  std::ranges::move(gaps, std::back_inserter(result.gap_lengths));
+}
+
 /// In pieces (PiecesOf). `reasons`: per image, of those that are none.
-void TakeSubmodel(const MappingState& state,
-                  const MappingOptions& options,
-                  ResidualSum& residuals,
-                  std::vector<std::string>& reasons,
-                  ClusterReconstruction& result) {
+void TakePieces(const MappingState& state,
+                const MappingOptions& options,
+                ResidualSum& residuals,
+                std::vector<std::string>& reasons,
+                ClusterReconstruction& result) {
   for (Reconstruction& piece : PiecesOf(state, options)) {
     if (piece.images.size() < static_cast<size_t>(options.min_component_images)) {
       for (const auto& [id, image] : piece.images) {
@@ -150,17 +165,21 @@ void TakeSubmodel(const MappingState& state,
     residuals.Add(state.Problem(), piece);
     result.submodels.push_back(std::move(piece));
   }
-  const JudgedPairs judged = JudgePairs(state, options);
-  result.contradicted_pairs.insert(
-      result.contradicted_pairs.end(), judged.contradicted.begin(), judged.contradicted.end());
-  result.explained_pairs.insert(
-      result.explained_pairs.end(), judged.explained.begin(), judged.explained.end());
-  const AskedRays asked(state, options);
-  std::ranges::copy(MeasurePairLengths(asked), std::back_inserter(result.pair_lengths));
-  const GnssWays gnss(state, kMatchTolerance * options.max_error_px);
-  std::vector<GapLength> gaps = MeasureGapLengths(asked, &gnss);
-  AddTyingRays(asked, gaps);
-  std::ranges::move(gaps, std::back_inserter(result.gap_lengths));
+}
+
+/// Walls that are not there go at the very end: where images stand in the wrong place they are what
+/// tells of it.
+absl::Status TakeSubmodel(MappingState& state,
+                          const MappingOptions& options,
+                          const StageContext& context,
+                          ResidualSum& residuals,
+                          std::vector<std::string>& reasons,
+                          ClusterReconstruction& result) {
+  MeasureSubmodel(state, options, result);
+  if (ScheduleOf(options).tightens)
+    ORBWEAVE_RETURN_IF_ERROR(AdjustWithoutGhosts(state, options, context));
+  TakePieces(state, options, residuals, reasons, result);
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -182,14 +201,14 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       ScheduleOf(stated).tightens ? AdaptToParallax(problem, graph, stated) : stated;
   RegistrationLog log(problem.images.size());
   ClusterReconstruction result;
-  ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MappingState> states,
+  ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MappingState> states,
                             MapSubmodels(problem, graph, options, context, log, result));
   ResidualSum residuals;
   std::vector<std::string> reasons(problem.images.size());
-  for (const MappingState& state : states) {
+  for (MappingState& state : states) {
     const size_t size = state.Registered().size();
     if (size >= static_cast<size_t>(options.min_component_images)) {
-      TakeSubmodel(state, options, residuals, reasons, result);
+      ORBWEAVE_RETURN_IF_ERROR(TakeSubmodel(state, options, context, residuals, reasons, result));
       continue;
     }
     for (const ImageSlot image : state.Registered()) {
