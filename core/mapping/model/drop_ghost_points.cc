@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double kMissed = 1.0 / 3.0;    // of what a third image should see
 const double kBeside = std::cos(0.087);  // five degrees
 constexpr double kAsFar = 0.15;          // difference of logarithms
-constexpr double kInPlace = 2.0 / 3.0;   // of the points
+constexpr double kInPlace = 2.0 / 3.0;   // of the share of what a third image sees
 
 using Pair = std::pair<ImageSlot, ImageSlot>;
 
