@@ -35,20 +35,12 @@ struct Joint {
   uint32_t points = 0;   ///< all
 };
 
-std::vector<ImageSlot> ImagesOf(const MappingState& state, PointIndex point) {
-  std::vector<ImageSlot> images;
-  for (const Node node : state.Point(point).nodes)
-    images.push_back(state.Graph().image_of_node[node]);
-  std::ranges::sort(images);
-  return images;
-}
-
 /// All joints, those of most telling points first, then of most points, then in order of their
 /// images.
 std::vector<Joint> JointsOf(const MappingState& state) {
   std::vector<std::tuple<ImageSlot, ImageSlot, bool>> seen_by_both;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
-    const std::vector<ImageSlot> images = ImagesOf(state, p);
+    const std::vector<ImageSlot> images = ImagesThatSee(state, p);
     const size_t reach = images.size() <= kAllPairs ? images.size() : 1;
     for (size_t i = 0; i < images.size(); ++i) {
       for (size_t j = i + 1; j < std::min(images.size(), i + 1 + reach); ++j)
@@ -107,7 +99,7 @@ HungPiece PieceAt(const MappingState& state, const std::vector<Joint>& holding, 
 uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
   uint32_t common = 0;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
-    const std::vector<ImageSlot> images = ImagesOf(state, p);
+    const std::vector<ImageSlot> images = ImagesThatSee(state, p);
     if (images.size() < kTelling) continue;
     const auto inside = std::ranges::count_if(
         images, [&](ImageSlot image) { return std::ranges::binary_search(piece.images, image); });

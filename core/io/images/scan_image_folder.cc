@@ -195,8 +195,8 @@ absl::Status ScanMasks(const ImagePlaces& places,
         return absl::OkStatus();
       }));
   for (SourceImage& image : sources.images) {
-    const auto mask = std::lower_bound(masks.begin(), masks.end(), image.mask_path);
     if (image.mask_path.empty()) continue;
+    const auto mask = std::lower_bound(masks.begin(), masks.end(), image.mask_path);
     SetMask(*places.masks, facts[static_cast<size_t>(mask - masks.begin())], image);
   }
   return absl::OkStatus();

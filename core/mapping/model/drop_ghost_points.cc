@@ -33,16 +33,6 @@ struct SeenByTwo {
   std::vector<PointIndex> missed{};
 };
 
-/// With whom each image has verified pairs.
-std::vector<std::vector<ImageSlot>> Neighbours(const CorrespondenceGraph& graph) {
-  std::vector<std::vector<ImageSlot>> neighbours(graph.NumImages());
-  for (const LinkedPair& pair : graph.pairs) {
-    neighbours[pair.a].push_back(pair.b);
-    neighbours[pair.b].push_back(pair.a);
-  }
-  return neighbours;
-}
-
 /// Two images that see a point.
 class Sight {
  public:
@@ -54,10 +44,10 @@ class Sight {
         two_{AngleBetween(one_, other_), std::max(one_.norm(), other_.norm())} {}
 
   /// Neither of the two stands between them itself.
-  [[nodiscard]] bool IsAround(ImageSlot third) const {
+  [[nodiscard]] bool HasBetween(ImageSlot third) const {
     const Vector3d from_point = state_.Centre(third) - point_;
     const double distance = from_point.norm();
-    if (distance > 2.0 * two_.farther) return false;  // most are, and cost no angles
+    if (distance > kMaxFartherBetween * two_.farther) return false;  // most are, without angles
     return StandsBetween(
         two_, AngleBetween(one_, from_point), AngleBetween(other_, from_point), distance);
   }
@@ -70,29 +60,27 @@ class Sight {
   const TwoFromPoint two_;
 };
 
-std::vector<ImageSlot> ImagesOf(const MappingState& state, const MappedPoint& point) {
-  std::vector<ImageSlot> images;
-  for (const Node node : point.nodes) images.push_back(state.Graph().image_of_node[node]);
-  std::ranges::sort(images);
-  return images;
+/// Whether an image that has a verified pair with `image` stands between the two.
+bool HasNeighbourBetween(const MappingState& state, ImageSlot image, const Sight& sight) {
+  const CorrespondenceGraph& graph = state.Graph();
+  return std::ranges::any_of(graph.pairs_of_image[image], [&](uint32_t p) {
+    const ImageSlot third = graph.pairs[p].Other(image);
+    return state.IsRegistered(third) && sight.HasBetween(third);
+  });
 }
 
 /// By pair, the points that they see alone although an image that has verified pairs with one of
 /// them stands between.
 std::map<Pair, SeenByTwo> ListMissed(const MappingState& state) {
-  const std::vector<std::vector<ImageSlot>> neighbours = Neighbours(state.Graph());
   std::map<Pair, SeenByTwo> seen;
   for (const PointIndex index : AllPoints(state)) {
     const MappedPoint& point = state.Point(index);
     if (point.nodes.size() != 2) continue;
-    const std::vector<ImageSlot> images = ImagesOf(state, point);
+    const std::vector<ImageSlot> images = ImagesThatSee(state, index);
     const Pair two{images[0], images[1]};
     const Sight sight(state, point.position, two);
-    const auto misses = [&](ImageSlot third) {
-      return state.IsRegistered(third) && sight.IsAround(third);
-    };
-    if (std::ranges::any_of(neighbours[two.first], misses) ||
-        std::ranges::any_of(neighbours[two.second], misses))
+    if (HasNeighbourBetween(state, two.first, sight) ||
+        HasNeighbourBetween(state, two.second, sight))
       seen[two].missed.push_back(index);
   }
   return seen;
@@ -103,13 +91,13 @@ void AddSeenByThird(const MappingState& state, std::map<Pair, SeenByTwo>& seen) 
   for (const PointIndex index : AllPoints(state)) {
     const MappedPoint& point = state.Point(index);
     if (point.nodes.size() < 3) continue;
-    const std::vector<ImageSlot> images = ImagesOf(state, point);
+    const std::vector<ImageSlot> images = ImagesThatSee(state, index);
     for (size_t i = 0; i < images.size(); ++i) {
       for (size_t k = i + 1; k < images.size(); ++k) {
         const auto pair = seen.find({images[i], images[k]});
         if (pair == seen.end()) continue;
         const Sight sight(state, point.position, pair->first);
-        if (std::ranges::any_of(images, [&](ImageSlot third) { return sight.IsAround(third); }))
+        if (std::ranges::any_of(images, [&](ImageSlot third) { return sight.HasBetween(third); }))
           pair->second.by_third.push_back(index);
       }
     }

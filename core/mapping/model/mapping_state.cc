@@ -116,6 +116,14 @@ void MappingState::Unlink(Node node) {
   }
 }
 
+std::vector<ImageSlot> ImagesThatSee(const MappingState& state, PointIndex point) {
+  std::vector<ImageSlot> images;
+  for (const Node node : state.Point(point).nodes)
+    images.push_back(state.Graph().image_of_node[node]);
+  std::ranges::sort(images);
+  return images;
+}
+
 double NodeError(const MappingState& state, const Eigen::Vector3d& position, Node node) {
   const CorrespondenceGraph& graph = state.Graph();
   return BearingError(

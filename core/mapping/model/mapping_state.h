@@ -114,6 +114,9 @@ class MappingState {
   uint32_t num_observations_ = 0;
 };
 
+/// The images that see a point, ascending.
+[[nodiscard]] std::vector<ImageSlot> ImagesThatSee(const MappingState& state, PointIndex point);
+
 /// Angle between the bearing of `node` and the direction to `position`, radians.
 [[nodiscard]] double NodeError(const MappingState& state,
                                const Eigen::Vector3d& position,

@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr size_t kMaxTracks = 100000;
-constexpr double kAsFar = 1.05;  // as StandsBetween has it
 
 struct Panorama {
   ImageId id{};
@@ -39,7 +38,7 @@ class Sights {
       if (image.loose) continue;
       images_.push_back(seen.ref.image);
       from_point_.emplace_back(image.cam_from_world.Centre() - track.point_in_world);
-      reach_ = std::max(reach_, kAsFar * from_point_.back().norm());
+      reach_ = std::max(reach_, kMaxFartherBetween * from_point_.back().norm());
     }
     for (const Vector3d& one : from_point_) {
       for (const Vector3d& other : from_point_) apart_rad_.push_back(AngleBetween(one, other));

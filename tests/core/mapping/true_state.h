@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/mapping/model/filter_points.h"
 #include "core/mapping/model/mapping_state.h"
 #include "core/mapping/model/triangulate_tracks.h"
 #include "tests/core/mapping/ray_street.h"
@@ -38,6 +39,17 @@ struct StreetFixture {
   RayStreet world;
   CorrespondenceGraph graph;
 };
+
+/// The same model in another unit of length.
+inline void Scale(MappingState& state, double factor) {
+  for (const ImageSlot image : state.Registered()) {
+    Rigid3 pose = state.CamFromWorld(image);
+    pose.translation *= factor;
+    state.SetPose(image, pose);
+  }
+  for (const PointIndex point : AllPoints(state))
+    state.SetPosition(point, factor * state.Point(point).position);
+}
 
 inline std::vector<ImageSlot> FirstImages(uint32_t count) {
   std::vector<ImageSlot> images;

@@ -20,6 +20,12 @@ std::vector<std::string> Names(const ImageSources& sources) {
   return names;
 }
 
+/// Each with pixels of its own.
+void WriteImages(const TemporaryFolder& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    folder.Write(name, EncodedImage(64, 32, ".jpg", DigestOf(name).ToSeed()));
+}
+
 TEST(ScanImageFolder, ListsImagesBelowInNaturalOrder) {
   const TemporaryFolder folder;
   folder.Write("img10.jpg", EncodedImage(64, 32, ".jpg", 1));
@@ -127,8 +133,7 @@ TEST(ReadGnssFile, SaysWhatToDoWithUtf16) {
 
 TEST(ScanImageFolder, FindsMasksByEveryConvention) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.jpg", "sub/b.jpg", "c.jpg", "d.jpg"})
-    folder.Write(name, EncodedImage(64, 32, ".jpg", DigestOf(name).ToSeed()));
+  WriteImages(folder, {"a.jpg", "sub/b.jpg", "c.jpg", "d.jpg"});
   folder.Write("masks/a.jpg.png", EncodedImage(64, 32, ".png"));
   folder.Write("masks/a.png", EncodedImage(16, 8, ".png"));
   folder.Write("masks/SUB/B.PNG", EncodedImage(32, 16, ".png"));
@@ -145,8 +150,7 @@ TEST(ScanImageFolder, FindsMasksByEveryConvention) {
 
 TEST(ScanImageFolder, TakesOneMaskForAllImages) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.jpg", "sub/b.jpg"})
-    folder.Write(name, EncodedImage(64, 32, ".jpg", DigestOf(name).ToSeed()));
+  WriteImages(folder, {"a.jpg", "sub/b.jpg"});
   folder.Write("car.png", EncodedImage(32, 16, ".png"));  // among the images, but none of them
   const ImageSources sources =
       ScanImageFolder({.image_folder = folder.path(), .masks = folder / "sub/../car.png"}, {})
@@ -162,8 +166,7 @@ TEST(ScanImageFolder, TakesOneMaskForAllImages) {
 
 TEST(ScanImageFolder, TakesTheMaskOfAFolderForWhatHasNoneOfItsOwn) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.jpg", "Monday/b.jpg", "Monday/c.jpg", "Monday/late/d.jpg"})
-    folder.Write(name, EncodedImage(64, 32, ".jpg", DigestOf(name).ToSeed()));
+  WriteImages(folder, {"a.jpg", "Monday/b.jpg", "Monday/c.jpg", "Monday/late/d.jpg"});
   folder.Write("masks/monday.png", EncodedImage(32, 16, ".png"));
   folder.Write("masks/Monday/c.png", EncodedImage(16, 8, ".png"));
   folder.Write("masks/late.png", EncodedImage(8, 4, ".png"));  // of no folder

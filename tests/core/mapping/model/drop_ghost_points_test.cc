@@ -117,13 +117,7 @@ TEST_F(DropGhostPointsTest, KeepsWhatNobodyStandsBetween) {
 TEST_F(DropGhostPointsTest, DoesNotKnowAScale) {
   LeaveToTwo(state_, SeenByBoth(state_, 2, 4, 2), 2, 4, 2.0);
   MappingState small = state_;
-  for (const ImageSlot image : FirstImages(7)) {
-    Rigid3 pose = small.CamFromWorld(image);
-    pose.translation *= 1e-3;
-    small.SetPose(image, pose);
-  }
-  for (const PointIndex point : AllPoints(small))
-    small.SetPosition(point, 1e-3 * small.Point(point).position);
+  Scale(small, 1e-3);
   EXPECT_EQ(DropGhostPoints(small), DropGhostPoints(state_));
 }
 

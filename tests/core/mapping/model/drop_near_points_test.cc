@@ -48,13 +48,7 @@ TEST(DropNearPoints, LeavesImagesAloneThatAreNotNamed) {
 TEST(DropNearPoints, DoesNotKnowAScale) {
   const StreetFixture street(Walk());
   MappingState state = street.TriangulatedStateWith(FirstImages(6));
-  for (const ImageSlot image : FirstImages(6)) {
-    Rigid3 pose = state.CamFromWorld(image);
-    pose.translation *= 1e-6;
-    state.SetPose(image, pose);
-  }
-  for (const PointIndex point : AllPoints(state))
-    state.SetPosition(point, 1e-6 * state.Point(point).position);
+  Scale(state, 1e-6);
   EXPECT_EQ(DropNearPoints(state, state.Registered()), 0U);
 }
 
