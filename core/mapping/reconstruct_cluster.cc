@@ -13,6 +13,7 @@
 #include "core/mapping/adapt_to_parallax.h"
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/cut_at_hinges.h"
+#include "core/mapping/drop_off_scale_images.h"
 #include "core/mapping/export_submodel.h"
 #include "core/mapping/find_contradicted_pairs.h"
 #include "core/mapping/find_small_motions.h"
@@ -83,6 +84,15 @@ std::vector<MappingState> CutAll(std::vector<MappingState> states, const Mapping
   return cut;
 }
 
+/// Without images on a scale of their own, which may be a submodel by themselves.
+absl::Status DropOffScale(MappingState& state,
+                          const MappingOptions& options,
+                          const StageContext& context) {
+  while (!DropOffScaleImages(state).empty())
+    ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state, options, context));
+  return absl::OkStatus();
+}
+
 /// Grows submodels until no images are left, cuts off what hangs elsewhere than GNSS has it, then
 /// joins those that bridges hold together.
 absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& problem,
@@ -103,8 +113,10 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
     if (states.empty()) result.start_remark = submodel.start_remark;
     if (!submodel.state || submodel.state->Registered().empty()) break;
     const std::vector<ImageSlot>& registered = submodel.state->Registered();
-    if (ScheduleOf(options).relaxes_registration)
+    if (ScheduleOf(options).relaxes_registration) {
+      ORBWEAVE_RETURN_IF_ERROR(DropOffScale(*submodel.state, options, context));
       ORBWEAVE_RETURN_IF_ERROR(MendUneven(*submodel.state, options, context).status());
+    }
     for (const ImageSlot image : registered) available[image] = 0;
     if (registered.size() > largest) {
       largest = registered.size();
@@ -118,6 +130,8 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   const size_t grown = states.size();
   ORBWEAVE_ASSIGN_OR_RETURN(
       states, JoinByBridges(std::move(states), problem, graph, options, log, context));
+  for (MappingState& state : states)
+    ORBWEAVE_RETURN_IF_ERROR(DropOffScale(state, options, context));
   result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
   return states;
 }

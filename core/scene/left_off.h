@@ -20,4 +20,11 @@ namespace orbweave {
 /// beside an image without a position, and behind the last image.
 [[nodiscard]] std::vector<uint8_t> LeftOffBehind(std::span<const PosePrior* const> sequence);
 
+/// The same of images in the order of their drive, which may have times. After a pause, an interval
+/// of more than three usual ones, a step of more than two usual ones is a gap whatever the sigmas:
+/// a camera that stood for a while goes on where it stood, and that a single position makes the gap
+/// shorter hides it no longer.
+[[nodiscard]] std::vector<uint8_t> LeftOffBehind(const ImageManifest& manifest,
+                                                 std::span<const ImageId> sequence);
+
 }  // namespace orbweave

@@ -13,9 +13,7 @@ namespace {
 /// For each image of a sequence, in which stretch of it.
 std::vector<uint32_t> StretchesOf(const std::vector<ImageId>& sequence,
                                   const ImageManifest& manifest) {
-  std::vector<const PosePrior*> priors;
-  for (const ImageId image : sequence) priors.push_back(&manifest.At(image).prior);
-  const std::vector<uint8_t> left_off = LeftOffBehind(priors);
+  const std::vector<uint8_t> left_off = LeftOffBehind(manifest, sequence);
   std::vector<uint32_t> stretches(sequence.size(), 0);
   for (size_t i = 1; i < stretches.size(); ++i) stretches[i] = stretches[i - 1] + left_off[i - 1];
   return stretches;

@@ -78,10 +78,10 @@ class Apartness {
   Apartness(const MappingState& state, const std::vector<size_t>& place, double tolerance_px)
       : state_(state), place_(place), tolerance_px_(tolerance_px) {}
 
-  /// Whether no pair joins the two, and both have others much nearer than each other, elsewhere in
-  /// the drives, to which pairs join them.
+  /// Whether no pair that agrees joins the two, and both have others much nearer than each other,
+  /// elsewhere in the drives, to which pairs join them.
   [[nodiscard]] bool AreApart(ImageSlot a, ImageSlot b) const {
-    if (HavePair(a, b)) return false;
+    if (JoinsPair(a, b)) return false;
     const double near = kMuchNearer * (state_.Centre(a) - state_.Centre(b)).norm();
     const size_t of_a = CountWithin(near, a);
     const size_t of_b = CountWithin(near, b);
@@ -89,10 +89,10 @@ class Apartness {
   }
 
  private:
-  [[nodiscard]] bool HavePair(ImageSlot a, ImageSlot b) const {
+  [[nodiscard]] bool JoinsPair(ImageSlot a, ImageSlot b) const {
     return std::ranges::any_of(state_.Graph().pairs_of_image[a], [&](uint32_t p) {
       const LinkedPair& pair = state_.Graph().pairs[p];
-      return pair.Other(a) == b;
+      return pair.Other(a) == b && Agrees(state_, pair, tolerance_px_);
     });
   }
   [[nodiscard]] size_t CountWithin(double distance, ImageSlot image) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/scene/left_off.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -26,6 +27,7 @@ constexpr double kBadShare = 0.02;
 /// One image of a drive, with its place in the drive's order.
 struct Stop {
   size_t position = 0;
+  uint32_t stretch = 0;  ///< of the drive
   ImageId id{};
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> gnss{};
@@ -48,11 +50,15 @@ std::vector<Stop> StopsOf(const std::vector<ImageId>& drive,
                           const ImageManifest& manifest,
                           bool georeferenced) {
   std::vector<Stop> stops;
+  const std::vector<uint8_t> left_off = LeftOffBehind(manifest, drive);
+  uint32_t stretch = 0;
   for (size_t i = 0; i < drive.size(); ++i) {
+    if (i > 0) stretch += left_off[i - 1];
     const auto image = images.find(drive[i]);
     if (image == images.end() || image->second.loose) continue;
     Stop& stop = stops.emplace_back();
     stop.position = i;
+    stop.stretch = stretch;
     stop.id = drive[i];
     stop.centre = image->second.cam_from_world.Centre();
     if (georeferenced) stop.gnss = manifest.At(drive[i]).prior.position_in_enu;
@@ -61,7 +67,7 @@ std::vector<Stop> StopsOf(const std::vector<ImageId>& drive,
 }
 
 bool AreNeighbours(const Stop& a, const Stop& b) {
-  return b.position - a.position <= kMaxMissing + 1;
+  return a.stretch == b.stretch && b.position - a.position <= kMaxMissing + 1;
 }
 
 /// Three quarters of the steps around stop `i` are no longer; its own two do not count.

@@ -65,6 +65,32 @@ TEST(LeftOffBehind, HeightsSayNothing) {
   EXPECT_THAT(LeftOff(priors), Each(0));
 }
 
+/// Images of one drive at these places along a street, and at these times, if any.
+std::vector<uint8_t> LeftOffOfDrive(const std::vector<double>& metres_east,
+                                    const std::vector<double>& seconds) {
+  ImageManifest manifest;
+  std::vector<ImageId> sequence;
+  for (const PosePrior& prior : At(metres_east)) {
+    const ImageId id(static_cast<uint32_t>(sequence.size()));
+    sequence.push_back(id);
+    manifest.images.push_back({.id = id, .prior = prior});
+    if (!seconds.empty()) manifest.images.back().capture_time_s = seconds[id.value];
+  }
+  return LeftOffBehind(manifest, sequence);
+}
+
+TEST(LeftOffBehind, APauseBearsOutAGapThatOnePositionMakesShorter) {
+  const std::vector<double> metres = {0, 8, 16, 24, 50, 62, 70};  // the fifth truly at 54
+  const std::vector<double> seconds = {0, 1, 2, 3, 10, 11, 12};
+  EXPECT_THAT(LeftOffOfDrive(metres, seconds), ElementsAre(0, 0, 0, 1, 0, 0, 0));
+  EXPECT_THAT(LeftOffOfDrive(metres, {}), Each(0));
+  EXPECT_THAT(LeftOffOfDrive(metres, {0, 1, 2, 3, 4, 5, 6}), Each(0));
+}
+
+TEST(LeftOffBehind, ACameraThatPausedWhereItStoodIsNoGap) {
+  EXPECT_THAT(LeftOffOfDrive({0, 8, 16, 24, 36, 44, 52}, {0, 1, 2, 3, 60, 61, 62}), Each(0));
+}
+
 TEST(LeftOffBehind, IsNotToldWithoutPositions) {
   std::vector<PosePrior> priors = At({0, 8, 16, 124, 132, 140});
   for (PosePrior& prior : priors) prior.position_in_enu.reset();

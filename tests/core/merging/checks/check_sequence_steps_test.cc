@@ -139,6 +139,18 @@ TEST(CheckSequenceSteps, AJumpOfGnssWhereADriveLeftOffIsNotTheModels) {
   EXPECT_EQ(drive.Check(true).level, CheckLevel::kGood) << drive.Check(true).sentence;
 }
 
+TEST(CheckSequenceSteps, ImagesBesideAPauseInWhichTheDriveWentOnElsewhereAreNoNeighbours) {
+  std::vector<double> steps(30, 3.0);
+  steps[14] = 29.0;
+  Drive drive = DriveAlong(Way(steps), 0.3);
+  // Behind the gap a position lies closer to what is before it.
+  *drive.manifest.images[15].prior.position_in_enu -= Eigen::Vector3d(18.0, 0.0, 0.0);
+  EXPECT_EQ(drive.Check(true).level, CheckLevel::kDoubtful);
+  for (uint32_t i = 0; i < drive.manifest.images.size(); ++i)
+    drive.manifest.images[i].capture_time_s = i < 15 ? i : i + 9.0;
+  EXPECT_EQ(drive.Check(true).level, CheckLevel::kGood) << drive.Check(true).sentence;
+}
+
 TEST(CheckSequenceSteps, ManyDisplacedPanoramasAreBad) {
   Drive drive = DriveAlong(Way(std::vector<double>(60, 3.0)));
   for (const uint32_t i : {10U, 20U, 30U, 40U}) drive.Move(i, {0.0, 12.0, 0.0});
