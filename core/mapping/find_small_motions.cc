@@ -10,6 +10,7 @@
 
 #include "core/base/quantile.h"
 #include "core/estimators/refine_two_view.h"
+#include "core/estimators/split_by_height.h"
 #include "core/geometry/epipolar.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/symmetric_eigen.h"
@@ -20,9 +21,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr size_t kFewest = 100;   // matches, as of a seed
-constexpr double kClearly = 3.0;  // times as far apart as from their planes
-constexpr double kTowards = 0.9;  // of the matches
+constexpr size_t kFewest = 100;      // matches, as of a seed
+constexpr double kClearly = 3.0;     // times as far apart as most are from their planes
+constexpr double kTowards = 0.9;     // of the matches
+constexpr size_t kFewestMoved = 30;  // of which nine in ten agree by chance once in 200,000 pairs
 constexpr double kUsualErrorPx = 0.5;
 constexpr int kSteps = 20;
 
@@ -57,19 +59,44 @@ Rigid3 WithDirection(const Eigen::Quaterniond& rotation, const PairRays& rays) {
   return {rotation, direction.dot(moved) < 0.0 ? Vector3d(-direction) : direction};
 }
 
-bool IsTold(const Rigid3& b_from_a, const PairRays& rays, double& median_angle_rad) {
-  std::vector<double> apart_rad;
-  std::vector<double> off_rad;
-  size_t towards = 0;
+/// How a match has moved beyond what the rotation makes of it.
+struct Motion {
+  double apart_rad = 0.0;
+  double off_rad = 0.0;  ///< from the epipolar planes
+  bool is_towards = false;
+  bool is_high = false;
+};
+
+std::vector<Motion> MotionsOf(const Rigid3& b_from_a, const PairRays& rays) {
+  std::vector<Motion> motions;
   for (size_t i = 0; i < rays.a.size(); ++i) {
     const Vector3d turned = b_from_a.rotation * rays.a[i];
-    apart_rad.push_back(AngleBetween(turned, rays.b[i]));
-    off_rad.push_back(SymmetricEpipolarAngle(b_from_a, rays.a[i], rays.b[i]));
-    towards += (rays.b[i] - turned).dot(b_from_a.translation) > 0.0 ? 1 : 0;
+    motions.push_back({.apart_rad = AngleBetween(turned, rays.b[i]),
+                       .off_rad = SymmetricEpipolarAngle(b_from_a, rays.a[i], rays.b[i]),
+                       .is_towards = (rays.b[i] - turned).dot(b_from_a.translation) > 0.0,
+                       .is_high = IsEitherHigh(rays.a[i], rays.b[i])});
   }
-  median_angle_rad = UpperMedian(std::move(apart_rad));
-  return median_angle_rad >= kClearly * UpperMedian(std::move(off_rad)) &&
-         static_cast<double>(towards) >= kTowards * static_cast<double>(rays.a.size());
+  return motions;
+}
+
+double MedianOf(const std::vector<Motion>& motions, double Motion::*what) {
+  std::vector<double> values;
+  for (const Motion& motion : motions) values.push_back(motion.*what);
+  return UpperMedian(std::move(values));
+}
+
+bool AreTold(const std::vector<Motion>& motions) {
+  const double clear_rad = kClearly * MedianOf(motions, &Motion::off_rad);
+  if (MedianOf(motions, &Motion::apart_rad) < clear_rad) return false;
+  size_t moved = 0;
+  size_t towards = 0;
+  for (const Motion& motion : motions) {
+    if (motion.is_high || motion.apart_rad < clear_rad) continue;
+    ++moved;
+    towards += motion.is_towards ? 1 : 0;
+  }
+  return moved >= kFewestMoved &&
+         static_cast<double>(towards) >= kTowards * static_cast<double>(moved);
 }
 
 /// Makes the pair a general one; false where it tells no direction.
@@ -80,7 +107,9 @@ bool TellMotion(const ClusterProblem& problem, TwoViewGeometry& pair) {
       problem.images[*SlotOf(problem, pair.pair.a)].camera.AngleFromPixels(kUsualErrorPx);
   const Rigid3 b_from_a = MinimiseEpipolarResiduals(
       WithDirection(pair.b_from_a.rotation, rays), rays.a, rays.b, usual_rad, kSteps);
-  if (!IsTold(b_from_a, rays, pair.median_angle_rad)) return false;
+  const std::vector<Motion> motions = MotionsOf(b_from_a, rays);
+  if (!AreTold(motions)) return false;
+  pair.median_angle_rad = MedianOf(motions, &Motion::apart_rad);
   pair.b_from_a = b_from_a;
   pair.kind = TwoViewKind::kGeneral;
   return true;
@@ -89,8 +118,6 @@ bool TellMotion(const ClusterProblem& problem, TwoViewGeometry& pair) {
 }  // namespace
 
 std::optional<ClusterProblem> FindSmallMotions(const ClusterProblem& problem) {
-  const auto is_motion = [](const TwoViewGeometry& pair) { return HasBaseline(pair.kind); };
-  if (std::ranges::any_of(problem.pairs, is_motion)) return std::nullopt;
   ClusterProblem told = problem;
   size_t num_told = 0;
   for (TwoViewGeometry& pair : told.pairs)

@@ -136,6 +136,12 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   return states;
 }
 
+bool HoldModel(const std::vector<MappingState>& states, const MappingOptions& options) {
+  return std::ranges::any_of(states, [&](const MappingState& state) {
+    return state.Registered().size() >= static_cast<size_t>(options.min_component_images);
+  });
+}
+
 /// The state as a value; of our own preset in the pieces that GNSS leaves of it.
 std::vector<Reconstruction> PiecesOf(const MappingState& state, const MappingOptions& options) {
   if (ScheduleOf(options).tightens) return SplitByGnss(state.Problem(), ExportSubmodel(state));
@@ -206,10 +212,6 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
     if (const auto alike = WeighPixelsAlike(problem))
       return ReconstructCluster(*alike, stated, context);
   }
-  if (ScheduleOf(stated).tightens) {
-    if (const auto told = FindSmallMotions(problem))
-      return ReconstructCluster(*told, stated, context);
-  }
   ORBWEAVE_ASSIGN_OR_RETURN(const CorrespondenceGraph graph, BuildCorrespondenceGraph(problem));
   const MappingOptions options =
       ScheduleOf(stated).tightens ? AdaptToParallax(problem, graph, stated) : stated;
@@ -217,6 +219,10 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   ClusterReconstruction result;
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MappingState> states,
                             MapSubmodels(problem, graph, options, context, log, result));
+  if (ScheduleOf(stated).tightens && !HoldModel(states, options)) {
+    if (const auto told = FindSmallMotions(problem))
+      return ReconstructCluster(*told, stated, context);
+  }
   ResidualSum residuals;
   std::vector<std::string> reasons(problem.images.size());
   for (MappingState& state : states) {

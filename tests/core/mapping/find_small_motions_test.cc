@@ -48,9 +48,31 @@ TEST(FindSmallMotions, TellsNothingOfACameraThatStands) {
   EXPECT_FALSE(FindSmallMotions(world.problem).has_value());
 }
 
-TEST(FindSmallMotions, LeavesPairsAloneWhereSomeShowMore) {
+TEST(FindSmallMotions, CloudsThatDriftBackwardsHideNoMotion) {
+  constexpr double kDrift_rad = 0.002;  // from one panorama to the next
+  RayStreet world = MakeSlowStreet(10, 0.002);
+  for (uint32_t i = 0; i < world.problem.images.size(); ++i) {
+    std::vector<Eigen::Vector3d>& bearings = world.problem.images[i].bearings;
+    for (size_t feature = 0; feature < bearings.size(); ++feature) {
+      const bool is_cloud = world.point_of_feature[i][feature] % 4 == 0;
+      if (is_cloud && bearings[feature].y() < -0.3)
+        bearings[feature] = RotationFromVector({0.0, kDrift_rad * i, 0.0}) * bearings[feature];
+    }
+  }
+  const auto told = FindSmallMotions(world.problem);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_GE(CountGeneral(*told), 5U);
+}
+
+TEST(FindSmallMotions, LeavesPairsAsTheyAreThatShowMore) {
   RayStreet world = MakeSlowStreet(12, 0.002);
-  world.problem.pairs.back().kind = TwoViewKind::kGeneral;
+  TwoViewGeometry& general = world.problem.pairs.back();
+  general.kind = TwoViewKind::kGeneral;
+  const auto told = FindSmallMotions(world.problem);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->pairs.back().b_from_a.translation, general.b_from_a.translation);
+  EXPECT_GT(CountGeneral(*told), 1U);
+  for (TwoViewGeometry& pair : world.problem.pairs) pair.kind = TwoViewKind::kGeneral;
   EXPECT_FALSE(FindSmallMotions(world.problem).has_value());
 }
 
