@@ -19,9 +19,9 @@ namespace orbweave {
 ///
 /// Of an image its step (to the nearest image that a pair joins to it) and its reach (the median
 /// distance of its points) are asked. Both are smaller, or both larger, than those of the model's
-/// images by more than 32 times: a room is a fifth of a street's reach and its steps a twentieth,
-/// so that no world that panoramas are taken of has both. Of the two sets the smaller./// Time
-/// linear in pairs and observations.
+/// images in the median by more than 32 times: a room is a fifth of a street's reach and its steps
+/// a twentieth, so that no world that panoramas are taken of has both. Where some are smaller and
+/// some larger, the fewer. Time linear in pairs and observations.
 [[nodiscard]] std::vector<ImageSlot> ImagesOffScale(const MappingState& state);
 
 /// Takes them out, and what hangs at the rest by them alone. Returns all of these, ascending.

@@ -136,7 +136,7 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
   return states;
 }
 
-bool HoldModel(const std::vector<MappingState>& states, const MappingOptions& options) {
+bool HoldAModel(const std::vector<MappingState>& states, const MappingOptions& options) {
   return std::ranges::any_of(states, [&](const MappingState& state) {
     return state.Registered().size() >= static_cast<size_t>(options.min_component_images);
   });
@@ -219,7 +219,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   ClusterReconstruction result;
   ORBWEAVE_ASSIGN_OR_RETURN(std::vector<MappingState> states,
                             MapSubmodels(problem, graph, options, context, log, result));
-  if (ScheduleOf(stated).tightens && !HoldModel(states, options)) {
+  if (ScheduleOf(stated).tightens && !HoldAModel(states, options)) {
     if (const auto told = FindSmallMotions(problem))
       return ReconstructCluster(*told, stated, context);
   }

@@ -19,10 +19,10 @@ namespace orbweave {
 /// half of a, the detour was real; when a - b stands out from those of all images (four times their
 /// median) the image is off without being a detour of four steps. A jump of GNSS is not the
 /// model's: then a is the smaller of the two, or one of the steps from p and to n is as much longer
-/// by GNSS than in the model. Loose images take no part, and those
-/// beside a place where the drive was left off (LeftOffBehind) are no neighbours. Value: how far
-/// the worst image is off, a or a - b; in metres where georeferenced, else in units of the model,
-/// about a step. Time linear in the drive but for sorting.
+/// by GNSS than in the model. Loose images take no part, and those beside a place where the drive
+/// was left off (LeftOffBehind) are no neighbours. Value: how far the worst image is off, a or
+/// a - b; in metres where georeferenced, else in units of the model, about a step. Time linear in
+/// the drive but for sorting.
 [[nodiscard]] CrossCheck CheckSequenceSteps(const std::map<ImageId, RegisteredImage>& images,
                                             const ImageManifest& manifest,
                                             bool georeferenced);
