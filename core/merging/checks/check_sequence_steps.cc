@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
-#include "core/scene/left_off.h"
+#include "core/scene/places_in_drives.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -19,15 +19,13 @@ namespace {
 constexpr double kDetourSteps = 4.0;
 // Six standard deviations of three normal errors, whose distance has 1.54 as its median.
 constexpr double kMedians = 4.0;
-constexpr size_t kAround = 6;      // steps before and after that tell what a step is there
-constexpr size_t kMaxMissing = 2;  // images between neighbours
+constexpr size_t kAround = 6;        // steps before and after that tell what a step is there
+constexpr uint32_t kMaxMissing = 2;  // images between neighbours
 // With more of the street off its way than one in fifty nothing about it is to be believed.
 constexpr double kBadShare = 0.02;
 
-/// One image of a drive, with its place in the drive's order.
+/// One image of a drive.
 struct Stop {
-  size_t position = 0;
-  uint32_t stretch = 0;  ///< of the drive
   ImageId id{};
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> gnss{};
@@ -50,49 +48,47 @@ std::vector<Stop> StopsOf(const std::vector<ImageId>& drive,
                           const ImageManifest& manifest,
                           bool georeferenced) {
   std::vector<Stop> stops;
-  const std::vector<uint8_t> left_off = LeftOffBehind(manifest, drive);
-  uint32_t stretch = 0;
-  for (size_t i = 0; i < drive.size(); ++i) {
-    if (i > 0) stretch += left_off[i - 1];
-    const auto image = images.find(drive[i]);
+  for (const ImageId id : drive) {
+    const auto image = images.find(id);
     if (image == images.end() || image->second.loose) continue;
     Stop& stop = stops.emplace_back();
-    stop.position = i;
-    stop.stretch = stretch;
-    stop.id = drive[i];
+    stop.id = id;
     stop.centre = image->second.cam_from_world.Centre();
-    if (georeferenced) stop.gnss = manifest.At(drive[i]).prior.position_in_enu;
+    if (georeferenced) stop.gnss = manifest.At(id).prior.position_in_enu;
   }
   return stops;
 }
 
-bool AreNeighbours(const Stop& a, const Stop& b) {
-  return a.stretch == b.stretch && b.position - a.position <= kMaxMissing + 1;
+bool AreNeighbours(const PlacesInDrives& places, const Stop& a, const Stop& b) {
+  const ImagePair pair{a.id, b.id};
+  return places.AreOfOneStretch(pair) && places.StepsBetween(pair) <= kMaxMissing + 1;
 }
 
 /// Three quarters of the steps around stop `i` are no longer; its own two do not count.
-double StepAround(const std::vector<Stop>& stops, size_t i) {
+double StepAround(const PlacesInDrives& places, const std::vector<Stop>& stops, size_t i) {
   std::vector<double> steps;
   const size_t first = i > kAround ? i - kAround : 0;
   const size_t last = std::min(stops.size() - 1, i + kAround);
   for (size_t k = first; k < last; ++k) {
-    if (k + 1 == i || k == i || !AreNeighbours(stops[k], stops[k + 1])) continue;
+    if (k + 1 == i || k == i || !AreNeighbours(places, stops[k], stops[k + 1])) continue;
     steps.push_back((stops[k + 1].centre - stops[k].centre).norm());
   }
   return steps.size() < 2 ? 0.0 : Quantile(std::move(steps), 0.75);
 }
 
-void AddTriples(const std::vector<Stop>& stops, std::vector<Triple>& triples) {
+void AddTriples(const PlacesInDrives& places,
+                const std::vector<Stop>& stops,
+                std::vector<Triple>& triples) {
   for (size_t i = 1; i + 1 < stops.size(); ++i) {
     const Stop& p = stops[i - 1];
     const Stop& n = stops[i + 1];
-    if (!AreNeighbours(p, stops[i]) || !AreNeighbours(stops[i], n)) continue;
+    if (!AreNeighbours(places, p, stops[i]) || !AreNeighbours(places, stops[i], n)) continue;
     Triple& triple = triples.emplace_back();
     triple.id = stops[i].id;
     triple.before = (stops[i].centre - p.centre).norm();
     triple.after = (n.centre - stops[i].centre).norm();
     triple.detour = triple.before + triple.after - (n.centre - p.centre).norm();
-    triple.step = StepAround(stops, i);
+    triple.step = StepAround(places, stops, i);
     triple.bend = stops[i].centre - 0.5 * (p.centre + n.centre);
     if (!p.gnss || !stops[i].gnss || !n.gnss) continue;
     triple.gnss_bend = *stops[i].gnss - 0.5 * (*p.gnss + *n.gnss);
@@ -139,8 +135,9 @@ CrossCheck CheckSequenceSteps(const std::map<ImageId, RegisteredImage>& images,
   const char* unit = georeferenced ? "m" : "step";
   CrossCheck check{.name = "sequence_steps", .unit = unit};
   std::vector<Triple> triples;
+  const PlacesInDrives places(manifest);
   for (const auto& [drive, ids] : SequenceOfDrives(manifest))
-    AddTriples(StopsOf(ids, images, manifest, georeferenced), triples);
+    AddTriples(places, StopsOf(ids, images, manifest, georeferenced), triples);
   if (triples.empty()) {
     check.sentence = "no three panoramas of a drive follow one another";
     return check;
