@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/base/quantile.h"
+#include "core/graph/positions_by_motion.h"
 #include "core/scene/sequence_of_drive.h"
 #include "core/scene/usual_step.h"
 
@@ -40,11 +41,13 @@ BorneOutByGnss::BorneOutByGnss(const JobResults& results)
       places_[id.value] = Place{model, image.cam_from_world.Centre().head<2>()};
     }
   }
+  const std::vector<PositionByMotion> by_motion = PositionsByMotion(results.manifest);
   for (const auto& [drive, sequence] : SequenceOfDrives(results.manifest))
-    TakeDrive(results.manifest, sequence);
+    TakeDrive(results.manifest, by_motion, sequence);
 }
 
 void BorneOutByGnss::TakeDrive(const ImageManifest& manifest,
+                               const std::vector<PositionByMotion>& by_motion,
                                const std::vector<ImageId>& sequence) {
   std::vector<const PosePrior*> priors;
   for (const ImageId image : sequence) priors.push_back(&manifest.At(image).prior);
@@ -59,10 +62,11 @@ void BorneOutByGnss::TakeDrive(const ImageManifest& manifest,
     for (size_t k = i - std::min(i, kAround); k < end; ++k) {
       const std::optional<Place>& there = places_[sequence[k].value];
       if (!there || there->model != here->model || !priors[k]->position_in_enu) continue;
-      const double error_m = (priors[k]->position_in_enu->head<2>() - there->in_enu).norm();
+      const PosePrior& prior = by_motion[sequence[k].value].prior;
+      const double error_m = (prior.position_in_enu->head<2>() - there->in_enu).norm();
       ++tally.positions;
-      tally.agreeing += error_m <= kSigmas * priors[k]->horizontal_sigma_m ? 1 : 0;
-      sigmas_m.push_back(priors[k]->horizontal_sigma_m);
+      tally.agreeing += error_m <= kSigmas * prior.horizontal_sigma_m ? 1 : 0;
+      sigmas_m.push_back(prior.horizontal_sigma_m);
     }
     if (!tally.BearsOut()) continue;
     borne_out[i] = here;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/graph/positions_by_motion.h"
 #include "core/report/job_results.h"
 
 namespace orbweave {
@@ -16,7 +17,8 @@ namespace orbweave {
 ///
 /// A panorama is borne out when of the positions of its own and the five before and after it in its
 /// drive, three at least, three quarters lie within three sigmas of where the georeferenced model
-/// has theirs, horizontally.
+/// has theirs, horizontally; what the motion of the drive shows to be off (PositionsByMotion)
+/// counts as where the drive went.
 class BorneOutByGnss {
  public:
   explicit BorneOutByGnss(const JobResults& results);
@@ -34,7 +36,9 @@ class BorneOutByGnss {
     double reach_m = 0.0;
   };
 
-  void TakeDrive(const ImageManifest& manifest, const std::vector<ImageId>& sequence);
+  void TakeDrive(const ImageManifest& manifest,
+                 const std::vector<PositionByMotion>& by_motion,
+                 const std::vector<ImageId>& sequence);
 
   std::vector<std::optional<Place>> places_;  ///< per image
 };

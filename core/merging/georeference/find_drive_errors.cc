@@ -27,7 +27,7 @@ constexpr size_t kMinOffsetFixes = 5;  // two that are far off do not carry a me
 // corridors (960 without such errors, independent and alike over 50 to 400 m: none above 2.9
 // ahead, 3.8 to the side), to 30 % of drives that are three or four stretches of six positions.
 constexpr double kBelievedSigmas = 4.0;
-constexpr double kDoubtedSigmas = 3.0;
+constexpr double kAllowedForSigmas = 3.0;
 // Receivers of one datum stay within this of each other on average over a drive: four sigmas of
 // the difference of two offsets of 2 m, which is what a street canyon makes of a drive.
 constexpr double kSameDatum_m = 12.0;
@@ -50,12 +50,14 @@ struct Shift {
   double ahead = 0.0;
   double sigma = 0.0;
   double believed = 0.0;  // beyond this
-  double doubted = 0.0;
+  double allowed_for = 0.0;
   double speed = 1.0;  // of a carrier as usual: m per unit of all these
 
   [[nodiscard]] bool IsBelieved() const { return std::abs(ahead) > believed; }
-  [[nodiscard]] bool IsDoubted() const {
-    return !IsBelieved() && std::abs(ahead) > doubted && std::abs(ahead) * speed > kTellingShift_m;
+  // Too little to be taken off, too much to be nothing.
+  [[nodiscard]] bool IsAllowedFor() const {
+    return !IsBelieved() && std::abs(ahead) > allowed_for &&
+           std::abs(ahead) * speed > kTellingShift_m;
   }
   [[nodiscard]] bool IsUnknown() const { return sigma * speed > kTellingShift_m; }
 };
@@ -65,15 +67,12 @@ CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) 
   const std::string size = Fixed(std::abs(ahead), unit) + (ahead < 0.0 ? " late" : " early") +
                            " along the way (sigma " + Fixed(shift.sigma, unit) + ")";
   const std::string cause = ": a clock that is off, or an antenna before or behind the camera";
-  CrossCheck check{
-      .name = "gnss_clock", .value = std::abs(ahead), .limit = shift.doubted, .unit = unit};
+  CrossCheck check{.name = "gnss_clock", .value = std::abs(ahead), .unit = unit};
   if (shift.IsBelieved()) {
-    check.limit = 0.0;  // none for what is taken off
     check.sentence = PositionsOf(drive) + " are " + size + cause + "; this is taken off";
-  } else if (shift.IsDoubted()) {
-    check.level = CheckLevel::kDoubtful;
+  } else if (shift.IsAllowedFor()) {
     check.sentence = PositionsOf(drive) + " seem to be " + size + cause +
-                     "; too uncertain to be taken off, and sigmas do not hold it";
+                     "; too uncertain to be taken off: sigmas allow for it";
   } else {
     check.sentence = "a shift of GNSS along the way of drive " + std::to_string(drive.drive) +
                      " cannot be told from an offset of all its positions (sigma " +
@@ -114,7 +113,7 @@ void TakeAlongTheWay(const GnssDrive& drive,
   const Shift shift{.ahead = asked.fit.solution[kAhead],
                     .sigma = known.sigmas[kAhead],
                     .believed = known.Bound(kAhead, kBelievedSigmas),
-                    .doubted = known.Bound(kAhead, kDoubtedSigmas),
+                    .allowed_for = known.Bound(kAhead, kAllowedForSigmas),
                     .speed = asked.regression.speed()};
   const bool is_beside = std::abs(asked.fit.solution[kLeft]) > known.Bound(kLeft, kBelievedSigmas);
   if (shift.IsBelieved() || is_beside) {
@@ -127,7 +126,8 @@ void TakeAlongTheWay(const GnssDrive& drive,
     errors.ahead_sigma = shift.IsBelieved() ? known.sigmas[kAhead] : 0.0;
     errors.left_sigma_m = is_beside ? known.sigmas[kLeft] : 0.0;
   }
-  if (shift.IsBelieved() || shift.IsDoubted() || shift.IsUnknown())
+  if (shift.IsAllowedFor()) errors.ahead_sigma = std::hypot(shift.ahead, shift.sigma);
+  if (shift.IsBelieved() || shift.IsAllowedFor() || shift.IsUnknown())
     checks.push_back(ClockCheck(drive, shift, shift.IsBelieved() ? errors.ahead : shift.ahead));
   if (is_beside) checks.push_back(LeverCheck(drive, errors.left_m, known.sigmas[kLeft]));
 }
@@ -283,7 +283,7 @@ FoundDriveErrors FindDriveErrors(std::span<const GnssDrive> drives, const Sim3& 
   FindAlongTheWay(drives, enu_from_world, errors, found.checks);
   FindDatum(drives, enu_from_world, errors, found.checks);
   for (const DriveErrors& of_drive : errors) {
-    if (of_drive.ahead != 0.0 || of_drive.left_m != 0.0 || !of_drive.offset_m.isZero())
+    if (of_drive.ahead_sigma != 0.0 || of_drive.left_sigma_m != 0.0 || !of_drive.offset_m.isZero())
       found.drives.push_back(of_drive);
   }
   return found;

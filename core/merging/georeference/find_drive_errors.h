@@ -21,9 +21,10 @@ struct FoundDriveErrors {
 /// direction to the left of it, beside shift, turn and scale of that drive. Both are believed from
 /// four deviations on (FitUncertainty::Bound), errors of neighbours taken as correlated as those of
 /// all drives together or of their own say, whichever claims less (EstimateCorrelatedNoise);
-/// a clock between three and four that matters is doubtful. A shift along a street that goes one
-/// way at one speed, or along a circle, is not to be told from an offset or a turn of all
-/// positions, and the check says so ("gnss_clock", "gnss_lever_arm").
+/// a clock between three and four that matters is left as it is, and its sigma is what it may be:
+/// hypot(estimate, sigma), which the centres' covariances allow for (CovariancesOfErrors). A shift
+/// along a street that goes one way at one speed, or along a circle, is not to be told from an
+/// offset or a turn of all positions, and the check says so ("gnss_clock", "gnss_lever_arm").
 ///
 /// Datum: drives whose positions are all off by more than receivers are, against each other. Where
 /// more than half of the drives agree, the others are corrected ("gnss_datum", good); else nobody

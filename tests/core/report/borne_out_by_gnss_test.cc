@@ -45,6 +45,17 @@ TEST(BorneOutByGnss, SinglePositionsThatAreOffOrMissingChangeNothing) {
   EXPECT_TRUE(AreApart(results, 12, 30));
 }
 
+// Of the seven positions about an end of the drive two are off, as between houses.
+TEST(BorneOutByGnss, WhatTheMotionOfTheDriveShowsToBeOffDoesNotCount) {
+  JobResults results = Drive();
+  for (const uint32_t i : {34u, 36u, 38u})
+    *results.manifest.images[i].prior.position_in_enu += Vector3d(-30.0, 50.0, 0.0);
+  EXPECT_FALSE(AreApart(results, 2, 39));
+  for (ImageRecord& image : results.manifest.images)
+    image.capture_time_s = 1'700'000'000.0 + image.id.value;
+  EXPECT_TRUE(AreApart(results, 2, 39));
+}
+
 TEST(BorneOutByGnss, AStretchThatStandsElsewhereIsNotBorneOut) {
   JobResults results = Drive();
   for (uint32_t i = 0; i < 12; ++i) {  // folded onto the end
