@@ -86,28 +86,6 @@ bool HasFrameTwice(std::span<const Step> run, const Usual& usual) {
       run, [&](const Step& step) { return step.length <= kSamePlace * usual.step; });
 }
 
-/// Whether the run is even when the longest of its steps has one place more: an image was left out
-/// there, or lost.
-bool LacksAnImage(std::span<const Step> run, const Usual& usual) {
-  const size_t longest =
-      static_cast<size_t>(std::ranges::max_element(run, {}, &Step::Each) - run.begin());
-  Step whole;
-  for (const Step& step : run) {
-    whole.length += step.length;
-    whole.places += step.places;
-  }
-  whole.places += 1.0;
-  if (std::abs(whole.Each() - usual.step) > kWhole * usual.step) return false;
-  Step so_far;
-  for (size_t i = 0; i < run.size(); ++i) {
-    so_far.length += run[i].length;
-    so_far.places += run[i].places + (i == longest ? 1.0 : 0.0);
-    if (std::abs(so_far.length - so_far.places * whole.Each()) > usual.limit * usual.step)
-      return false;
-  }
-  return true;
-}
-
 /// The stop of a run of steps [first, last) that is off the most, where that is uneven.
 std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
                                    std::span<const Step> steps,
@@ -117,7 +95,7 @@ std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
   if (!usual) return std::nullopt;
   const double apart = (stops[last].centre - stops[first].centre).norm();
   const std::span<const Step> run = steps.subspan(first, last - first);
-  if (HasFrameTwice(run, *usual) || LacksAnImage(run, *usual)) return std::nullopt;
+  if (HasFrameTwice(run, *usual)) return std::nullopt;
   const auto known = WholeOf(run, apart, *usual);
   if (!known) return std::nullopt;
   const Step whole = *known;

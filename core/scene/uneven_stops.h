@@ -47,9 +47,8 @@ inline constexpr double kLeastUneven_steps = 1.0 / 3.0;
 /// by 10 to 20 %, d was 0.2 at most, of mapping cars 0.04; where an image stood a window or a house
 /// off, 0.3 to 1. Runs with a step below a fiftieth of s are left alone: a video that was sampled
 /// twice at one frame, and then went on by two steps, has such (npr_walking_boy has five, of 0.05
-/// to 1.5 %). So are runs that are even when the longest step has one place more: an image is
-/// missing there. A street that seems to stop where houses repeat has them too, of 1.2 to 2.5 %,
-/// but nothing that tells how long they are (CheckToldSteps).
+/// to 1.5 %). A street that seems to stop where houses repeat has them too, of 1.2 to 2.5 %, but
+/// nothing that tells how long they are (CheckToldSteps).
 ///
 /// `stops`: ascending by place. Ascending by stop.
 [[nodiscard]] std::vector<UnevenStop> FindUnevenStops(std::span<const DriveStop> stops);

@@ -88,21 +88,6 @@ TEST(FindUnevenStops, KnowsWhoStopsAndWhoLeavesImagesOut) {
   EXPECT_THAT(FindUnevenStops(light), IsEmpty());
 }
 
-// Of a walk whose steps had become shorter than usual one picture was left out.
-TEST(FindUnevenStops, KnowsWhereAnImageIsMissing) {
-  std::vector<DriveStop> stops = Drive(0.05);
-  std::vector<double> steps;
-  for (size_t i = 0; i + 1 < stops.size(); ++i)
-    steps.push_back(stops[i + 1].centre.x() - stops[i].centre.x());
-  steps[14] = 0.80;
-  steps[15] = 0.85;
-  steps[16] = 1.85;
-  steps[17] = 1.00;
-  for (size_t i = 0; i < steps.size(); ++i)
-    stops[i + 1].centre.x() = stops[i].centre.x() + steps[i];
-  EXPECT_THAT(FindUnevenStops(stops), IsEmpty());
-}
-
 TEST(FindUnevenStops, KnowsAVideoThatHasAFrameTwice) {
   const std::vector<DriveStop> right = Drive(0.05);
   std::vector<DriveStop> stops = right;
