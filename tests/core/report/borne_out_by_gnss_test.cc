@@ -45,7 +45,7 @@ TEST(BorneOutByGnss, SinglePositionsThatAreOffOrMissingChangeNothing) {
   EXPECT_TRUE(AreApart(results, 12, 30));
 }
 
-// Of the seven positions about an end of the drive two are off, as between houses.
+// Of the six positions about an end of the drive three are off, as between houses.
 TEST(BorneOutByGnss, WhatTheMotionOfTheDriveShowsToBeOffDoesNotCount) {
   JobResults results = Drive();
   for (const uint32_t i : {34u, 36u, 38u})
