@@ -6,10 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <random>
+#include <thread>
 
 #include "core/io/sqlite_connection.h"
 #include "tests/support/command.h"
@@ -48,6 +50,20 @@ class SqliteJournal : public ::testing::Test {
 TEST_F(SqliteJournal, SaysThatAFileIsNoJournalAndWhatToDo) {
   std::ofstream(path_) << std::string(5000, 'z');
   ExpectDamaged();
+}
+
+// As whoever looks into the journal of a killed coordinator does, to put it in order.
+TEST_F(SqliteJournal, WaitsForOneWhoHasTheFileToItself) {
+  FillJournal();
+  std::optional<SqliteConnection> other = SqliteConnection::OpenToWrite(path_).value();
+  ASSERT_TRUE(other->Execute("PRAGMA locking_mode = EXCLUSIVE; BEGIN EXCLUSIVE; COMMIT").ok());
+  std::thread leaves([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    other.reset();
+  });
+  const auto journal = OpenSqliteJournal(path_);
+  leaves.join();
+  EXPECT_TRUE(journal.ok()) << journal.status();
 }
 
 TEST_F(SqliteJournal, NoticesDamageInsideTheFile) {
