@@ -64,7 +64,8 @@ struct ClusterRecipe {
   uint32_t cluster = 0;
   std::vector<FeatureFile> images{};  ///< sorted
   std::vector<uint32_t> drives{};     ///< of each of the images
-  std::vector<uint32_t> ranks{};      ///< of each among those of its drive, as they were taken
+  /// Of each among those of its drive, as they were taken; captures that nobody has count, too.
+  std::vector<uint32_t> ranks{};
   std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
   std::vector<ImageId> shared{};      ///< images that other clusters have too, sorted
   std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others

@@ -14,7 +14,7 @@ namespace orbweave {
 
 /// An image of a drive as it stands in a model.
 struct DriveStop {
-  uint32_t place = 0;  ///< in the drive, with images that are not in the model
+  uint32_t place = 0;  ///< in the drive, with captures that are not in the model (CapturesAlong)
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
 };
 

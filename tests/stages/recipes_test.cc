@@ -69,6 +69,9 @@ TEST(PlanClusters, RanksImagesByTimeAmongThoseOfTheirDriveInTheCluster) {
   EXPECT_EQ(ranks(), (std::vector<uint32_t>{2, 1, 0}));
   manifest.images[4].capture_time_s = 1.0;  // elsewhere in the drive
   EXPECT_EQ(ranks(), (std::vector<uint32_t>{2, 1, 0}));
+  for (uint32_t i = 0; i < 5; ++i)
+    manifest.images[i].name = std::to_string(i < 3 ? 20 - i : 16 - i) + ".jpg";
+  EXPECT_EQ(ranks(), (std::vector<uint32_t>{6, 5, 0})) << "of which 14 to 17 were taken out";
 }
 
 TileRuns PointsIn(const std::string& panorama, std::vector<std::pair<TileCell, uint64_t>> counts) {

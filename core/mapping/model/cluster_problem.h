@@ -24,7 +24,8 @@ struct ClusterImage {
   PosePrior prior{};
   bool is_position_of_drive = false;  ///< PositionFix::is_of_drive
   uint32_t drive = 0;
-  uint32_t rank_in_drive = 0;  ///< among those of the cluster, as they were taken
+  /// Among those of the cluster, as they were taken; captures that nobody has count, too.
+  uint32_t rank_in_drive = 0;
 };
 
 /// Everything one cluster needs, and nothing else: its size does not depend on the job's.

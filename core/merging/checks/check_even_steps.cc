@@ -9,6 +9,7 @@
 #include <iterator>
 #include <vector>
 
+#include "core/scene/captures_along.h"
 #include "core/scene/sequence_of_drive.h"
 #include "core/scene/uneven_stops.h"
 
@@ -25,20 +26,22 @@ struct OffPlace {
 std::vector<OffPlace> FindOffPlaces(const std::vector<ImageId>& drive,
                                     const std::map<ImageId, RegisteredImage>& images,
                                     const ImageManifest& manifest) {
+  const std::vector<uint32_t> captures = CapturesAlong(manifest, drive);
   std::vector<DriveStop> stops;
-  for (uint32_t place = 0; place < drive.size(); ++place) {
-    const auto found = images.find(drive[place]);
+  std::vector<ImageId> stopped;
+  for (size_t i = 0; i < drive.size(); ++i) {
+    const auto found = images.find(drive[i]);
     if (found == images.end() || found->second.loose) continue;
-    stops.push_back({place, found->second.cam_from_world.Centre()});
+    stops.push_back({captures[i], found->second.cam_from_world.Centre()});
+    stopped.push_back(drive[i]);
   }
   std::vector<OffPlace> off;
   for (const UnevenStop& uneven : FindUnevenStops(stops)) {
-    const auto image = [&](size_t stop) { return drive[stops[stop].place]; };
     const auto prior = [&](size_t stop) -> const PosePrior& {
-      return manifest.At(image(stop)).prior;
+      return manifest.At(stopped[stop]).prior;
     };
     if (!IsBorneOut(uneven, prior(uneven.first), prior(uneven.stop), prior(uneven.last)))
-      off.push_back({image(uneven.stop), uneven.off_steps});
+      off.push_back({stopped[uneven.stop], uneven.off_steps});
   }
   return off;
 }

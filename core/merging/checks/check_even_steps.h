@@ -15,7 +15,8 @@ namespace orbweave {
 /// windows repeat, one that stands a window or a house off has points that agree and a step that is
 /// too long, and behind it one that is too short. Of three rendered streets 12 m apart without
 /// GNSS, in which one or two panoramas stood 4 to 12 m off, nothing else spoke. Drives in order of
-/// times, else of ids; loose panoramas take no part.
+/// times, else of ids, where captures that were taken out count by their numbers (CapturesAlong);
+/// loose panoramas take no part.
 ///
 /// Value: by how many steps the worst is off; 0 where none is.
 [[nodiscard]] CrossCheck CheckEvenSteps(const std::map<ImageId, RegisteredImage>& images,

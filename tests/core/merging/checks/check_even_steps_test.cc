@@ -27,9 +27,11 @@ struct Street {
     }
   }
 
-  void Move(uint32_t i, double further_m) {
+  void Move(uint32_t i, double further_m) { Place(i, {kStep_m * i + further_m, 0.0, 0.0}); }
+
+  void Place(uint32_t i, const Eigen::Vector3d& centre) {
     images[ImageId(i)].cam_from_world =
-        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), {kStep_m * i + further_m, 0.0, 0.0});
+        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), centre);
   }
 
   void Position(uint32_t i, double further_m) {
@@ -64,6 +66,18 @@ TEST(CheckEvenSteps, CountsPlacesOfThoseThatAreLeftOut) {
   street.images.erase(ImageId(12));
   street.images.erase(ImageId(25));
   street.images[ImageId(26)].loose = true;
+  EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
+}
+
+TEST(CheckEvenSteps, CountsCapturesThatWereTakenOutByTheirNumbers) {
+  // The one before a corner was taken out: from 16 to 17 are two steps.
+  Street street;
+  const Eigen::Vector3d corner(18.0 * kStep_m, 0.0, 0.0);
+  const Eigen::Vector3d onward = kStep_m * Eigen::Vector3d(-0.25, 0.97, 0.0);
+  for (uint32_t i = 17; i < kImages; ++i) street.Place(i, corner + (i - 17.0) * onward);
+  EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kDoubtful);
+  for (uint32_t i = 17; i < kImages; ++i)
+    street.manifest.images[i].name = std::to_string(i + 1) + ".jpg";
   EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
 }
 
