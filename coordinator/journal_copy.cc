@@ -84,7 +84,6 @@ absl::Status CopyJournal(const std::string& from, const std::string& to) {
   const std::string folder = fs::path(to).parent_path().string();
   const std::string fresh = ScratchPath(folder);
   ORBWEAVE_ASSIGN_OR_RETURN(const SqliteConnection journal, SqliteConnection::OpenToWrite(from));
-  ORBWEAVE_RETURN_IF_ERROR(journal.Execute("PRAGMA busy_timeout = 10000"));
   ORBWEAVE_ASSIGN_OR_RETURN(SqliteStatement copy, journal.Prepare("VACUUM INTO ?"));
   copy.Bind(1, std::string_view(fresh));
   absl::Status status = copy.Run();

@@ -13,11 +13,8 @@
 namespace orbweave {
 namespace {
 
-/// In order: connections that meet at a checkpoint wait for each other, as does, from the next
-/// setting on, whoever meets one that puts the journal of a killed coordinator in order; readers do
-/// not wait for the writer; a commit is on the disk when it returns.
-constexpr const char* kSettings =
-    "PRAGMA busy_timeout = 10000; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
+/// Readers do not wait for the writer; a commit is on the disk when it returns.
+constexpr const char* kSettings = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
 
 /// The words of SqliteConnection for a damaged file are meant for any database.
 absl::Status AsJournal(const absl::Status& status, const std::string& path) {

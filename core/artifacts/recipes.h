@@ -66,10 +66,10 @@ struct ClusterRecipe {
   std::vector<uint32_t> drives{};     ///< of each of the images
   /// Of each among those of its drive, as they were taken; captures that nobody has count, too.
   std::vector<uint32_t> ranks{};
-  std::vector<ImagePair> pairs{};     ///< edges within the cluster, sorted
-  std::vector<ImageId> shared{};      ///< images that other clusters have too, sorted
-  std::vector<Digest> matches{};      ///< blobs that hold the geometry of these pairs, among others
-  std::vector<PositionFix> fixes{};   ///< of the images that have one, sorted
+  std::vector<ImagePair> pairs{};    ///< edges within the cluster, sorted
+  std::vector<ImageId> shared{};     ///< images that other clusters have too, sorted
+  std::vector<Digest> matches{};     ///< blobs that hold the geometry of these pairs, among others
+  std::vector<PositionFix> fixes{};  ///< of the images that have one, sorted
 };
 
 }  // namespace orbweave

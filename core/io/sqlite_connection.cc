@@ -13,6 +13,8 @@
 namespace orbweave {
 namespace {
 
+constexpr int kLongestWait_ms = 10'000;
+
 absl::Status StatusFromSqlite(sqlite3* database, int code, const std::string& path) {
   const std::string text = absl::StrCat(
       path, ": ", database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code));
@@ -110,6 +112,7 @@ absl::StatusOr<SqliteConnection> SqliteConnection::OpenToRead(const std::string&
   const int code = sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READONLY, nullptr);
   connection.database_.reset(database);
   if (code != SQLITE_OK) return StatusFromSqlite(database, code, path);
+  sqlite3_busy_timeout(database, kLongestWait_ms);
   // Anybody may have made the file: its views and triggers get no functions with side effects.
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
@@ -125,6 +128,7 @@ absl::StatusOr<SqliteConnection> SqliteConnection::OpenToWrite(const std::string
       sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   connection.database_.reset(database);
   if (code != SQLITE_OK) return StatusFromSqlite(database, code, path);
+  sqlite3_busy_timeout(database, kLongestWait_ms);
   return connection;
 }
 

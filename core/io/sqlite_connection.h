@@ -47,7 +47,8 @@ class SqliteStatement {
   std::string path_;
 };
 
-/// An open SQLite file.
+/// An open SQLite file. Whoever meets a lock of another connection, as at a checkpoint or while one
+/// puts the log of a killed process in order, waits for it, up to ten seconds.
 class SqliteConnection {
  public:
   /// NotFound: no such file. InvalidArgument: it is not an SQLite database.

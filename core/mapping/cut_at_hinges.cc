@@ -13,6 +13,7 @@
 
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/place_on_gnss.h"
+#include "core/scene/reconstruction.h"
 
 namespace orbweave {
 namespace {
@@ -23,9 +24,6 @@ using Eigen::Vector3d;
 constexpr size_t kAllPairs = 12;
 /// Of the way from the joint: pieces that are bent by less, ten degrees, are not elsewhere.
 constexpr double kElsewhere = 0.2;
-
-/// So many images must see a point for it to tell how large what they hold together is.
-constexpr size_t kTelling = 3;
 
 /// Two registered images and the points that both see.
 struct Joint {
@@ -44,7 +42,7 @@ std::vector<Joint> JointsOf(const MappingState& state) {
     const size_t reach = images.size() <= kAllPairs ? images.size() : 1;
     for (size_t i = 0; i < images.size(); ++i) {
       for (size_t j = i + 1; j < std::min(images.size(), i + 1 + reach); ++j)
-        seen_by_both.emplace_back(images[i], images[j], images.size() >= kTelling);
+        seen_by_both.emplace_back(images[i], images[j], images.size() >= kImagesThatTellSize);
     }
   }
   std::ranges::sort(seen_by_both);
@@ -100,7 +98,7 @@ uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
   uint32_t common = 0;
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesThatSee(state, p);
-    if (images.size() < kTelling) continue;
+    if (images.size() < kImagesThatTellSize) continue;
     const auto inside = std::ranges::count_if(
         images, [&](ImageSlot image) { return std::ranges::binary_search(piece.images, image); });
     common += inside > 0 && static_cast<size_t>(inside) < images.size() ? 1U : 0U;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "absl/strings/str_format.h"
+#include "core/report/borne_out_by_gnss.h"
 #include "core/report/check_contradicted_pairs.h"
 #include "core/report/check_hinges.h"
 #include "core/report/check_job.h"
@@ -260,12 +261,12 @@ std::vector<CrossCheck> ChecksOfModel(const JobResults& results,
   return checks;
 }
 
-void Judge(const JobResults& results, JobReport& report) {
+void Judge(const JobResults& results, const BorneOutByGnss& gnss, JobReport& report) {
   for (size_t number = 0; number < results.models.size(); ++number)
     std::ranges::copy(ChecksOfModel(results, report, number), std::back_inserter(report.checks));
   const bool has_pairs = std::ranges::any_of(
       report.checks, [](const CrossCheck& check) { return check.name == "pairs_contradicted"; });
-  if (const auto pairs = CheckContradictedPairs(results); pairs && !has_pairs)
+  if (const auto pairs = CheckContradictedPairs(results, gnss); pairs && !has_pairs)
     report.checks.push_back(*pairs);
   std::ranges::copy(CheckJob(results, report), std::back_inserter(report.checks));
   report.verdict = JudgeModel(report);
@@ -316,7 +317,8 @@ JobReport BuildJobReport(const JobResults& results) {
   TellReviews(results.review, report);
   TellWeakCuts(results.view_graph.partition, report);
   TellCarriers(results, report);
-  report.checks.push_back(CheckPairs(results));
+  const BorneOutByGnss gnss(results);
+  report.checks.push_back(CheckPairs(results, gnss));
   report.checks.push_back(CheckLengths(results));
   report.checks.push_back(CheckToldSteps(results));
   report.checks.push_back(CheckHinges(results));
@@ -331,7 +333,7 @@ JobReport BuildJobReport(const JobResults& results) {
   }
   TracePaths(results.manifest, report);
   PlaceMissingByGnss(results.manifest, report);
-  Judge(results, report);
+  Judge(results, gnss, report);
   return report;
 }
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/report/borne_out_by_gnss.h"
 #include "core/report/model_of_images.h"
 
 namespace orbweave {
@@ -58,9 +57,9 @@ std::optional<std::pair<ImageId, PairsOfImage>> MostContested(
 
 }  // namespace
 
-std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results) {
+std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results,
+                                                 const BorneOutByGnss& gnss) {
   const std::vector<int> model_of_image = ModelOfImages(results);
-  const BorneOutByGnss gnss(results);
   const auto is_judged = [&](const ImagePair& pair) {
     return AreOfOneModel(model_of_image, pair) && !gnss.AreApart(pair);
   };

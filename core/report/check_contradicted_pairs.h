@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/report/borne_out_by_gnss.h"
 #include "core/report/job_results.h"
 #include "core/scene/cross_check.h"
 
@@ -15,6 +16,7 @@ namespace orbweave {
 /// so: doubtful above one in twenty where an image has two or more and they are half of its pairs,
 /// bad above one in two. Pairs of images that GNSS tells apart (BorneOutByGnss) are no witnesses,
 /// for or against. Absent where no model has another one.
-[[nodiscard]] std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results);
+[[nodiscard]] std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results,
+                                                               const BorneOutByGnss& gnss);
 
 }  // namespace orbweave

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/report/borne_out_by_gnss.h"
 #include "core/scene/places_in_drives.h"
 
 namespace orbweave {
@@ -144,9 +143,8 @@ std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
 
 }  // namespace
 
-CrossCheck CheckPairs(const JobResults& results) {
+CrossCheck CheckPairs(const JobResults& results, const BorneOutByGnss& gnss) {
   const PlacesInDrives places(results.manifest);
-  const BorneOutByGnss gnss(results);
   const Judged judged = JudgedPairsOf(results);
   const auto follow = [&](const ImagePair& pair) { return FollowOneAnother(places, pair); };
   const auto explained = static_cast<size_t>(std::ranges::count_if(judged.explained, follow));

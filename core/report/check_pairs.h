@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/report/borne_out_by_gnss.h"
 #include "core/report/job_results.h"
 #include "core/scene/cross_check.h"
 
@@ -18,6 +19,6 @@ namespace orbweave {
 /// (a+1, b+-1), (a+2, b+-2). Those are a second passage that the model missed or a row of
 /// look-alikes, which pairs alone cannot tell: doubtful, but for those that GNSS tells apart
 /// (BorneOutByGnss).
-[[nodiscard]] CrossCheck CheckPairs(const JobResults& results);
+[[nodiscard]] CrossCheck CheckPairs(const JobResults& results, const BorneOutByGnss& gnss);
 
 }  // namespace orbweave

@@ -16,8 +16,8 @@ namespace orbweave {
 ///
 /// The number of an image is the last one in its name, without the ending. The most common
 /// difference of neighbours is one capture (a video of which each tenth frame was kept counts by
-/// tens), where at least half of them differ so; a multiple of it is so many. All others, as where a
-/// camera begins at 1 anew, count as one, and so do all where numbers count nothing.
+/// tens), where at least half of them differ so; a multiple of it is so many. All others, as where
+/// a camera begins at 1 anew, count as one, and so do all where numbers count nothing.
 [[nodiscard]] std::vector<uint32_t> CapturesAlong(const ImageManifest& manifest,
                                                   std::span<const ImageId> sequence);
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -33,6 +34,10 @@ struct Track {
   /// Identity across clusters: the smallest observation.
   [[nodiscard]] const FeatureRef& Name() const { return observations.front().ref; }
 };
+
+/// So many images must see a point for it to tell how large what they hold together is: two alone
+/// say which way one lies from the other.
+inline constexpr size_t kImagesThatTellSize = 3;
 
 /// How far a pose may be off: one standard deviation, relative to what the adjustment holds.
 struct PoseUncertainty {

@@ -10,7 +10,6 @@
 namespace orbweave {
 namespace {
 
-constexpr size_t kTelling = 3;
 // Pairs are counted when there are so many, or twice as many as were left over.
 constexpr size_t kPairsAtOnce = 1 << 18;
 
@@ -45,7 +44,7 @@ void HingeFinder::Add(const Track& track) {
       seen_from.push_back(static_cast<Place>(at - images_.begin()));
   }
   SortUnique(seen_from);
-  if (seen_from.size() < kTelling) return;
+  if (seen_from.size() < kImagesThatTellSize) return;
   std::vector<Place> pieces = PiecesOf(seen_from);
   if (pieces.size() < 2) return;
   pairs_ += PairsAmong(pieces.size());

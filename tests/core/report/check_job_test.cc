@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/report/build_job_report.h"
 #include "core/report/check_contradicted_pairs.h"
@@ -368,10 +369,14 @@ TEST(JudgeModel, SaysWhyMostImagesAreLeftOut) {
   EXPECT_THAT(verdict.reasons[0], HasSubstr("30 images: the camera never moved, first pano_0.jpg"));
 }
 
+std::optional<CrossCheck> PairsChecked(const JobResults& results) {
+  return CheckContradictedPairs(results, BorneOutByGnss(results));
+}
+
 TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
   JobResults results = Street(40, {{0, 30}, {30, 40}});
   ASSERT_EQ(results.view_graph.edges.size(), 39U);
-  EXPECT_EQ(CheckContradictedPairs(results)->value, 0.0);
+  EXPECT_EQ(PairsChecked(results)->value, 0.0);
   // Pairs between two models are no witnesses; those that the view graph lost still are.
   results.clusters = {{.contradicted_pairs = {ImagePair{ImageId(29), ImageId(30)},
                                               ImagePair{ImageId(3), ImageId(4)}}},
@@ -379,7 +384,7 @@ TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
                        .contradicted_pairs = {ImagePair{ImageId(3), ImageId(4)},
                                               ImagePair{ImageId(5), ImageId(9)},
                                               ImagePair{ImageId(6), ImageId(9)}}}};
-  const CrossCheck check = *CheckContradictedPairs(results);
+  const CrossCheck check = *PairsChecked(results);
   EXPECT_DOUBLE_EQ(check.value, 3.0 / 40.0);
   EXPECT_EQ(check.level, CheckLevel::kDoubtful);
   EXPECT_THAT(check.sentence,
@@ -387,8 +392,8 @@ TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {
   EXPECT_THAT(check.sentence, HasSubstr("of 4 pairs of pano_9.jpg 2"));
   for (uint32_t i = 1; i < 30; ++i)
     results.clusters[0].contradicted_pairs.push_back({ImageId(i - 1), ImageId(i)});
-  EXPECT_EQ(CheckContradictedPairs(results)->level, CheckLevel::kBad);
-  EXPECT_EQ(CheckContradictedPairs(Street(5, {})), std::nullopt);
+  EXPECT_EQ(PairsChecked(results)->level, CheckLevel::kBad);
+  EXPECT_EQ(PairsChecked(Street(5, {})), std::nullopt);
 }
 
 TEST(CheckContradictedPairs, ScatteredLookAlikesAreNoReasonForDoubt) {
@@ -396,7 +401,7 @@ TEST(CheckContradictedPairs, ScatteredLookAlikesAreNoReasonForDoubt) {
   results.clusters = {{}};
   for (uint32_t i = 0; i < 8; ++i)
     results.clusters[0].contradicted_pairs.push_back({ImageId(2 * i), ImageId(20 + 2 * i)});
-  const CrossCheck check = *CheckContradictedPairs(results);
+  const CrossCheck check = *PairsChecked(results);
   EXPECT_DOUBLE_EQ(check.value, 8.0 / 47.0);
   EXPECT_EQ(check.level, CheckLevel::kGood);
   EXPECT_THAT(check.sentence, HasSubstr("most pairs of every panorama agree with it"));

@@ -26,21 +26,25 @@ JobResults Drive() {
   return results;
 }
 
+CrossCheck Checked(const JobResults& results) {
+  return CheckPairs(results, BorneOutByGnss(results));
+}
+
 void Contradict(uint32_t a, uint32_t b, JobResults& results) {
   results.clusters[0].contradicted_pairs.push_back({ImageId(a), ImageId(b)});
 }
 
 TEST(CheckPairs, AModelThatExplainsItsPairsIsGood) {
-  const CrossCheck check = CheckPairs(Drive());
+  const CrossCheck check = Checked(Drive());
   EXPECT_EQ(check.level, CheckLevel::kGood);
   EXPECT_EQ(check.value, 1.0);
-  EXPECT_EQ(CheckPairs({}).level, CheckLevel::kGood);
+  EXPECT_EQ(Checked({}).level, CheckLevel::kGood);
 }
 
 TEST(CheckPairs, ScatteredLookAlikesAreNoReasonForDoubt) {
   JobResults results = Drive();
   for (uint32_t i = 0; i < 20; ++i) Contradict(i * 2, 50 + (i * 7) % 40, results);
-  const CrossCheck check = CheckPairs(results);
+  const CrossCheck check = Checked(results);
   EXPECT_EQ(check.level, CheckLevel::kGood);
   EXPECT_THAT(check.sentence, HasSubstr("20 pairs of others contradict it"));
 }
@@ -53,8 +57,8 @@ TEST(CheckPairs, RunsOfContradictedPairsAreDoubtfulInBothDirections) {
     Contradict(10 + i, 60 - i, back);
   }
   for (const JobResults& results : {there, back}) {
-    EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
-    EXPECT_THAT(CheckPairs(results).sentence, HasSubstr("up to 5 in a row"));
+    EXPECT_EQ(Checked(results).level, CheckLevel::kDoubtful);
+    EXPECT_THAT(Checked(results).sentence, HasSubstr("up to 5 in a row"));
   }
 }
 
@@ -70,7 +74,7 @@ TEST(CheckPairs, RunsFollowTheDriveAndNotTheNames) {
     const auto [a, b] = std::minmax({taken_as(10 + i), taken_as(60 - i)});
     Contradict(a, b, results);
   }
-  EXPECT_THAT(CheckPairs(results).sentence, HasSubstr("up to 5 in a row"));
+  EXPECT_THAT(Checked(results).sentence, HasSubstr("up to 5 in a row"));
 }
 
 TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {
@@ -82,9 +86,9 @@ TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {
     results.models[0].images[image.id].cam_from_world =
         Rigid3::FromCentre(Eigen::Quaterniond::Identity(), *image.prior.position_in_enu);
   }
-  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
   results.models[0].report.gnss.used = false;
-  const CrossCheck check = CheckPairs(results);
+  const CrossCheck check = Checked(results);
   EXPECT_EQ(check.level, CheckLevel::kDoubtful);
   EXPECT_EQ(check.value, 5.0) << "in a row, not the share that is explained";
   EXPECT_EQ(check.unit, "count");
@@ -93,13 +97,13 @@ TEST(CheckPairs, RunsThatGnssPutsApartAreLookAlikes) {
 
 TEST(CheckPairs, ATornStreetIsBad) {
   JobResults results = Drive();
-  EXPECT_TRUE(CheckPairs(results).IsWithinLimit());
+  EXPECT_TRUE(Checked(results).IsWithinLimit());
   Contradict(40, 41, results);
-  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
-  EXPECT_FALSE(CheckPairs(results).IsWithinLimit());
+  EXPECT_EQ(Checked(results).level, CheckLevel::kDoubtful);
+  EXPECT_FALSE(Checked(results).IsWithinLimit());
   Contradict(40, 42, results);
   Contradict(70, 71, results);
-  const CrossCheck check = CheckPairs(results);
+  const CrossCheck check = Checked(results);
   EXPECT_EQ(check.level, CheckLevel::kBad);
   EXPECT_LT(check.value, check.limit);
   EXPECT_THAT(check.sentence, HasSubstr("first 40.jpg and 41.jpg"));
@@ -113,16 +117,16 @@ TEST(CheckPairs, APairThatIsOutvotedByThoseAcrossItIsNoTear) {
       results.clusters[0].explained_pairs.push_back({ImageId(i), ImageId(i + step)});
   }
   Contradict(40, 41, results);
-  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
   Contradict(39, 41, results);
-  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kDoubtful);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kDoubtful);
 }
 
 TEST(CheckPairs, AnotherDriveIsNoNeighbour) {
   JobResults results = Drive();
   for (uint32_t i = 50; i < 100; ++i) results.manifest.images[i].drive = 1;
   Contradict(49, 50, results);
-  EXPECT_EQ(CheckPairs(results).level, CheckLevel::kGood);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
 }
 
 }  // namespace

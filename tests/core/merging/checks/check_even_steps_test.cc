@@ -30,8 +30,7 @@ struct Street {
   void Move(uint32_t i, double further_m) { Place(i, {kStep_m * i + further_m, 0.0, 0.0}); }
 
   void Place(uint32_t i, const Eigen::Vector3d& centre) {
-    images[ImageId(i)].cam_from_world =
-        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), centre);
+    images[ImageId(i)].cam_from_world = Rigid3::FromCentre(Eigen::Quaterniond::Identity(), centre);
   }
 
   void Position(uint32_t i, double further_m) {
