@@ -11,17 +11,29 @@
 #include "core/graph/drop_edges_against_gnss.h"
 #include "core/graph/drop_edges_against_headings.h"
 #include "core/graph/drop_edges_against_way.h"
+#include "core/graph/positions_by_motion.h"
 
 namespace orbweave {
+namespace {
+
+/// With priors that the motion of their drives leaves.
+ImageManifest PlacedByMotion(ImageManifest manifest) {
+  const std::vector<PositionByMotion> positions = PositionsByMotion(manifest);
+  for (ImageRecord& image : manifest.images) image.prior = positions[image.id.value].prior;
+  return manifest;
+}
+
+}  // namespace
 
 ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
                         const ImageManifest& manifest,
                         const ViewGraphOptions& options) {
-  SiftedEdges by_gnss = DropEdgesAgainstGnss(edges, manifest);
+  const ImageManifest by_motion = PlacedByMotion(manifest);
+  SiftedEdges by_gnss = DropEdgesAgainstGnss(edges, by_motion);
   SiftedEdges by_compass = DropEdgesAgainstCompass(by_gnss.kept, manifest);
   SiftedEdges by_way = DropEdgesAgainstWay(by_compass.kept, manifest);
   SiftedEdges by_chain = DropEdgesAgainstChain(by_way.kept, manifest);
-  SiftedEdges by_heading = DropEdgesAgainstHeadings(by_chain.kept, manifest);
+  SiftedEdges by_heading = DropEdgesAgainstHeadings(by_chain.kept, by_motion);
   FilteredViewGraph filtered = BuildViewGraph(
       static_cast<uint32_t>(manifest.images.size()), std::move(by_heading.kept), options);
   ChosenEdges chosen{.graph = std::move(filtered.graph), .dropped = std::move(by_gnss.dropped)};

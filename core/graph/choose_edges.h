@@ -18,7 +18,8 @@ struct ChosenEdges {
 /// The view graph of all verified pairs: without those that contradict GNSS (DropEdgesAgainstGnss),
 /// stated headings (DropEdgesAgainstCompass), the sequence of their drive (DropEdgesAgainstChain),
 /// their triangles (BuildViewGraph), or the headings that all others agree on
-/// (DropEdgesAgainstHeadings), one filter after the other.
+/// (DropEdgesAgainstHeadings), one filter after the other. Positions are those that the motion of
+/// the drives leaves (PositionsByMotion): one that is off between houses speaks against no pair.
 [[nodiscard]] ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
                                       const ImageManifest& manifest,
                                       const ViewGraphOptions& options);

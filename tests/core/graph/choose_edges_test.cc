@@ -28,8 +28,8 @@ ImageManifest ManifestOf(uint32_t num_images) {
 }
 
 /// Its edges: no turn, and a step backwards in the frame of the next camera.
-std::vector<ViewEdge> EdgesOf(uint32_t num_images) {
-  std::vector<ViewEdge> edges = Street(num_images, 3).edges;
+std::vector<ViewEdge> EdgesOf(uint32_t num_images, uint32_t window = 3) {
+  std::vector<ViewEdge> edges = Street(num_images, window).edges;
   for (ViewEdge& edge : edges) edge.b_from_a.translation = -Eigen::Vector3d::UnitX();
   return edges;
 }
@@ -62,6 +62,18 @@ TEST(ChooseEdges, DropsWhatAnyOfItsFiltersDropsAndLosesNothing) {
   const ChosenEdges chosen = ChooseEdges(edges, ManifestOf(30), {});
   EXPECT_EQ(PairsOf(chosen.dropped), (std::set<ImagePair>{far, turned, backward}));
   EXPECT_EQ(chosen.graph.edges.size() + chosen.dropped.size(), edges.size());
+}
+
+TEST(ChooseEdges, PositionsThatTheirDriveContradictsSpeakAgainstNoPair) {
+  std::vector<ViewEdge> edges = EdgesOf(30, 1);
+  const ImagePair look_alike = MakePair(ImageId(15), ImageId(25));
+  edges.push_back(Edge(15, 25));
+  ImageManifest manifest = ManifestOf(30);
+  for (ImageRecord& image : manifest.images) image.capture_time_s = image.id.value;
+  // Both stand beside the place that looks alike, and the two steps to them are 80 m too long.
+  for (const uint32_t i : {15U, 16U})
+    manifest.images[i].prior.position_in_enu->x() += 10.0 * kStep_m;
+  EXPECT_EQ(PairsOf(ChooseEdges(edges, manifest, {}).dropped), std::set<ImagePair>{look_alike});
 }
 
 }  // namespace
