@@ -111,6 +111,16 @@ absl::Status AdjustGrowingModel(MappingState& state,
   return AdjustInRounds(state, options, how, {.max_rounds = 2, .max_changed_share = 0.05}, context);
 }
 
+absl::Status AdjustWidely(MappingState& state,
+                          const MappingOptions& options,
+                          double max_error_px,
+                          const StageContext& context) {
+  BundleOptions how = {
+      .loss = BundleLoss::kCauchy, .max_iterations = 30, .function_tolerance = 1e-5};
+  how.loss_scale *= max_error_px / options.max_error_px;
+  return AdjustAll(state, AsPresetAdjusts(options, how), context);
+}
+
 absl::Status AdjustFinalModel(MappingState& state,
                               const MappingOptions& options,
                               const StageContext& context) {

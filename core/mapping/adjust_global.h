@@ -14,6 +14,12 @@ namespace orbweave {
                                               const MappingOptions& options,
                                               const StageContext& context);
 
+/// Adjusts everything once, under a Cauchy loss that is made for points `max_error_px` off.
+[[nodiscard]] absl::Status AdjustWidely(MappingState& state,
+                                        const MappingOptions& options,
+                                        double max_error_px,
+                                        const StageContext& context);
+
 /// The same until hardly anything changes, then least squares over what is left: the final model.
 [[nodiscard]] absl::Status AdjustFinalModel(MappingState& state,
                                             const MappingOptions& options,

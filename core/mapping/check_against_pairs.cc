@@ -31,8 +31,8 @@ std::vector<LinkedPair> RegisteredPairs(const MappingState& state) {
 
 bool Agrees(const MappingState& state, const LinkedPair& pair, double max_error_px) {
   size_t agreeing = 0;
-  VisitMatches(state, pair, max_error_px, [&](bool agrees, const auto&, const auto&) {
-    agreeing += agrees ? 1 : 0;
+  VisitMatches(state, pair, [&](const PosedMatch& match) {
+    agreeing += match.Agrees(max_error_px) ? 1 : 0;
   });
   return static_cast<double>(agreeing) >=
          kMinAgreeingMatches *

@@ -69,14 +69,25 @@ PairEvidence EvidenceOfPoints(const MappingState& state,
   return evidence;
 }
 
-/// Of all matches, by the epipolar planes of the model's pose.
+/// Of all matches, by the epipolar planes of the model's pose and by what lies in front of it.
+PairEvidence EvidenceOfMatches(const MappingState& state,
+                               const LinkedPair& pair,
+                               double tolerance_px) {
+  PairEvidence evidence;
+  VisitMatches(state, pair, [&](const PosedMatch& match) {
+    evidence.Count(match.Agrees(tolerance_px), match.in_a, match.in_b);
+  });
+  return evidence;
+}
+
+/// Of the pair's own matches, by the planes alone: wrong ones along the way, of one window and the
+/// next, lie in them, too.
 PairEvidence EvidenceOfPlanes(const MappingState& state,
                               const LinkedPair& pair,
                               double tolerance_px) {
   PairEvidence evidence;
-  VisitMatches(state, pair, tolerance_px, [&](bool agrees, const auto& p_a, const auto& p_b) {
-    evidence.Count(agrees, p_a, p_b);
-  });
+  for (const PosedMatch& match : OwnMatches(state, pair, tolerance_px))
+    evidence.Count(match.IsInPlanes(tolerance_px), match.in_a, match.in_b);
   return evidence;
 }
 
@@ -87,10 +98,10 @@ bool IsBeyondChance(const PairEvidence& evidence) {
   return static_cast<double>(evidence.explained) > 1.0 + expected + kDeviations * deviation;
 }
 
-/// Clearly fewer than a right model explains.
-bool IsShort(const PairEvidence& evidence) {
-  const double expected = kExplainedShare * static_cast<double>(evidence.asked);
-  const double deviation = std::sqrt(expected * (1.0 - kExplainedShare));
+/// Clearly fewer than this share, which a right model explains.
+bool IsShort(const PairEvidence& evidence, double share) {
+  const double expected = share * static_cast<double>(evidence.asked);
+  const double deviation = std::sqrt(expected * (1.0 - share));
   return static_cast<double>(evidence.explained) < expected - kDeviationsBelow * deviation;
 }
 
@@ -99,18 +110,41 @@ bool IsExplained(const PairEvidence& evidence) {
                                          kExplainedShare * static_cast<double>(evidence.asked);
 }
 
-/// Whether `min_matches` or more speak, in several places of both images, and no more agree with
-/// the model than chance leaves, or clearly fewer than a right one explains.
-bool IsAgainst(const PairEvidence& evidence, int min_matches) {
+/// Whether `min_matches` or more speak, those against the model in several places of both images.
+bool Speaks(const PairEvidence& evidence, int min_matches) {
   return evidence.asked >= static_cast<size_t>(min_matches) &&
-         (!IsBeyondChance(evidence) || IsShort(evidence)) &&
          evidence.places_a.count() >= kMinPlaces && evidence.places_b.count() >= kMinPlaces;
+}
+
+/// Whether it speaks, and no more agrees with the model than chance leaves, or clearly fewer than a
+/// right one explains.
+bool IsAgainst(const PairEvidence& evidence, int min_matches) {
+  return Speaks(evidence, min_matches) &&
+         (!IsBeyondChance(evidence) || IsShort(evidence, kExplainedShare));
+}
+
+enum class Judgement : uint8_t { kNone, kExplained, kContradicted };
+
+Judgement JudgePair(const MappingState& state,
+                    const LinkedPair& pair,
+                    const MappingOptions& options) {
+  const double tolerance_px = kMatchTolerance * options.max_error_px;
+  const int min_matches = kMinInliersFactor * options.min_inliers;
+  const bool is_general = state.Problem().pairs[pair.index].kind == TwoViewKind::kGeneral;
+  const PairEvidence planes = EvidenceOfPlanes(state, pair, tolerance_px);
+  if (Speaks(planes, min_matches) && IsShort(planes, kShareInPlanes))
+    return Judgement::kContradicted;
+  const PairEvidence points = EvidenceOfPoints(state, pair, tolerance_px);
+  if (IsExplained(points)) return Judgement::kExplained;
+  const bool is_against =
+      IsAgainst(points, options.min_inliers) ||
+      (is_general && IsAgainst(EvidenceOfMatches(state, pair, tolerance_px), min_matches));
+  return is_against ? Judgement::kContradicted : Judgement::kNone;
 }
 
 }  // namespace
 
 JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options) {
-  const double tolerance_px = kMatchTolerance * options.max_error_px;
   const std::vector<LinkedPair>& pairs = state.Graph().pairs;
   JudgedPairs judged;
   std::vector<uint8_t> is_explained(pairs.size(), 0);
@@ -118,17 +152,11 @@ JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options)
   for (uint32_t p = 0; p < pairs.size(); ++p) {
     const LinkedPair& pair = pairs[p];
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;
-    const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
-    const PairEvidence points = EvidenceOfPoints(state, pair, tolerance_px);
-    if (IsExplained(points)) {
-      is_explained[p] = 1;
-      judged.explained.push_back(geometry.pair);
-    } else if (IsAgainst(points, options.min_inliers) ||
-               (geometry.kind == TwoViewKind::kGeneral &&
-                IsAgainst(EvidenceOfPlanes(state, pair, tolerance_px),
-                          kMinInliersFactor * options.min_inliers))) {
-      contradicted.push_back(p);
-    }
+    const Judgement judgement = JudgePair(state, pair, options);
+    if (judgement == Judgement::kContradicted) contradicted.push_back(p);
+    if (judgement != Judgement::kExplained) continue;
+    is_explained[p] = 1;
+    judged.explained.push_back(state.Problem().pairs[pair.index].pair);
   }
   const MisleadingPairs misleading(state, std::move(is_explained));
   for (const uint32_t p : contradicted) {

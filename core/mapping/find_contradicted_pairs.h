@@ -33,9 +33,10 @@ struct JudgedPairs {
 /// An image that stands on the wrong side of its neighbour, or far from where it was, takes the
 /// points of the pair away and with them this evidence. So a pair is contradicted too when it has
 /// 2 options.min_inliers matches, as few of all of them lie in the epipolar planes of the model's
-/// pose and in front of both images, and the others are in several places of both.
-/// Pairs of one centre or one plane are not asked, and pairs that are wrong in themselves
-/// (MisleadingPairs) are no witnesses. All others are neither.
+/// pose and in front of both images, and the others are in several places of both; and, whatever
+/// the few say that show points, when clearly fewer than three fifths of those in the planes of its
+/// own pose lie in the model's. Pairs of one centre or one plane are not asked, and pairs that are
+/// wrong in themselves (MisleadingPairs) are no witnesses. All others are neither.
 [[nodiscard]] JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options);
 
 /// The contradicted ones.

@@ -10,6 +10,7 @@
 #include "core/mapping/adjust_global.h"
 #include "core/mapping/adjust_local.h"
 #include "core/mapping/adjust_new_images.h"
+#include "core/mapping/close_drift.h"
 #include "core/mapping/mend_lengths.h"
 #include "core/mapping/model/mapping_schedule.h"
 #include "core/mapping/model/rank_next_images.h"
@@ -53,6 +54,7 @@ class Growth {
     for (RegistrationRecord& record : log_) record.num_reconsidered = 0;
     ORBWEAVE_RETURN_IF_ERROR(Reconsider());
     ORBWEAVE_RETURN_IF_ERROR(Mend());
+    ORBWEAVE_RETURN_IF_ERROR(Close());
     ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state_, options_, context_));
     ++report_.num_global_adjustments;
     DropWeakImages();
@@ -169,6 +171,13 @@ class Growth {
     }
     ORBWEAVE_ASSIGN_OR_RETURN(const bool has_slid, SlideOntoGnss(state_, options_, context_));
     report_.num_global_adjustments += has_slid ? 1 : 0;
+    return absl::OkStatus();
+  }
+
+  absl::Status Close() {
+    if (!schedule_.relaxes_registration) return absl::OkStatus();
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_closed, CloseDrift(state_, options_, context_));
+    report_.num_global_adjustments += is_closed ? 1 : 0;
     return absl::OkStatus();
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/scene/captures_along.h"
 #include "core/scene/left_off.h"
 #include "core/scene/sequence_of_drive.h"
 
@@ -25,12 +26,15 @@ PlacesInDrives::PlacesInDrives(const ImageManifest& manifest)
     : sequences_(SequenceOfDrives(manifest)),
       drive_(manifest.images.size()),
       place_(manifest.images.size()),
+      capture_(manifest.images.size()),
       stretch_(manifest.images.size()) {
   for (const auto& [drive, sequence] : sequences_) {
     const std::vector<uint32_t> stretches = StretchesOf(sequence, manifest);
+    const std::vector<uint32_t> captures = CapturesAlong(manifest, sequence);
     for (uint32_t place = 0; place < sequence.size(); ++place) {
       drive_[sequence[place].value] = drive;
       place_[sequence[place].value] = place;
+      capture_[sequence[place].value] = captures[place];
       stretch_[sequence[place].value] = stretches[place];
     }
   }
@@ -47,6 +51,12 @@ bool PlacesInDrives::AreOfOneDrive(const ImagePair& pair) const {
 std::optional<uint32_t> PlacesInDrives::StepsBetween(const ImagePair& pair) const {
   if (!AreOfOneDrive(pair)) return std::nullopt;
   const auto [first, last] = std::minmax({PlaceOf(pair.a), PlaceOf(pair.b)});
+  return last - first;
+}
+
+std::optional<uint32_t> PlacesInDrives::CapturesBetween(const ImagePair& pair) const {
+  if (!AreOfOneDrive(pair)) return std::nullopt;
+  const auto [first, last] = std::minmax({capture_[pair.a.value], capture_[pair.b.value]});
   return last - first;
 }
 

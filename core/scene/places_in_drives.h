@@ -22,6 +22,8 @@ class PlacesInDrives {
   [[nodiscard]] bool AreOfOneDrive(const ImagePair& pair) const;
   /// Images of the drive from one to the other; nullopt where they are of two drives.
   [[nodiscard]] std::optional<uint32_t> StepsBetween(const ImagePair& pair) const;
+  /// The same, with captures that were taken out (CapturesAlong).
+  [[nodiscard]] std::optional<uint32_t> CapturesBetween(const ImagePair& pair) const;
   /// Whether both are of one drive that was not left off between them (LeftOffBehind).
   [[nodiscard]] bool AreOfOneStretch(const ImagePair& pair) const;
   /// The one before or after it in its drive; nullopt at the ends.
@@ -34,6 +36,7 @@ class PlacesInDrives {
   std::map<uint32_t, std::vector<ImageId>> sequences_;
   std::vector<uint32_t> drive_;    ///< per image
   std::vector<uint32_t> place_;    ///< per image
+  std::vector<uint32_t> capture_;  ///< per image
   std::vector<uint32_t> stretch_;  ///< per image, from 0 on within its drive
 };
 

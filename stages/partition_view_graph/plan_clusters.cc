@@ -9,28 +9,14 @@
 
 #include "core/graph/positions_by_motion.h"
 #include "core/graph/shared_images.h"
-#include "core/scene/captures_along.h"
 #include "core/scene/places_in_drives.h"
-#include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
 
 namespace {
 
-/// Of each image, how many captures of its drive before it were taken out.
-std::vector<uint32_t> TakenOutBefore(const ImageManifest& manifest) {
-  std::vector<uint32_t> taken_out(manifest.images.size(), 0);
-  for (const auto& [drive, sequence] : SequenceOfDrives(manifest)) {
-    const std::vector<uint32_t> captures = CapturesAlong(manifest, sequence);
-    for (uint32_t i = 0; i < sequence.size(); ++i) taken_out[sequence[i].value] = captures[i] - i;
-  }
-  return taken_out;
-}
-
 /// Ranks, not places: an image that is added elsewhere leaves the recipe as it is.
-std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe,
-                              const PlacesInDrives& places,
-                              const std::vector<uint32_t>& taken_out) {
+std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe, const PlacesInDrives& places) {
   std::vector<size_t> order(recipe.images.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::ranges::sort(order, {}, [&](size_t i) {
@@ -39,10 +25,9 @@ std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe,
   std::vector<uint32_t> ranks(order.size(), 0);
   for (size_t i = 1; i < order.size(); ++i) {
     if (recipe.drives[order[i]] != recipe.drives[order[i - 1]]) continue;
-    const ImageId before = recipe.images[order[i - 1]].image;
-    const ImageId image = recipe.images[order[i]].image;
-    const uint32_t between = taken_out[image.value] - taken_out[before.value];
-    ranks[order[i]] = ranks[order[i - 1]] + 1 + between;
+    const ImagePair step{recipe.images[order[i - 1]].image, recipe.images[order[i]].image};
+    const uint32_t taken_out = *places.CapturesBetween(step) - *places.StepsBetween(step);
+    ranks[order[i]] = ranks[order[i - 1]] + 1 + taken_out;
   }
   return ranks;
 }
@@ -74,8 +59,7 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
     }
   }
   const PlacesInDrives places(manifest);
-  const std::vector<uint32_t> taken_out = TakenOutBefore(manifest);
-  for (ClusterRecipe& recipe : recipes) recipe.ranks = RanksOf(recipe, places, taken_out);
+  for (ClusterRecipe& recipe : recipes) recipe.ranks = RanksOf(recipe, places);
   for (ClusterRecipe& recipe : recipes) recipe.shared = SharedImages(partition, recipe.cluster);
   std::vector<std::set<Digest>> blobs(recipes.size());
   for (const ViewEdge& edge : graph.edges) {

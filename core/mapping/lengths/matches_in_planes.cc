@@ -5,28 +5,57 @@
 
 #include <algorithm>
 
-#include "core/geometry/epipolar.h"
 #include "core/mapping/lengths/log_length_of_pair.h"
 
 namespace orbweave {
 
-void VisitMatches(
-    const MappingState& state,
-    const LinkedPair& pair,
-    double tolerance_px,
-    const std::function<void(bool, const Eigen::Vector3d&, const Eigen::Vector3d&)>& visit) {
+namespace {
+
+Rigid3 PoseInModel(const MappingState& state, const LinkedPair& pair) {
+  return state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
+}
+
+void VisitMatchesAt(Rigid3 b_from_a,
+                    const MappingState& state,
+                    const LinkedPair& pair,
+                    const std::function<void(const PosedMatch&)>& visit) {
   const CorrespondenceGraph& graph = state.Graph();
-  Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
   b_from_a.translation.normalize();
   const PoseOfRays rays_of(b_from_a);
   for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
     const Node a = graph.node_of_feature[pair.a][match.a];
-    const Eigen::Vector3d& p_a = graph.bearing_of_node[a];
-    const Eigen::Vector3d& p_b = graph.bearing_of_node[graph.node_of_feature[pair.b][match.b]];
-    const RayPair rays = rays_of(p_a, p_b);
-    visit(
-        rays.IsWithin(AngleFromPixels(state, a, tolerance_px)) && rays.IsInFrontOfBoth(), p_a, p_b);
+    const Node b = graph.node_of_feature[pair.b][match.b];
+    PosedMatch posed{.match = match,
+                     .in_a = graph.bearing_of_node[a],
+                     .in_b = graph.bearing_of_node[b],
+                     .pixel_rad = AngleFromPixels(state, a, 1.0)};
+    posed.rays = rays_of(posed.in_a, posed.in_b);
+    visit(posed);
   }
+}
+
+}  // namespace
+
+void VisitMatches(const MappingState& state,
+                  const LinkedPair& pair,
+                  const std::function<void(const PosedMatch&)>& visit) {
+  VisitMatchesAt(PoseInModel(state, pair), state, pair, visit);
+}
+
+std::vector<PosedMatch> OwnMatches(const MappingState& state,
+                                   const LinkedPair& pair,
+                                   double tolerance_px) {
+  const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
+  std::vector<PosedMatch> own;
+  if (geometry.kind != TwoViewKind::kGeneral) return own;
+  VisitMatchesAt(geometry.b_from_a, state, pair, [&](const PosedMatch& match) {
+    if (match.IsInPlanes(tolerance_px)) own.push_back(match);
+  });
+  Rigid3 b_from_a = PoseInModel(state, pair);
+  b_from_a.translation.normalize();
+  const PoseOfRays rays_of(b_from_a);
+  for (PosedMatch& match : own) match.rays = rays_of(match.in_a, match.in_b);
+  return own;
 }
 
 LengthAgreement AgreementOfMatches(const MappingState& state,
@@ -37,9 +66,9 @@ LengthAgreement AgreementOfMatches(const MappingState& state,
       state.Problem().pairs[pair.index].kind != TwoViewKind::kGeneral) {
     return matches;
   }
-  VisitMatches(state, pair, tolerance_px, [&](bool agrees, const auto&, const auto&) {
+  VisitMatches(state, pair, [&](const PosedMatch& match) {
     matches.told += 1.0;
-    matches.agreeing += agrees ? 1.0 : 0.0;
+    matches.agreeing += match.Agrees(tolerance_px) ? 1.0 : 0.0;
   });
   const double weight = std::min(1.0, kMaxRaysOfPair / std::max(matches.told, 1.0));
   return {.told = weight * matches.told, .agreeing = weight * matches.agreeing};

@@ -113,6 +113,26 @@ class Apartness {
   double tolerance_px_;
 };
 
+/// Behind which images so many captures are missing that the next does not see what they see, in
+/// drives that go by ranks.
+std::vector<uint8_t> GapsBehind(const MappingState& state, const std::vector<ImageSlot>& images) {
+  const auto& known = state.Problem().images;
+  std::vector<uint8_t> gaps(images.size(), 0);
+  const auto drive_of = [&](ImageSlot image) { return known[image].drive; };
+  const auto rank_of = [&](ImageSlot image) { return known[image].rank_in_drive; };
+  for (size_t first = 0; first < images.size();) {
+    const auto left = std::span(images).subspan(first);
+    const auto end = std::ranges::find_if(
+        left, [&](ImageSlot image) { return drive_of(image) != drive_of(left.front()); });
+    const auto drive = left.first(static_cast<size_t>(end - left.begin()));
+    const bool goes_by_rank = std::ranges::is_sorted(drive, {}, rank_of);
+    for (size_t i = 0; goes_by_rank && i + 1 < drive.size(); ++i)
+      gaps[first + i] = rank_of(drive[i + 1]) - rank_of(drive[i]) > kReachAlongLine;
+    first += drive.size();
+  }
+  return gaps;
+}
+
 /// Behind which images the drive goes on elsewhere.
 std::vector<uint8_t> EndsBehind(const MappingState& state,
                                 const std::vector<ImageSlot>& images,
@@ -120,8 +140,9 @@ std::vector<uint8_t> EndsBehind(const MappingState& state,
   std::vector<const PosePrior*> priors;
   for (const ImageSlot image : images) priors.push_back(&state.Problem().images[image].prior);
   std::vector<uint8_t> ends = LeftOffBehind(priors);
+  const std::vector<uint8_t> gaps = GapsBehind(state, images);
   for (size_t i = 0; i + 1 < images.size(); ++i) {
-    ends[i] = ends[i] != 0 || apartness.AreApart(images[i], images[i + 1]);
+    ends[i] = ends[i] != 0 || gaps[i] != 0 || apartness.AreApart(images[i], images[i + 1]);
   }
   return ends;
 }

@@ -22,6 +22,15 @@ void RetriangulateMatch(MappingState& state, Node a, Node b, const TrackLimits& 
 
 }  // namespace
 
+void RetriangulatePair(MappingState& state, const LinkedPair& pair, const TrackLimits& limits) {
+  for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
+    RetriangulateMatch(state,
+                       state.Graph().node_of_feature[pair.a][match.a],
+                       state.Graph().node_of_feature[pair.b][match.b],
+                       limits);
+  }
+}
+
 uint32_t RetriangulatePairs(MappingState& state, const TrackLimits& limits) {
   const uint32_t before = state.NumObservations();
   for (const LinkedPair& pair : state.Graph().pairs) {
@@ -29,12 +38,7 @@ uint32_t RetriangulatePairs(MappingState& state, const TrackLimits& limits) {
         ReconstructedShare(state, pair) >= kUnderReconstructedShare) {
       continue;
     }
-    for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
-      RetriangulateMatch(state,
-                         state.Graph().node_of_feature[pair.a][match.a],
-                         state.Graph().node_of_feature[pair.b][match.b],
-                         limits);
-    }
+    RetriangulatePair(state, pair, limits);
   }
   return state.NumObservations() - before;
 }

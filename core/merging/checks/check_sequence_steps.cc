@@ -20,7 +20,7 @@ constexpr double kDetourSteps = 4.0;
 // Six standard deviations of three normal errors, whose distance has 1.54 as its median.
 constexpr double kMedians = 4.0;
 constexpr size_t kAround = 6;        // steps before and after that tell what a step is there
-constexpr uint32_t kMaxMissing = 2;  // images between neighbours
+constexpr uint32_t kMaxMissing = 2;  // captures between neighbours
 // With more of the street off its way than one in fifty nothing about it is to be believed.
 constexpr double kBadShare = 0.02;
 
@@ -61,7 +61,7 @@ std::vector<Stop> StopsOf(const std::vector<ImageId>& drive,
 
 bool AreNeighbours(const PlacesInDrives& places, const Stop& a, const Stop& b) {
   const ImagePair pair{a.id, b.id};
-  return places.AreOfOneStretch(pair) && places.StepsBetween(pair) <= kMaxMissing + 1;
+  return places.AreOfOneStretch(pair) && places.CapturesBetween(pair) <= kMaxMissing + 1;
 }
 
 /// Three quarters of the steps around stop `i` are no longer; its own two do not count.

@@ -41,6 +41,19 @@ TEST(PlacesInDrives, CountStepsWithinADriveAlone) {
   EXPECT_EQ(places.StepsBetween({ImageId(0), ImageId(1)}), std::nullopt);
 }
 
+TEST(PlacesInDrives, CountCapturesThatWereTakenOut) {
+  ImageManifest manifest;
+  for (const char* name : {"7.jpg", "8.jpg", "9.jpg", "14.jpg", "15.jpg"}) {
+    const ImageId id(static_cast<uint32_t>(manifest.images.size()));
+    manifest.images.push_back({.id = id, .name = name});
+  }
+  manifest.images.push_back({.id = ImageId(5), .name = "16.jpg", .drive = 1});
+  const PlacesInDrives places(manifest);
+  EXPECT_EQ(places.CapturesBetween({ImageId(0), ImageId(4)}), 8U);
+  EXPECT_EQ(places.StepsBetween({ImageId(0), ImageId(4)}), 4U);
+  EXPECT_EQ(places.CapturesBetween({ImageId(4), ImageId(5)}), std::nullopt);
+}
+
 TEST(PlacesInDrives, TellStretchesThatGnssHasApart) {
   ImageManifest manifest;
   for (uint32_t i = 0; i < 8; ++i) {

@@ -57,6 +57,26 @@ TEST(FindStreetLines, GoesByRanksWhereTheyAreGiven) {
               ElementsAre(ElementsAreArray(backwards)));
 }
 
+TEST(FindStreetLines, EndWhereMoreCapturesAreMissingThanImagesSeeAcross) {
+  StreetFixture street = Street();
+  for (uint32_t i = 0; i < kImages; ++i)
+    street.world.problem.images[i].rank_in_drive = i < 8 ? i : i + 3;
+  const auto lines = [&] {
+    street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+    return FindStreetLines(street.StateWith(FirstImages(kImages)), kTolerance_px);
+  };
+  EXPECT_EQ(lines().size(), 1U) << "pairs lead across";
+  for (TwoViewGeometry& pair : street.world.problem.pairs) {
+    if (pair.pair.a.value >= 8 || pair.pair.b.value < 8) continue;
+    // What looks alike: no match is where the model has it.
+    for (size_t i = 0, j = pair.inliers.size(); i + 1 < j--; ++i)
+      std::swap(pair.inliers[i].b, pair.inliers[j].b);
+  }
+  EXPECT_EQ(lines().size(), 2U);
+  for (uint32_t i = 0; i < kImages; ++i) street.world.problem.images[i].rank_in_drive = i;
+  EXPECT_EQ(lines().size(), 1U);
+}
+
 TEST(FindStreetLines, StretchesOfTwoDaysAreOneStreet) {
   EXPECT_THAT(LinesOf(Street(), {0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0}),
               ElementsAre(ElementsAreArray(InOrder())));
