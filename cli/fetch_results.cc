@@ -136,6 +136,7 @@ absl::StatusOr<JobResults> FetchResults(BlobAccess& coordinator,
   ORBWEAVE_ASSIGN_OR_RETURN(results.review, reader.Read(&ReviewSeamsStage::Outputs::review));
   ORBWEAVE_ASSIGN_OR_RETURN(const FinalisedModel model,
                             reader.Read(&ConcludeAdjustmentStage::Outputs::model));
+  results.left_out = model.left_out;
   for (size_t world = 0; world < model.worlds.size(); ++world) {
     ORBWEAVE_ASSIGN_OR_RETURN(
         results.models.emplace_back(),

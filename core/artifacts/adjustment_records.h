@@ -58,6 +58,7 @@ struct AdjustmentProgress {
 struct FinalisedModel {
   std::vector<FinalisedWorld> worlds{};            ///< most images first
   std::vector<std::vector<Digest>> subproblems{};  ///< per world: Subproblems
+  std::vector<Exclusion> left_out{};  ///< images of worlds of which none is left, and why
 };
 
 }  // namespace orbweave

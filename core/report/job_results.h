@@ -60,6 +60,7 @@ struct JobResults {
   PartitionReview review{};
   std::vector<AdjustedModel> models{};          ///< most images first
   std::vector<SeamCertificate> certificates{};  ///< of all models
+  std::vector<Exclusion> left_out{};            ///< images of models of which none is left, and why
 };
 
 }  // namespace orbweave

@@ -12,9 +12,9 @@
 namespace orbweave {
 namespace {
 
-/// Of images without an edge in the view graph: matched with none, or only with places that look
-/// alike.
-std::vector<std::string> ReasonsOfLoners(const JobResults& results) {
+/// By the view graph alone: matched with none, or only with places that look alike; or in models
+/// that nobody says more of.
+std::vector<std::string> ReasonsByEdges(const JobResults& results) {
   std::vector<std::string> reasons(results.manifest.images.size(),
                                    "no verified matches with any other image");
   std::map<ImageId, uint32_t> dropped;
@@ -29,18 +29,23 @@ std::vector<std::string> ReasonsOfLoners(const JobResults& results) {
                      count == 1 ? " verified pair" : " verified pairs",
                      " with others, and all told apart from them as places that look alike");
   }
+  for (const ImagePair& pair : results.view_graph.edges) {
+    for (const ImageId image : {pair.a, pair.b})
+      reasons[image.value] = "no model that it was part of lasted";
+  }
   return reasons;
 }
 
 /// Why each image that no model observes is missing, by what is known latest in the line.
 std::vector<std::string> ReasonsOfImages(const JobResults& results) {
-  std::vector<std::string> reasons = ReasonsOfLoners(results);
+  std::vector<std::string> reasons = ReasonsByEdges(results);
   for (const ClusterSummary& cluster : results.clusters) {
     for (const NotRegistered& image : cluster.not_registered) {
       reasons[image.image.value] = image.reason;
     }
   }
   std::map<std::string, std::string> weak;
+  for (const Exclusion& image : results.left_out) weak[image.name] = image.reason;
   const std::vector<std::string> standing = StandingReasons(results);
   for (size_t i = 0; i < standing.size(); ++i) {
     if (!standing[i].empty()) reasons[i] = standing[i];

@@ -14,6 +14,22 @@
 namespace orbweave {
 namespace {
 
+using Exclusions = google::protobuf::RepeatedPtrField<v1::Exclusion>;
+
+void ToProto(const std::vector<Exclusion>& images, Exclusions* proto) {
+  for (const Exclusion& image : images) {
+    v1::Exclusion* out = proto->Add();
+    out->set_name(image.name);
+    out->set_reason(image.reason);
+  }
+}
+
+std::vector<Exclusion> FromProto(const Exclusions& proto) {
+  std::vector<Exclusion> images;
+  for (const v1::Exclusion& image : proto) images.push_back({image.name(), image.reason()});
+  return images;
+}
+
 void ToProto(const StepControl& control, v1::StepControl* proto) {
   proto->set_lambda(control.lambda);
   proto->set_is_bent(control.is_bent);
@@ -41,11 +57,7 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   proto->set_pattern_px(report.pattern_px);
   codec::ToProto(report.uncertainty, proto->mutable_uncertainty());
   for (const CrossCheck& check : report.checks) codec::ToProto(check, proto->add_checks());
-  for (const Exclusion& image : report.weak_images) {
-    v1::Exclusion* out = proto->add_weak_images();
-    out->set_name(image.name);
-    out->set_reason(image.reason);
-  }
+  ToProto(report.weak_images, proto->mutable_weak_images());
 }
 
 absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& report) {
@@ -68,8 +80,7 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
     ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
     report.checks.push_back(std::move(decoded));
   }
-  for (const v1::Exclusion& image : proto.weak_images())
-    report.weak_images.push_back({image.name(), image.reason()});
+  report.weak_images = FromProto(proto.weak_images());
   for (const v1::BundleReport& adjustment : proto.adjustments()) {
     ORBWEAVE_ASSIGN_OR_RETURN(BundleReport decoded, codec::FromProto(adjustment));
     report.adjustments.push_back(std::move(decoded));
@@ -313,6 +324,7 @@ absl::StatusOr<std::string> EncodeFinalisedModel(const FinalisedModel& model) {
       out->add_subproblems(codec::PackDigest(subproblem));
     for (const SeamCertificate& seam : model.worlds[world].seams) ToProto(seam, out->add_seams());
   }
+  ToProto(model.left_out, proto.mutable_left_out());
   return codec::Serialize(proto, "concluded model", codec::Empty::kIsLegal);
 }
 
@@ -337,6 +349,7 @@ absl::StatusOr<FinalisedModel> DecodeFinalisedModel(std::string_view bytes) {
       ORBWEAVE_ASSIGN_OR_RETURN(out.seams.emplace_back(), FromProto(seam));
     }
   }
+  model.left_out = FromProto(proto.left_out());
   return model;
 }
 

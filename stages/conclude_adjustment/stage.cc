@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/conclude_adjustment/stage.h"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -57,6 +59,7 @@ absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& ta
                                                  options));
     model.worlds.push_back(std::move(finalised));
     if (model.worlds.back().images.empty()) {  // nothing in it is placed by its own observations
+      std::ranges::move(model.worlds.back().report.weak_images, std::back_inserter(model.left_out));
       model.worlds.pop_back();
       model.subproblems.pop_back();
     }

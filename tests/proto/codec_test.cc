@@ -671,6 +671,7 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
       .known = true, .held_image = "b.jpg", .bearing_sigma_factor = 0.9};
   model.worlds[0].report.residual_px_mean = 0.5;
   model.worlds[0].report.weak_images = {{"c.jpg", "8 observations in one corner"}};
+  model.left_out = {{"d.jpg", "none of its world is left"}};
   model.worlds[0].report.adjustments.push_back(
       {.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
   const auto model_out = DecodeFinalisedModel(EncodeFinalisedModel(model).value());
@@ -685,6 +686,9 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   EXPECT_EQ(report.uncertainty.held_image, "b.jpg");
   EXPECT_EQ(report.uncertainty.bearing_sigma_factor, 0.9);
   EXPECT_EQ(model_out->subproblems, model.subproblems);
+  ASSERT_EQ(model_out->left_out.size(), 1U);
+  EXPECT_EQ(model_out->left_out[0].name, "d.jpg");
+  EXPECT_EQ(model_out->left_out[0].reason, "none of its world is left");
 }
 
 }  // namespace

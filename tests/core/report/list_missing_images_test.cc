@@ -55,6 +55,14 @@ TEST(BuildJobReport, SaysThatAnImageHadOnlyPairsThatLookAlike) {
   EXPECT_EQ(report.images[4].reason, "too few points");
 }
 
+TEST(BuildJobReport, SaysWhatBecameOfImagesWhoseModelIsGone) {
+  JobResults results = SixImages();
+  results.view_graph.edges = {{ImageId(4), ImageId(5)}};
+  EXPECT_EQ(BuildJobReport(results).images[5].reason, "no model that it was part of lasted");
+  results.left_out = {{"5.jpg", "its observations do not fix its pose"}};
+  EXPECT_EQ(BuildJobReport(results).images[5].reason, "its observations do not fix its pose");
+}
+
 TEST(BuildJobReport, WarnsOnceOfAllLooseImagesWithTheReasonOfMost) {
   JobResults results = SixImages();
   EXPECT_THAT(
