@@ -13,6 +13,7 @@ namespace orbweave {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr uint32_t kImages = 100;
 
@@ -51,6 +52,15 @@ TEST(CheckLengths, IsGoodWhereRaysAgree) {
   EXPECT_DOUBLE_EQ(check.value, 0.7);
   EXPECT_THAT(check.sentence, HasSubstr("70 %"));
   EXPECT_EQ(CheckLengths({}).level, CheckLevel::kGood);
+}
+
+TEST(CheckLengths, SpeaksOfWallsInTheirTrueShapeWhereNoPositionToldHowFarApartImagesAre) {
+  JobResults results = Drive();
+  ContradictPairsOf(42, results);
+  EXPECT_THAT(CheckLengths(results).sentence, HasSubstr("features.facades=on"));
+  results.manifest.images[3].prior.position_in_enu.emplace(0.0, 0.0, 0.0);
+  EXPECT_THAT(CheckLengths(results).sentence, Not(HasSubstr("features.facades=on")));
+  EXPECT_THAT(CheckLengths(results).sentence, HasSubstr("give GNSS positions"));
 }
 
 TEST(CheckLengths, OneImageIsDoubtfulAndNamed) {
