@@ -3,7 +3,9 @@
 
 #include "core/mapping/close_drift.h"
 
+#include <algorithm>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,34 +30,37 @@ struct DriftedPair {
   double tolerance_px = 0;  ///< five degrees
 };
 
-bool HasDrifted(const MappingState& state,
-                const LinkedPair& pair,
-                const MappingOptions& options,
-                double& tolerance_px) {
+/// By what tolerance its matches are to become points; nullopt where the pair has not drifted
+/// apart.
+std::optional<double> DriftOf(const MappingState& state,
+                              const LinkedPair& pair,
+                              const MappingOptions& options) {
   const auto fewest = static_cast<size_t>(kMinInliersFactor * options.min_inliers);
   if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b) ||
       ReconstructedShare(state, pair) >= kMostReconstructed)
-    return false;
+    return std::nullopt;
   const double planes_px = kMatchTolerance * options.max_error_px;
   const std::vector<PosedMatch> own = OwnMatches(state, pair, planes_px);
+  if (own.size() < fewest) return std::nullopt;
+  const double tolerance_px = kDrift_rad / own.front().pixel_rad;
   size_t in_planes = 0;
   size_t about_there = 0;
   for (const PosedMatch& match : own) {
-    tolerance_px = kDrift_rad / match.pixel_rad;
     in_planes += match.IsInPlanes(planes_px) ? 1 : 0;
     about_there += match.Agrees(tolerance_px) ? 1 : 0;
   }
   const double usual = kShareInPlanes * static_cast<double>(own.size());
-  return own.size() >= fewest && static_cast<double>(in_planes) < usual &&
-         static_cast<double>(about_there) >= usual;
+  const bool has_drifted =
+      static_cast<double>(in_planes) < usual && static_cast<double>(about_there) >= usual;
+  return has_drifted ? std::optional(tolerance_px) : std::nullopt;
 }
 
 std::vector<DriftedPair> FindDrifted(const MappingState& state, const MappingOptions& options) {
   std::vector<DriftedPair> drifted;
   const std::vector<LinkedPair>& pairs = state.Graph().pairs;
   for (uint32_t p = 0; p < pairs.size(); ++p) {
-    DriftedPair pair{.pair = p};
-    if (HasDrifted(state, pairs[p], options, pair.tolerance_px)) drifted.push_back(pair);
+    if (const auto tolerance_px = DriftOf(state, pairs[p], options))
+      drifted.push_back({p, *tolerance_px});
   }
   return drifted;
 }

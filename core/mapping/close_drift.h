@@ -12,7 +12,7 @@ namespace orbweave {
 /// Closes loops that came round to where they began a little beside it. What a model drifts on its
 /// way round may be more than any point is allowed to be off, so that the pair which would close
 /// the loop has no point, and no adjustment brings its images together: a street round a block came
-/// back 9 degrees off the direction of a pair of 148 matches, right ones all, and stayed so.
+/// back 9 degrees off the direction of a pair of 148 matches, right ones all, and stayed 6 off.
 ///
 /// A general pair of 2 min_inliers matches has drifted apart when hardly a match ended in a common
 /// point (a fifth; Wu, Towards Linear-Time Incremental Structure from Motion, 3DV 2013, section 4),

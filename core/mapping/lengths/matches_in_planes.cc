@@ -25,8 +25,7 @@ void VisitMatchesAt(Rigid3 b_from_a,
   for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
     const Node a = graph.node_of_feature[pair.a][match.a];
     const Node b = graph.node_of_feature[pair.b][match.b];
-    PosedMatch posed{.match = match,
-                     .in_a = graph.bearing_of_node[a],
+    PosedMatch posed{.in_a = graph.bearing_of_node[a],
                      .in_b = graph.bearing_of_node[b],
                      .pixel_rad = AngleFromPixels(state, a, 1.0)};
     posed.rays = rays_of(posed.in_a, posed.in_b);

@@ -17,7 +17,6 @@ inline constexpr double kMatchTolerance = 2.0;
 
 /// A match under the model's pose of its images.
 struct PosedMatch {
-  FeatureMatch match{};
   Eigen::Vector3d in_a = Eigen::Vector3d::UnitZ();  ///< bearing
   Eigen::Vector3d in_b = Eigen::Vector3d::UnitZ();
   RayPair rays{};
