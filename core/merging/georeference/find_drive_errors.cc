@@ -34,6 +34,8 @@ constexpr double kSameDatum_m = 12.0;
 constexpr double kMadToSigma = 1.4826;
 // From here on an undetermined shift along the street is worth a word.
 constexpr double kTellingShift_m = 2.0;
+// No sigma of GNSS: nothing tells the shift.
+constexpr double kNoShift_m = 1000.0;
 
 std::string Fixed(double value, const std::string& unit) {
   char text[40];
@@ -60,6 +62,8 @@ struct Shift {
            std::abs(ahead) * speed > kTellingShift_m;
   }
   [[nodiscard]] bool IsUnknown() const { return sigma * speed > kTellingShift_m; }
+  // Nothing tells it: a straight street, say.
+  [[nodiscard]] bool IsFree() const { return sigma * speed > kNoShift_m; }
 };
 
 CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) {
@@ -74,9 +78,10 @@ CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) 
     check.sentence = PositionsOf(drive) + " seem to be " + size + cause +
                      "; too uncertain to be taken off: sigmas allow for it";
   } else {
+    const std::string sigma = shift.IsFree() ? "" : " (sigma " + Fixed(shift.sigma, unit) + ")";
     check.sentence = "a shift of GNSS along the way of drive " + std::to_string(drive.drive) +
-                     " cannot be told from an offset of all its positions (sigma " +
-                     Fixed(shift.sigma, unit) + "): sigmas do not hold it";
+                     " cannot be told from an offset of all its positions" + sigma +
+                     ": sigmas do not hold it";
   }
   return check;
 }

@@ -84,6 +84,8 @@ TEST(FindDriveErrors, SaysThatAStraightStreetHidesAShift) {
   EXPECT_TRUE(found.drives.empty());
   ASSERT_EQ(found.checks.size(), 1U);
   EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
+  EXPECT_EQ(found.checks[0].sentence.find("(sigma"), std::string::npos)
+      << "of nothing: " << found.checks[0].sentence;
 }
 
 // Along a circle a shift is a turn about its middle, and an antenna beside the camera a change of
