@@ -20,7 +20,7 @@ namespace orbweave {
 /// pose, and yet lie there and in front of both images to five degrees: places that look alike are
 /// far further off, or lie in the planes. Its matches become points at that tolerance, everything
 /// is adjusted under a loss that is as wide, then as ever (AdjustGrowingModel). All stays as it was
-/// unless matches of more pairs agree with the result (CountMatchesInPlanes) and GNSS does not like
+/// unless more matches agree with the result (CountMatchesInPlanes) and GNSS does not like
 /// it less (IsLikedByGnss).
 ///
 /// Whether anything was closed. Cancelled when asked to stop.

@@ -8,20 +8,23 @@
 #include "core/mapping/lengths/log_length_of_pair.h"
 
 namespace orbweave {
-
 namespace {
 
 Rigid3 PoseInModel(const MappingState& state, const LinkedPair& pair) {
   return state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
 }
 
-void VisitMatchesAt(Rigid3 b_from_a,
+PoseOfRays RaysAt(Rigid3 b_from_a) {
+  b_from_a.translation.normalize();
+  return PoseOfRays(b_from_a);
+}
+
+void VisitMatchesAt(const Rigid3& b_from_a,
                     const MappingState& state,
                     const LinkedPair& pair,
                     const std::function<void(const PosedMatch&)>& visit) {
   const CorrespondenceGraph& graph = state.Graph();
-  b_from_a.translation.normalize();
-  const PoseOfRays rays_of(b_from_a);
+  const PoseOfRays rays_of = RaysAt(b_from_a);
   for (const FeatureMatch& match : state.Problem().pairs[pair.index].inliers) {
     const Node a = graph.node_of_feature[pair.a][match.a];
     const Node b = graph.node_of_feature[pair.b][match.b];
@@ -50,9 +53,7 @@ std::vector<PosedMatch> OwnMatches(const MappingState& state,
   VisitMatchesAt(geometry.b_from_a, state, pair, [&](const PosedMatch& match) {
     if (match.IsInPlanes(tolerance_px)) own.push_back(match);
   });
-  Rigid3 b_from_a = PoseInModel(state, pair);
-  b_from_a.translation.normalize();
-  const PoseOfRays rays_of(b_from_a);
+  const PoseOfRays rays_of = RaysAt(PoseInModel(state, pair));
   for (PosedMatch& match : own) match.rays = rays_of(match.in_a, match.in_b);
   return own;
 }

@@ -46,20 +46,28 @@ void OrderDrive(const MappingState& state, std::span<ImageSlot> images) {
   std::ranges::transform(*order, images.begin(), [&](uint32_t i) { return by_rank[i]; });
 }
 
+/// Of images that stand drive by drive those of each.
+template <typename Slot>
+std::vector<std::span<Slot>> DrivesAmong(const MappingState& state, std::span<Slot> images) {
+  const auto drive_of = [&](ImageSlot image) { return state.Problem().images[image].drive; };
+  std::vector<std::span<Slot>> drives;
+  while (!images.empty()) {
+    const auto end = std::ranges::upper_bound(images, drive_of(images.front()), {}, drive_of);
+    drives.push_back(images.first(static_cast<size_t>(end - images.begin())));
+    images = images.subspan(drives.back().size());
+  }
+  return drives;
+}
+
 /// Registered images drive by drive.
 std::vector<ImageSlot> ByDrives(const MappingState& state) {
   std::vector<ImageSlot> images = state.Registered();
   const auto& known = state.Problem().images;
-  const auto drive_of = [&](ImageSlot image) { return known[image].drive; };
   std::ranges::sort(images, {}, [&](ImageSlot image) {
-    return std::tuple(drive_of(image), known[image].rank_in_drive, known[image].id);
+    return std::tuple(known[image].drive, known[image].rank_in_drive, known[image].id);
   });
-  for (std::span<ImageSlot> left = images; !left.empty();) {
-    const auto end = std::ranges::upper_bound(left, drive_of(left.front()), {}, drive_of);
-    const auto count = static_cast<size_t>(end - left.begin());
-    OrderDrive(state, left.first(count));
-    left = left.subspan(count);
-  }
+  for (const std::span<ImageSlot> drive : DrivesAmong(state, std::span(images)))
+    OrderDrive(state, drive);
   return images;
 }
 
@@ -116,19 +124,13 @@ class Apartness {
 /// Behind which images so many captures are missing that the next does not see what they see, in
 /// drives that go by ranks.
 std::vector<uint8_t> GapsBehind(const MappingState& state, const std::vector<ImageSlot>& images) {
-  const auto& known = state.Problem().images;
-  std::vector<uint8_t> gaps(images.size(), 0);
-  const auto drive_of = [&](ImageSlot image) { return known[image].drive; };
-  const auto rank_of = [&](ImageSlot image) { return known[image].rank_in_drive; };
-  for (size_t first = 0; first < images.size();) {
-    const auto left = std::span(images).subspan(first);
-    const auto end = std::ranges::find_if(
-        left, [&](ImageSlot image) { return drive_of(image) != drive_of(left.front()); });
-    const auto drive = left.first(static_cast<size_t>(end - left.begin()));
+  const auto rank_of = [&](ImageSlot image) { return state.Problem().images[image].rank_in_drive; };
+  std::vector<uint8_t> gaps;
+  for (const std::span<const ImageSlot> drive : DrivesAmong(state, std::span(images))) {
     const bool goes_by_rank = std::ranges::is_sorted(drive, {}, rank_of);
-    for (size_t i = 0; goes_by_rank && i + 1 < drive.size(); ++i)
-      gaps[first + i] = rank_of(drive[i + 1]) - rank_of(drive[i]) > kReachAlongLine;
-    first += drive.size();
+    for (size_t i = 0; i + 1 < drive.size(); ++i)
+      gaps.push_back(goes_by_rank && rank_of(drive[i + 1]) - rank_of(drive[i]) > kReachAlongLine);
+    gaps.push_back(0);
   }
   return gaps;
 }
