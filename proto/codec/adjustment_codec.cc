@@ -7,28 +7,13 @@
 
 #include "orbweave/v1/adjustment.pb.h"
 #include "proto/codec/adjustment_messages.h"
+#include "proto/codec/exclusion_messages.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
 
 namespace orbweave {
 namespace {
-
-using Exclusions = google::protobuf::RepeatedPtrField<v1::Exclusion>;
-
-void ToProto(const std::vector<Exclusion>& images, Exclusions* proto) {
-  for (const Exclusion& image : images) {
-    v1::Exclusion* out = proto->Add();
-    out->set_name(image.name);
-    out->set_reason(image.reason);
-  }
-}
-
-std::vector<Exclusion> FromProto(const Exclusions& proto) {
-  std::vector<Exclusion> images;
-  for (const v1::Exclusion& image : proto) images.push_back({image.name(), image.reason()});
-  return images;
-}
 
 void ToProto(const StepControl& control, v1::StepControl* proto) {
   proto->set_lambda(control.lambda);
@@ -57,7 +42,7 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   proto->set_pattern_px(report.pattern_px);
   codec::ToProto(report.uncertainty, proto->mutable_uncertainty());
   for (const CrossCheck& check : report.checks) codec::ToProto(check, proto->add_checks());
-  ToProto(report.weak_images, proto->mutable_weak_images());
+  codec::ToProto(report.weak_images, proto->mutable_weak_images());
 }
 
 absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& report) {
@@ -80,7 +65,7 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
     ORBWEAVE_ASSIGN_OR_RETURN(CrossCheck decoded, codec::FromProto(check));
     report.checks.push_back(std::move(decoded));
   }
-  report.weak_images = FromProto(proto.weak_images());
+  report.weak_images = codec::FromProto(proto.weak_images());
   for (const v1::BundleReport& adjustment : proto.adjustments()) {
     ORBWEAVE_ASSIGN_OR_RETURN(BundleReport decoded, codec::FromProto(adjustment));
     report.adjustments.push_back(std::move(decoded));
@@ -324,7 +309,7 @@ absl::StatusOr<std::string> EncodeFinalisedModel(const FinalisedModel& model) {
       out->add_subproblems(codec::PackDigest(subproblem));
     for (const SeamCertificate& seam : model.worlds[world].seams) ToProto(seam, out->add_seams());
   }
-  ToProto(model.left_out, proto.mutable_left_out());
+  codec::ToProto(model.left_out, proto.mutable_left_out());
   return codec::Serialize(proto, "concluded model", codec::Empty::kIsLegal);
 }
 
@@ -349,7 +334,7 @@ absl::StatusOr<FinalisedModel> DecodeFinalisedModel(std::string_view bytes) {
       ORBWEAVE_ASSIGN_OR_RETURN(out.seams.emplace_back(), FromProto(seam));
     }
   }
-  model.left_out = FromProto(proto.left_out());
+  model.left_out = codec::FromProto(proto.left_out());
   return model;
 }
 

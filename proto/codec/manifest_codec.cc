@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "proto/codec/exclusion_messages.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/plausible.h"
 
@@ -244,11 +245,7 @@ absl::StatusOr<ClusterNames> DecodeClusterNames(std::string_view bytes) {
 absl::StatusOr<std::string> EncodeImageManifest(const ImageManifest& manifest) {
   v1::ImageManifest proto;
   for (const ImageRecord& image : manifest.images) ToProto(image, proto.add_images());
-  for (const Exclusion& exclusion : manifest.excluded) {
-    v1::Exclusion* out = proto.add_excluded();
-    out->set_name(exclusion.name);
-    out->set_reason(exclusion.reason);
-  }
+  codec::ToProto(manifest.excluded, proto.mutable_excluded());
   for (const std::string& warning : manifest.warnings) proto.add_warnings(warning);
   if (manifest.origin) ToProto(*manifest.origin, proto.mutable_origin());
   proto.set_mask_ignores_white(manifest.mask_ignores_white);
@@ -264,9 +261,7 @@ absl::StatusOr<ImageManifest> DecodeImageManifest(std::string_view bytes) {
     record.id = ImageId(static_cast<uint32_t>(manifest.images.size()));
     manifest.images.push_back(std::move(record));
   }
-  for (const v1::Exclusion& exclusion : proto.excluded()) {
-    manifest.excluded.push_back({exclusion.name(), exclusion.reason()});
-  }
+  manifest.excluded = codec::FromProto(proto.excluded());
   if (manifest.images.empty() && manifest.excluded.empty())
     return absl::DataLossError("image manifest: no image");
   manifest.warnings.assign(proto.warnings().begin(), proto.warnings().end());
