@@ -20,6 +20,7 @@
 #include "stages/ingest_images/stage.h"
 #include "stages/join_submodels/stage.h"
 #include "stages/list_checks/stage.h"
+#include "stages/list_extractions/stage.h"
 #include "stages/list_fusions/stage.h"
 #include "stages/list_pairs/stage.h"
 #include "stages/list_seams/stage.h"
@@ -46,8 +47,9 @@ constexpr double kUsualRounds = 26.0;
 constexpr uint32_t kMostRounds = 11 * (2 * 1000 + 1) + 1;
 /// The same of reviews, each a round, and the first.
 constexpr uint32_t kMostReviews = 11;
-/// The first pairs, those after them, the reserve, those matched again.
-constexpr uint32_t kMostMatchings = 4;
+/// The first pairs, these by features of facade views too, those after them, the reserve, those
+/// matched again.
+constexpr uint32_t kMostMatchings = 5;
 
 /// What a model is made from.
 struct VerifiedImages {
@@ -59,21 +61,23 @@ struct VerifiedImages {
 
 VerifiedImages AddImageStages(const SparseJob& job, PlanBuilder& plan) {
   const auto ingested = plan.Add(IngestImagesStage{.sources = job.sources});
-  const auto extracted = plan.Add(ExtractFeaturesStage{.image = ingested.images});
+  const auto wider = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider);
+  const auto listed_images =
+      plan.Add(ListExtractionsStage{.manifest = ingested.manifest, .wider = wider});
+  const auto extracted = plan.Add(ExtractFeaturesStage{.image = listed_images.images});
   const auto features = Interleave(extracted.features, extracted.places);
   const auto pairs =
       plan.Add(SelectImagePairsStage{.manifest = ingested.manifest, .features = features});
-  const auto listed =
-      plan.Add(ListPairsStage{.candidates = pairs.candidates,
-                              .carriers = pairs.carriers,
-                              .features = features,
-                              .wider = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider)});
+  const auto listed = plan.Add(ListPairsStage{.candidates = pairs.candidates,
+                                              .carriers = pairs.carriers,
+                                              .features = features,
+                                              .wider = wider});
   const auto matched = plan.Add(MatchImagesStage{.run = listed.runs});
   plan.Add(SelectWiderPairsStage{.manifest = ingested.manifest,
                                  .candidates = pairs.candidates,
                                  .matched = matched.matched,
-                                 .before = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider)});
-  plan.RepeatFrom<ListPairsStage>(1.0, kMostMatchings);
+                                 .before = wider});
+  plan.RepeatFrom<ListExtractionsStage>(1.0, kMostMatchings);
   return {ingested.manifest, features, matched.verified, job.clusters_by_hand};
 }
 

@@ -21,6 +21,7 @@
 #include "stages/ingest_images/stage.h"
 #include "stages/join_submodels/stage.h"
 #include "stages/list_checks/stage.h"
+#include "stages/list_extractions/stage.h"
 #include "stages/list_fusions/stage.h"
 #include "stages/list_pairs/stage.h"
 #include "stages/list_seams/stage.h"
@@ -41,20 +42,21 @@ namespace orbweave {
 
 const std::vector<Stage>& AllStages() {
   static const auto* const kStages = new std::vector<Stage>{
-      Describe<IngestImagesStage>(),       Describe<ExtractFeaturesStage>(),
-      Describe<SelectImagePairsStage>(),   Describe<ListPairsStage>(),
-      Describe<MatchImagesStage>(),        Describe<SelectWiderPairsStage>(),
-      Describe<VerifyMatchesStage>(),      Describe<PartitionViewGraphStage>(),
-      Describe<ReconstructClusterStage>(), Describe<ListSeamsStage>(),
-      Describe<FitSeamsStage>(),           Describe<AlignSubmodelsStage>(),
-      Describe<ReviewSeamsStage>(),        Describe<JoinSubmodelsStage>(),
-      Describe<AssembleBlockStage>(),      Describe<SteerAdjustmentStage>(),
-      Describe<AdjustBlockStage>(),        Describe<ConcludeAdjustmentStage>(),
-      Describe<ListViewsStage>(),          Describe<SelectViewsStage>(),
-      Describe<PlanDepthsStage>(),         Describe<EstimateDepthsStage>(),
-      Describe<ListChecksStage>(),         Describe<CheckDepthsStage>(),
-      Describe<ListFusionsStage>(),        Describe<FusePanoramaStage>(),
-      Describe<ListTilesStage>(),          Describe<AssembleTileStage>(),
+      Describe<IngestImagesStage>(),       Describe<ListExtractionsStage>(),
+      Describe<ExtractFeaturesStage>(),    Describe<SelectImagePairsStage>(),
+      Describe<ListPairsStage>(),          Describe<MatchImagesStage>(),
+      Describe<SelectWiderPairsStage>(),   Describe<VerifyMatchesStage>(),
+      Describe<PartitionViewGraphStage>(), Describe<ReconstructClusterStage>(),
+      Describe<ListSeamsStage>(),          Describe<FitSeamsStage>(),
+      Describe<AlignSubmodelsStage>(),     Describe<ReviewSeamsStage>(),
+      Describe<JoinSubmodelsStage>(),      Describe<AssembleBlockStage>(),
+      Describe<SteerAdjustmentStage>(),    Describe<AdjustBlockStage>(),
+      Describe<ConcludeAdjustmentStage>(), Describe<ListViewsStage>(),
+      Describe<SelectViewsStage>(),        Describe<PlanDepthsStage>(),
+      Describe<EstimateDepthsStage>(),     Describe<ListChecksStage>(),
+      Describe<CheckDepthsStage>(),        Describe<ListFusionsStage>(),
+      Describe<FusePanoramaStage>(),       Describe<ListTilesStage>(),
+      Describe<AssembleTileStage>(),
   };
   return *kStages;
 }

@@ -54,11 +54,12 @@ struct ExtractOptions {
           self.max_features,
           "keypoints kept per panorama, spread over the sphere",
           Range{64, 65536});
-    visit("facades",
-          self.facades,
-          "features of views that show walls in their true shape, too, for panoramas far apart; "
-          "auto: "
-          "where GNSS has most further than 4 m from all but one other");
+    visit(
+        "facades",
+        self.facades,
+        "features of views that show walls in their true shape, too, for panoramas far apart; "
+        "auto: where GNSS has most further than 4 m from all but one other, or most see fewer than "
+        "three others beyond doubt without");
     visit("facade_features",
           self.facade_features,
           "keypoints kept of each of the eight such views",

@@ -23,11 +23,8 @@ constexpr uint32_t kManyMoved = 50;
 /// Parts with fewer images than this may be held together with others by what was not tried.
 constexpr uint32_t kSmallPart = 16;
 
-/// Predictions fit wrong planes of a facade that repeats: what they add is no evidence beyond
-/// doubt.
 bool IsStrong(const MatchedPair& pair) {
-  return pair.kind == TwoViewKind::kGeneral && pair.rung != MatchRung::kGuided &&
-         pair.log10_false_alarms <= kNoDoubt && pair.num_moved >= kManyMoved;
+  return pair.kind == TwoViewKind::kGeneral && IsBeyondDoubt(pair) && pair.num_moved >= kManyMoved;
 }
 
 /// Who is joined to whom. Lists of neighbours stay sorted.

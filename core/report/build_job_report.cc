@@ -178,7 +178,8 @@ std::vector<ReportSeam> SeamRows(const JobResults& results) {
 }
 
 ReportWiderPairs WiderPairsRow(const WiderPairs& wider) {
-  return {.second = wider.second.size(),
+  return {.facades = wider.wants_facades,
+          .second = wider.second.size(),
           .held_back = wider.num_held_back,
           .reserve = wider.reserve.size(),
           .predicted = wider.predicted.size(),

@@ -129,17 +129,7 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
   return text;
 }
 
-/// What to do about lengths. Without positions nobody knew that panoramas are far apart
-/// (WantsFacades): of six rendered streets 10 and 12 m apart without GNSS, which were all wrong,
-/// three came out right to 0.4 m with features of facades.
-std::string Advice(const ImageManifest& manifest) {
-  const bool has_positions = std::ranges::any_of(manifest.images, [](const ImageRecord& image) {
-    return image.prior.position_in_enu.has_value();
-  });
-  return has_positions ? "give GNSS positions, or take panoramas closer together"
-                       : "give GNSS positions, take panoramas closer together, or try --set "
-                         "features.facades=on, which shows walls in their true shape";
-}
+constexpr char kAdvice[] = "give GNSS positions, or take panoramas closer together";
 
 /// A step whose length fewer rays agree with than is usual in its model.
 struct WeakStep {
@@ -193,7 +183,7 @@ void DoubtWeakStep(const WeakStep& weak, const ImageManifest& manifest, CrossChe
                 manifest.At(weak.gap.between.a).name.c_str(),
                 manifest.At(weak.gap.between.b).name.c_str(),
                 Percent(weak.usual_share));
-  check.sentence = text + Advice(manifest);
+  check.sentence = std::string(text) + kAdvice;
 }
 
 }  // namespace
@@ -241,7 +231,7 @@ CrossCheck CheckLengths(const JobResults& results) {
                 WhatRaysSay(worst, results.manifest).c_str(),
                 Percent(all.Share()),
                 faults.size());
-  check.sentence = text + Advice(results.manifest);
+  check.sentence = std::string(text) + kAdvice;
   return check;
 }
 

@@ -35,8 +35,16 @@ struct MatchedPair {
   Rigid3 b_from_a{};  ///< as of TwoViewGeometry
 };
 
-/// Pairs to match beside the first ones, as far as that is decided. Lists are sorted.
+/// Whether a pair needs no second look. Predictions fit wrong planes of a facade that repeats: what
+/// they add is no evidence beyond doubt.
+[[nodiscard]] inline bool IsBeyondDoubt(const MatchedPair& pair) {
+  return pair.rung != MatchRung::kGuided && pair.log10_false_alarms <= kNoDoubt;
+}
+
+/// What to match beside the first pairs, as far as that is decided. Lists are sorted.
 struct WiderPairs {
+  /// All pairs by features of facade views too: the panoramas' own have shown too few.
+  bool wants_facades = false;
   /// 1: about the second ones; 2: about the reserve too; 3: about those to match again.
   uint32_t decisions = 0;
   std::vector<ImagePair> second{};         ///< of PairCandidates::second

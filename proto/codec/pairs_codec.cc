@@ -107,6 +107,7 @@ absl::StatusOr<std::vector<MatchedPair>> DecodeMatchedPairs(std::string_view byt
 
 absl::StatusOr<std::string> EncodeWiderPairs(const WiderPairs& wider) {
   v1::WiderPairs proto;
+  proto.set_wants_facades(wider.wants_facades);
   proto.set_decisions(wider.decisions);
   proto.set_second(codec::Pack(wider.second));
   proto.set_reserve(codec::Pack(wider.reserve));
@@ -125,7 +126,8 @@ absl::StatusOr<WiderPairs> DecodeWiderPairs(std::string_view bytes) {
   constexpr char kWhat[] = "wider pairs";
   ORBWEAVE_ASSIGN_OR_RETURN(const v1::WiderPairs proto,
                             codec::Parse<v1::WiderPairs>(bytes, kWhat, codec::Empty::kIsLegal));
-  WiderPairs wider{.decisions = proto.decisions(),
+  WiderPairs wider{.wants_facades = proto.wants_facades(),
+                   .decisions = proto.decisions(),
                    .num_held_back = proto.num_held_back(),
                    .num_thin_images = proto.num_thin_images()};
   ORBWEAVE_ASSIGN_OR_RETURN(wider.second, PairsFrom(proto.second(), kWhat));

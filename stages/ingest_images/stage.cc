@@ -6,7 +6,6 @@
 
 #include "stages/codecs.h"
 #include "stages/ingest_images/ingest_images.h"
-#include "stages/ingest_images/wants_facades.h"
 
 namespace orbweave {
 
@@ -15,12 +14,6 @@ absl::Status IngestImagesStage::Run(StageTask<IngestImagesStage>& task) {
   ORBWEAVE_ASSIGN_OR_RETURN(const ImageManifest manifest,
                             IngestImages(sources, task.options<IngestOptions>(), task.context()));
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::manifest, manifest).status());
-  const bool wants_facades = WantsFacades(manifest, task.options<ExtractOptions>());
-  for (const ImageRecord& image : manifest.images) {
-    ORBWEAVE_RETURN_IF_ERROR(task.Leave(
-        &Outputs::images,
-        ExtractRecipe{image.content, image.mask, manifest.mask_ignores_white, wants_facades}));
-  }
   task.Report(
       nlohmann::json{{"images", manifest.images.size()}, {"excluded", manifest.excluded.size()}}
           .dump());

@@ -6,7 +6,9 @@
 
 #include "core/artifacts/check_bounds.h"
 #include "core/graph/choose_wider_pairs.h"
+#include "core/graph/see_few_others.h"
 #include "stages/codecs.h"
+#include "stages/list_extractions/wants_facades.h"
 
 namespace orbweave {
 namespace {
@@ -34,8 +36,18 @@ absl::StatusOr<std::vector<MatchedPair>> CollectMatched(size_t num_images, Task&
   return all;
 }
 
-size_t CountListed(const WiderPairs& wider) {
-  return wider.second.size() + wider.reserve.size() + wider.predicted.size();
+/// Whether nobody has yet asked for features of facade views, and may.
+bool MayWantFacades(const ImageManifest& manifest, const WiderPairs& before, const Task& task) {
+  const ExtractOptions& options = task.options<ExtractOptions>();
+  return before.decisions == 0 && !before.wants_facades && options.facades == UseFacades::kAuto &&
+         !WantsFacades(manifest, options);
+}
+
+bool AskForMore(const WiderPairs& wider, const WiderPairs& before) {
+  const auto count = [](const WiderPairs& pairs) {
+    return pairs.second.size() + pairs.reserve.size() + pairs.predicted.size();
+  };
+  return wider.wants_facades != before.wants_facades || count(wider) > count(before);
 }
 
 }  // namespace
@@ -50,12 +62,17 @@ absl::Status SelectWiderPairsStage::Run(StageTask<SelectWiderPairsStage>& task) 
                                      task.DigestOf(&SelectWiderPairsStage::candidates)));
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MatchedPair> matched,
                             CollectMatched(manifest.images.size(), task));
-  const WiderPairs wider =
-      ChooseWiderPairs(manifest, candidates, matched, before, task.options<PairOptions>());
+  WiderPairs wider = before;
+  if (MayWantFacades(manifest, before, task) && SeeFewOthers(manifest.images.size(), matched)) {
+    wider.wants_facades = true;
+  } else {
+    wider = ChooseWiderPairs(manifest, candidates, matched, before, task.options<PairOptions>());
+  }
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::wider, wider).status());
-  if (CountListed(wider) > CountListed(before))
+  if (AskForMore(wider, before))
     ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::another_round, wider));
-  task.Report(nlohmann::json{{"second", wider.second.size()},
+  task.Report(nlohmann::json{{"facades", wider.wants_facades},
+                             {"second", wider.second.size()},
                              {"held_back", wider.num_held_back},
                              {"reserve", wider.reserve.size()},
                              {"predicted", wider.predicted.size()},

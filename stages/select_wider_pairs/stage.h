@@ -10,11 +10,12 @@
 
 namespace orbweave {
 
-/// What the pairs so far have shown -> which others to match too (ChooseWiderPairs). As long as
-/// there are any, another round begins.
+/// What the pairs so far have shown -> whether to match them by features of facade views too
+/// (SeeFewOthers, where features.facades leaves that open), then which others to match as well
+/// (ChooseWiderPairs). As long as anything is asked for, another round begins.
 struct SelectWiderPairsStage {
-  static constexpr StageFacts kFacts{.name = "select_wider_pairs", .version = "4", .weight = 0.1};
-  using Options = OptionSections<PairOptions>;
+  static constexpr StageFacts kFacts{.name = "select_wider_pairs", .version = "5", .weight = 0.1};
+  using Options = OptionSections<PairOptions, ExtractOptions>;
 
   One<ImageManifest> manifest;
   One<PairCandidates> candidates;

@@ -71,7 +71,8 @@ TEST(PairsCodec, KeepsWhatIsKnownOfPairs) {
 const PredictedPose kPredicted = {kPose.rotation, {0.6, 0.0, 0.8}, {0.0, 1.0, 0.0}};
 
 TEST(PairsCodec, KeepsWhatWasDecided) {
-  const WiderPairs in{.decisions = 2,
+  const WiderPairs in{.wants_facades = true,
+                      .decisions = 2,
                       .second = kOthers,
                       .reserve = kSome,
                       .predicted = {{kOthers[0], kPredicted}},
@@ -79,6 +80,7 @@ TEST(PairsCodec, KeepsWhatWasDecided) {
                       .num_thin_images = 7};
   const auto out = DecodeWiderPairs(EncodeWiderPairs(in).value());
   ASSERT_TRUE(out.ok()) << out.status();
+  EXPECT_TRUE(out->wants_facades);
   EXPECT_EQ(out->decisions, 2U);
   EXPECT_EQ(out->second, in.second);
   EXPECT_EQ(out->reserve, in.reserve);

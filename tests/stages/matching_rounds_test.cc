@@ -13,7 +13,9 @@
 
 #include "core/graph/list_pair_candidates.h"
 #include "stages/codecs.h"
+#include "stages/extract_features/stage.h"
 #include "stages/job_reader.h"
+#include "stages/list_extractions/stage.h"
 #include "stages/list_pairs/stage.h"
 #include "stages/match_images/stage.h"
 #include "stages/plan_builder.h"
@@ -37,31 +39,32 @@ struct MatchingJob {
   One<ImageManifest> manifest;
   One<PairCandidates> candidates;
   One<std::vector<Carrier>> carriers;
-  Interleaved<Features, PlaceSample> features;
 
   template <typename Visitor>
   static void VisitPorts(Visitor&& visit) {
     visit("manifest", &MatchingJob::manifest);
     visit("candidates", &MatchingJob::candidates);
     visit("carriers", &MatchingJob::carriers);
-    visit("features", &MatchingJob::features);
   }
 };
 
 JobPlan MatchingPlan() {
   PlanBuilder plan(MatchingJob::kKind);
   const auto job = InputsOf<MatchingJob>();
-  const auto wider = OutputsOf<SelectWiderPairsStage>().wider;
-  const auto listed = plan.Add(ListPairsStage{.candidates = job.candidates,
-                                              .carriers = job.carriers,
-                                              .features = job.features,
-                                              .wider = RoundBefore(wider)});
+  const auto wider = RoundBefore(OutputsOf<SelectWiderPairsStage>().wider);
+  const auto images = plan.Add(ListExtractionsStage{.manifest = job.manifest, .wider = wider});
+  const auto extracted = plan.Add(ExtractFeaturesStage{.image = images.images});
+  const auto listed =
+      plan.Add(ListPairsStage{.candidates = job.candidates,
+                              .carriers = job.carriers,
+                              .features = Interleave(extracted.features, extracted.places),
+                              .wider = wider});
   const auto matched = plan.Add(MatchImagesStage{.run = listed.runs});
   plan.Add(SelectWiderPairsStage{.manifest = job.manifest,
                                  .candidates = job.candidates,
                                  .matched = matched.matched,
-                                 .before = RoundBefore(wider)});
-  plan.RepeatFrom<ListPairsStage>(1.0, 4);
+                                 .before = wider});
+  plan.RepeatFrom<ListExtractionsStage>(1.0, 5);
   return std::move(plan).Finish();
 }
 
@@ -72,6 +75,7 @@ ImageManifest Drive() {
     image.id = ImageId(i);
     image.name = std::to_string(i) + ".jpg";
     image.camera = {2048, 1024};
+    image.content = DigestOf(image.name);
   }
   return manifest;
 }
@@ -82,15 +86,12 @@ class Matching {
   explicit Matching(Finder find) : find_(std::move(find)) {
     const ImageManifest manifest = Drive();
     candidates_ = ListPairCandidates(manifest, {}, 0, {});
-    std::vector<Digest> features;
-    for (uint32_t i = 0; i < 2 * kImages; ++i) features.push_back(DigestOf(std::to_string(i)));
     job_ = {
         .kind = std::string(MatchingJob::kKind),
         .inputs = JobInputs<MatchingJob>()
                       .Set(&MatchingJob::manifest, PutBlob(manifest, blobs_).value())
                       .Set(&MatchingJob::candidates, PutBlob(candidates_, blobs_).value())
                       .Set(&MatchingJob::carriers, PutBlob(std::vector<Carrier>{}, blobs_).value())
-                      .Set(&MatchingJob::features, PutBlob(features, blobs_).value())
                       .InOrder()};
   }
 
@@ -101,7 +102,15 @@ class Matching {
       return RunTaskOf<MatchImagesStage>(
           spec, blobs, context, [this](StageTask<MatchImagesStage>& task) { return Match(task); });
     };
+    const StageFunction extract =
+        [this](const TaskSpec& spec, BlobAccess& blobs, const StageContext& context) {
+          return RunTaskOf<ExtractFeaturesStage>(
+              spec, blobs, context, [this](StageTask<ExtractFeaturesStage>& task) {
+                return Extract(task);
+              });
+        };
     const auto find_stage = [&](std::string_view name) {
+      if (name == ExtractFeaturesStage::kFacts.name) return &extract;
       return name == MatchImagesStage::kFacts.name ? &match : FindStageFunction(name);
     };
     auto outcomes = RunPlan(plan_, job_, find_stage, blobs_, {});
@@ -112,14 +121,20 @@ class Matching {
   /// Of the tasks that the last round has, in their order.
   [[nodiscard]] std::vector<Pairs> Runs() {
     std::vector<Pairs> runs;
-    const std::vector<Digest> recipes =
-        Reader().RecipesBehind(&SelectWiderPairsStage::matched).value();
-    for (const Digest& digest : recipes) {
-      const MatchRecipe recipe = FetchBlob<MatchRecipe>(digest, blobs_).value();
+    for (const MatchRecipe& recipe : Recipes()) {
       Pairs& pairs = runs.emplace_back();
       for (const MatchRecipe::Pair& pair : recipe.pairs) pairs.push_back(pair.pair);
     }
     return runs;
+  }
+  /// Whether all features that the last round matches have those of facade views.
+  [[nodiscard]] bool MatchesFacades() {
+    const std::vector<MatchRecipe> recipes = Recipes();
+    return std::ranges::all_of(recipes, [&](const MatchRecipe& recipe) {
+      return std::ranges::all_of(recipe.images, [&](const FeatureFile& file) {
+        return !FetchBlob<Features>(file.features, blobs_).value().view.empty();
+      });
+    });
   }
   [[nodiscard]] WiderPairs Wider() {
     return Reader().Read(&SelectWiderPairsStage::Outputs::wider).value();
@@ -132,8 +147,24 @@ class Matching {
   [[nodiscard]] const Pairs& again() const { return again_; }
   /// How often a task was done.
   [[nodiscard]] const std::multiset<Digest>& matchings() const { return matchings_; }
+  [[nodiscard]] size_t num_extractions() const { return num_extractions_; }
 
  private:
+  /// One feature; of the last facade view where these are wanted.
+  absl::Status Extract(StageTask<ExtractFeaturesStage>& task) {
+    ++num_extractions_;
+    ORBWEAVE_ASSIGN_OR_RETURN(const ExtractRecipe recipe, task.Read(&ExtractFeaturesStage::image));
+    Features features{.camera = {2048, 1024},
+                      .keypoints = {{}},
+                      .sigma_rad = {0.001F},
+                      .descriptors = std::vector<uint8_t>(kDescriptorSize),
+                      .colors = {{}}};
+    if (recipe.wants_facades) features.view = {kNumFacadeViews};
+    ORBWEAVE_RETURN_IF_ERROR(
+        task.Leave(&ExtractFeaturesStage::Outputs::features, features).status());
+    return task.Leave(&ExtractFeaturesStage::Outputs::places, PlaceSample{.num_features = 1})
+        .status();
+  }
   absl::Status Match(StageTask<MatchImagesStage>& task) {
     matchings_.insert(task.DigestOf(&MatchImagesStage::run));
     ORBWEAVE_ASSIGN_OR_RETURN(const MatchRecipe recipe, task.Read(&MatchImagesStage::run));
@@ -150,6 +181,14 @@ class Matching {
     ORBWEAVE_RETURN_IF_ERROR(task.Leave(&MatchImagesStage::Outputs::verified, verified).status());
     return task.Leave(&MatchImagesStage::Outputs::matched, matched).status();
   }
+  [[nodiscard]] std::vector<MatchRecipe> Recipes() {
+    const std::vector<Digest> digests =
+        Reader().RecipesBehind(&SelectWiderPairsStage::matched).value();
+    std::vector<MatchRecipe> recipes;
+    for (const Digest& digest : digests)
+      recipes.push_back(FetchBlob<MatchRecipe>(digest, blobs_).value());
+    return recipes;
+  }
   [[nodiscard]] JobReader Reader() { return JobReader(plan_, job_, outcomes_, blobs_); }
 
   Finder find_;
@@ -160,6 +199,7 @@ class Matching {
   std::vector<TaskOutcome> outcomes_{};
   std::multiset<Digest> matchings_{};
   Pairs again_{};
+  size_t num_extractions_ = 0;
 };
 
 MatchedPair Strong(const ImagePair&) {
@@ -218,8 +258,24 @@ TEST(MatchingRounds, MatchAgainUnderWhatOtherPairsPredict) {
   ASSERT_EQ(matching.again().size(), kImages - 2);
   EXPECT_EQ(matching.Wider().predicted.size(), kImages - 2);
   const std::vector<Pairs> runs = matching.Runs();
-  EXPECT_EQ(matching.matchings().size(), runs.size());
   EXPECT_EQ(runs.back().back(), matching.again().back()) << "they come last";
+}
+
+/// What the first pairs showed is matched again, and nothing else before.
+TEST(MatchingRounds, TakeFacadeViewsWherePanoramasSeeTheNextAlone) {
+  Matching matching([](const ImagePair& pair) {
+    return pair.b.value - pair.a.value == 1 ? Strong(pair) : MatchedPair{};
+  });
+  matching.Run();
+  EXPECT_TRUE(matching.Wider().wants_facades);
+  EXPECT_TRUE(matching.MatchesFacades());
+  EXPECT_EQ(matching.num_extractions(), 2 * kImages);
+
+  Matching dense(Strong);
+  dense.Run();
+  EXPECT_FALSE(dense.Wider().wants_facades);
+  EXPECT_FALSE(dense.MatchesFacades());
+  EXPECT_EQ(dense.num_extractions(), kImages);
 }
 
 TEST(MatchingRounds, ComputeNoTaskTwice) {

@@ -29,6 +29,7 @@ TEST(FindJobPlan, SparseLeadsFromImagesToAModel) {
   ASSERT_TRUE(plan.ok());
   EXPECT_THAT(StageNames(*plan),
               ::testing::ElementsAre("ingest_images",
+                                     "list_extractions",
                                      "extract_features",
                                      "select_image_pairs",
                                      "list_pairs",

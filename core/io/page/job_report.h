@@ -191,6 +191,7 @@ struct Histogram {
 
 /// What was matched beside the first pairs, decided by what these showed (ChooseWiderPairs).
 struct ReportWiderPairs {
+  bool facades = false;      ///< all by features of facade views too, as the first showed too few
   uint64_t second = 0;       ///< pairs of which no strong chain told enough
   uint64_t held_back = 0;    ///< pairs of one drive, not matched: a strong chain joins their images
   uint64_t reserve = 0;      ///< pairs of images with few others

@@ -246,7 +246,8 @@ std::string ReportJson(const JobReport& report) {
   for (const auto& [rung, name] : EnumNames<MatchRung>::kNames) {
     json["pairs_by_rung"][std::string(name)] = report.pairs_of_rung[static_cast<size_t>(rung)];
   }
-  json["wider_pairs"] = {{"second", report.wider_pairs.second},
+  json["wider_pairs"] = {{"facades", report.wider_pairs.facades},
+                         {"second", report.wider_pairs.second},
                          {"held_back", report.wider_pairs.held_back},
                          {"reserve", report.wider_pairs.reserve},
                          {"predicted", report.wider_pairs.predicted},

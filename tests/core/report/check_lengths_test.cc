@@ -54,15 +54,6 @@ TEST(CheckLengths, IsGoodWhereRaysAgree) {
   EXPECT_EQ(CheckLengths({}).level, CheckLevel::kGood);
 }
 
-TEST(CheckLengths, SpeaksOfWallsInTheirTrueShapeWhereNoPositionToldHowFarApartImagesAre) {
-  JobResults results = Drive();
-  ContradictPairsOf(42, results);
-  EXPECT_THAT(CheckLengths(results).sentence, HasSubstr("features.facades=on"));
-  results.manifest.images[3].prior.position_in_enu.emplace(0.0, 0.0, 0.0);
-  EXPECT_THAT(CheckLengths(results).sentence, Not(HasSubstr("features.facades=on")));
-  EXPECT_THAT(CheckLengths(results).sentence, HasSubstr("give GNSS positions"));
-}
-
 TEST(CheckLengths, OneImageIsDoubtfulAndNamed) {
   JobResults results = Drive();
   ContradictPairsOf(42, results);

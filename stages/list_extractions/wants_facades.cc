@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stages/ingest_images/wants_facades.h"
+#include "stages/list_extractions/wants_facades.h"
 
 #include <algorithm>
 #include <cmath>
