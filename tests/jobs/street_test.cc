@@ -69,6 +69,43 @@ TEST(StreetJob, RecoversTheRenderedStreet) {
   }
 }
 
+/// Nobody says that they are far apart: the first pairs do.
+TEST(StreetJob, TakesFacadeViewsOfPanoramasFarApartWithoutPositions) {
+  const TemporaryFolder folder;
+  const CommandOutcome rendered = RunCommand({ORBWEAVE_BINARY,
+                                              "synth",
+                                              "street",
+                                              "--panoramas",
+                                              "8",
+                                              "--spacing",
+                                              "14",
+                                              "--size",
+                                              "1024x512",
+                                              "--output",
+                                              folder / "street"});
+  ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
+  std::vector<std::string> command = {ORBWEAVE_BINARY,
+                                      "run",
+                                      folder / "street/images",
+                                      "--masks",
+                                      folder / "street/masks",
+                                      "--output",
+                                      folder / "model"};
+  const CommandOutcome run = RunCommand(command);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json report = ReportOf(folder / "model");
+  EXPECT_TRUE(report["wider_pairs"]["facades"]) << report["wider_pairs"].dump();
+  EXPECT_GT(report["pairs_by_rung"]["facades"], 7) << report["pairs_by_rung"].dump();
+  EXPECT_EQ(report["registered"], 8) << report["not_registered"].dump();
+  EXPECT_LT(ErrorsOf(folder / "model", folder / "street/truth.csv").position_rmse_m, 0.1);
+
+  command.insert(command.end(), {"--set", "features.facades=off"});
+  ASSERT_EQ(RunCommand(command).exit_code, 0);
+  const nlohmann::json without = ReportOf(folder / "model");
+  EXPECT_FALSE(without["wider_pairs"]["facades"]);
+  EXPECT_EQ(without["pairs_by_rung"]["facades"], 0);
+}
+
 /// Numbers that other programs reach on the same images; see docs/benchmarks.md.
 struct Sequence {
   const char* name;
