@@ -4,22 +4,30 @@
 #include "core/graph/see_few_others.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace orbweave {
 
-bool SeeFewOthers(size_t num_images, std::span<const MatchedPair> matched) {
-  constexpr size_t kEnough = 3;
-  if (num_images < 2) return false;
-  std::vector<size_t> seen(num_images, 0);
+bool SeeFewOthers(size_t num_images,
+                  std::span<const ImagePair> tried,
+                  std::span<const MatchedPair> matched) {
+  constexpr uint32_t kEnough = 3;
+  std::vector<uint32_t> num_tried(num_images, 0);
+  for (const ImagePair& pair : tried) {
+    ++num_tried[pair.a.value];
+    ++num_tried[pair.b.value];
+  }
+  std::vector<uint32_t> num_seen(num_images, 0);
   for (const MatchedPair& pair : matched) {
     if (!IsBeyondDoubt(pair)) continue;
-    ++seen[pair.pair.a.value];
-    ++seen[pair.pair.b.value];
+    ++num_seen[pair.pair.a.value];
+    ++num_seen[pair.pair.b.value];
   }
-  const size_t enough = std::min(kEnough, num_images - 1);
-  const auto few = std::ranges::count_if(seen, [&](size_t others) { return others < enough; });
-  return 2 * static_cast<size_t>(few) > num_images;
+  size_t few = 0;
+  for (size_t i = 0; i < num_images; ++i)
+    few += num_seen[i] < std::min(kEnough, num_tried[i]) ? 1 : 0;
+  return 2 * few > num_images;
 }
 
 }  // namespace orbweave

@@ -16,7 +16,8 @@ namespace {
 using Task = StageTask<SelectWiderPairsStage>;
 
 absl::Status CheckCandidates(const PairCandidates& candidates, size_t num_images) {
-  for (const std::vector<ImagePair>* pairs : {&candidates.second, &candidates.reserve})
+  for (const std::vector<ImagePair>* pairs :
+       {&candidates.first, &candidates.second, &candidates.reserve})
     ORBWEAVE_RETURN_IF_ERROR(CheckPairNumbers(*pairs, num_images));
   return absl::OkStatus();
 }
@@ -63,7 +64,8 @@ absl::Status SelectWiderPairsStage::Run(StageTask<SelectWiderPairsStage>& task) 
   ORBWEAVE_ASSIGN_OR_RETURN(const std::vector<MatchedPair> matched,
                             CollectMatched(manifest.images.size(), task));
   WiderPairs wider = before;
-  if (MayWantFacades(manifest, before, task) && SeeFewOthers(manifest.images.size(), matched)) {
+  if (MayWantFacades(manifest, before, task) &&
+      SeeFewOthers(manifest.images.size(), candidates.first, matched)) {
     wider.wants_facades = true;
   } else {
     wider = ChooseWiderPairs(manifest, candidates, matched, before, task.options<PairOptions>());
