@@ -8,21 +8,24 @@
 #include <vector>
 
 namespace orbweave {
+namespace {
+
+void Count(const ImagePair& pair, std::vector<uint32_t>& of_image) {
+  ++of_image[pair.a.value];
+  ++of_image[pair.b.value];
+}
+
+}  // namespace
 
 bool SeeFewOthers(size_t num_images,
                   std::span<const ImagePair> tried,
                   std::span<const MatchedPair> matched) {
   constexpr uint32_t kEnough = 3;
   std::vector<uint32_t> num_tried(num_images, 0);
-  for (const ImagePair& pair : tried) {
-    ++num_tried[pair.a.value];
-    ++num_tried[pair.b.value];
-  }
+  for (const ImagePair& pair : tried) Count(pair, num_tried);
   std::vector<uint32_t> num_seen(num_images, 0);
   for (const MatchedPair& pair : matched) {
-    if (!IsBeyondDoubt(pair)) continue;
-    ++num_seen[pair.pair.a.value];
-    ++num_seen[pair.pair.b.value];
+    if (IsBeyondDoubt(pair)) Count(pair.pair, num_seen);
   }
   size_t few = 0;
   for (size_t i = 0; i < num_images; ++i)

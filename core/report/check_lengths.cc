@@ -21,6 +21,7 @@
 namespace orbweave {
 namespace {
 
+constexpr char kAdvice[] = "give GNSS positions, or take panoramas closer together";
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 /// Right steps of streets whose houses repeat have half of the usual share or more, but for some; a
 /// step that was seven hundredths off had two fifths of it.
@@ -128,8 +129,6 @@ std::string WhatRaysSay(const LengthFault& fault, const ImageManifest& manifest)
   }
   return text;
 }
-
-constexpr char kAdvice[] = "give GNSS positions, or take panoramas closer together";
 
 /// A step whose length fewer rays agree with than is usual in its model.
 struct WeakStep {

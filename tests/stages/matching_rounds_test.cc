@@ -258,6 +258,10 @@ TEST(MatchingRounds, MatchAgainUnderWhatOtherPairsPredict) {
   ASSERT_EQ(matching.again().size(), kImages - 2);
   EXPECT_EQ(matching.Wider().predicted.size(), kImages - 2);
   const std::vector<Pairs> runs = matching.Runs();
+  size_t num_first = 0;
+  for (size_t pairs = 0; pairs < matching.candidates().first.size(); ++num_first)
+    pairs += runs[num_first].size();
+  EXPECT_EQ(matching.matchings().size(), runs.size() + num_first) << "with facade views once more";
   EXPECT_EQ(runs.back().back(), matching.again().back()) << "they come last";
 }
 

@@ -62,6 +62,8 @@ TEST(CheckLengths, OneImageIsDoubtfulAndNamed) {
   EXPECT_DOUBLE_EQ(check.value, 0.15);
   EXPECT_THAT(check.sentence, HasSubstr("only 15 % agree with the model at 42.jpg"));
   EXPECT_THAT(check.sentence, HasSubstr("(1 such places)"));
+  EXPECT_THAT(check.sentence, HasSubstr("give GNSS positions"));
+  EXPECT_THAT(check.sentence, Not(HasSubstr("features.facades"))) << "the first pairs ask for them";
 }
 
 TEST(CheckLengths, ManyAreBad) {
