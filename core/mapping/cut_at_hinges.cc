@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "core/graph/disjoint_sets.h"
+#include "core/mapping/parts_of_one_scale.h"
+#include "core/mapping/parts_that_pairs_hold.h"
 #include "core/mapping/place_on_gnss.h"
 #include "core/scene/reconstruction.h"
 
@@ -23,7 +25,7 @@ using Eigen::Vector3d;
 /// Points that more images see hold together those that are next to each other among them.
 constexpr size_t kAllPairs = 12;
 /// Of the way from the joint: pieces that are bent by less, ten degrees, are not elsewhere.
-constexpr double kElsewhere = 0.2;
+constexpr double kHardlyBent = 0.2;
 
 /// Two registered images and the points that both see.
 struct Joint {
@@ -68,7 +70,7 @@ std::vector<Joint> HoldingJoints(const MappingState& state) {
   return holding;
 }
 
-/// What hangs at one of the holding joints: the smaller side of it, and the images at its ends.
+/// Some of the images, which hang at the rest, and the two at the ends of the joint.
 struct HungPiece {
   std::vector<ImageSlot> images{};  ///< ascending
   std::vector<ImageSlot> rest{};    ///< ascending
@@ -76,6 +78,7 @@ struct HungPiece {
   ImageSlot end_in_piece = 0;
 };
 
+/// The smaller side of one of the holding joints.
 HungPiece PieceAt(const MappingState& state, const std::vector<Joint>& holding, size_t cut) {
   DisjointSets held(state.Graph().NumImages());
   for (size_t i = 0; i < holding.size(); ++i) {
@@ -93,6 +96,26 @@ HungPiece PieceAt(const MappingState& state, const std::vector<Joint>& holding, 
   return {std::move(others), std::move(with_a), joint.a, joint.b};
 }
 
+/// Those that are not among others; ascending; `others` come so.
+std::vector<ImageSlot> Without(std::vector<ImageSlot> images,
+                               const std::vector<ImageSlot>& others) {
+  std::ranges::sort(images);
+  std::erase_if(images, [&](ImageSlot image) { return std::ranges::binary_search(others, image); });
+  return images;
+}
+
+/// These images, by the joint of most points with the rest; nullopt where there is none.
+std::optional<HungPiece> PieceOf(const MappingState& state, std::vector<ImageSlot> images) {
+  const auto is_inside = [&](ImageSlot image) { return std::ranges::binary_search(images, image); };
+  for (const Joint& joint : JointsOf(state)) {
+    if (is_inside(joint.a) == is_inside(joint.b)) continue;
+    const auto [outside, inside] =
+        is_inside(joint.a) ? std::pair(joint.b, joint.a) : std::pair(joint.a, joint.b);
+    return HungPiece{images, Without(state.Registered(), images), outside, inside};
+  }
+  return std::nullopt;
+}
+
 /// Telling points that both sides see.
 uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
   uint32_t common = 0;
@@ -106,14 +129,16 @@ uint32_t CountCommon(const MappingState& state, const HungPiece& piece) {
   return common;
 }
 
-/// Whether positions of the piece agree with it by itself, but not as the rest has it.
-bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
+/// Where GNSS has a piece.
+enum class GnssSays { kNothing, kAsItIs, kElsewhere };
+
+/// It is elsewhere where its positions agree with it by itself, but not as the rest has it.
+GnssSays AskGnss(const MappingState& state, const HungPiece& piece) {
   const std::vector<ImageSlot> hung =
       ImagesNear(state, state.Centre(piece.end_in_piece), piece.images);
-  if (!PlaceOnGnss(state, hung)) return false;
   const std::optional<Sim3> enu_from_world =
       PlaceOnGnss(state, ImagesNear(state, state.Centre(piece.end_in_rest), piece.rest));
-  if (!enu_from_world) return false;
+  if (!enu_from_world) return GnssSays::kNothing;
   const Vector3d joint = *enu_from_world * state.Centre(piece.end_in_rest);
   size_t asked = 0;
   size_t agreeing = 0;
@@ -123,24 +148,48 @@ bool IsElsewhere(const MappingState& state, const HungPiece& piece) {
     const Vector3d error = *enu_from_world * state.Centre(image) - *prior.position_in_enu;
     const Vector3d way = *prior.position_in_enu - joint;
     const double allowed =
-        std::max(kMaxFixSigmas * prior.horizontal_sigma_m, kElsewhere * way.head<2>().norm());
+        std::max(kMaxFixSigmas * prior.horizontal_sigma_m, kHardlyBent * way.head<2>().norm());
     ++asked;
     agreeing += error.head<2>().norm() <= allowed ? 1U : 0U;
   }
-  return static_cast<double>(agreeing) < kMinAgreeingFixes * static_cast<double>(asked);
+  if (asked == 0) return GnssSays::kNothing;
+  if (static_cast<double>(agreeing) >= kMinAgreeingFixes * static_cast<double>(asked))
+    return GnssSays::kAsItIs;
+  return PlaceOnGnss(state, hung) ? GnssSays::kElsewhere : GnssSays::kNothing;
 }
 
-std::optional<HungPiece> FindHungPiece(const MappingState& state, const MappingOptions& options) {
+/// The smaller side of a weak joint that GNSS has elsewhere; empty: none is.
+std::vector<ImageSlot> FindHungElsewhere(const MappingState& state, const MappingOptions& options) {
   const auto fewest = static_cast<uint32_t>(options.min_inliers);
   const std::vector<Joint> holding = HoldingJoints(state);
   for (size_t i = holding.size(); i-- > 0 && holding[i].telling < fewest;) {
     HungPiece piece = PieceAt(state, holding, i);
-    if (CountCommon(state, piece) < fewest && IsElsewhere(state, piece)) return piece;
+    if (CountCommon(state, piece) < fewest && AskGnss(state, piece) == GnssSays::kElsewhere)
+      return std::move(piece.images);
   }
-  return std::nullopt;
+  return {};
 }
 
-MappingState Without(MappingState state, const std::vector<ImageSlot>& images) {
+/// A part of a scale of its own that GNSS does not have as it is; empty: none is.
+std::vector<ImageSlot> FindUntoldPart(const MappingState& state, const MappingOptions& options) {
+  std::vector<std::vector<ImageSlot>> parts = PartsOfOneScale(state, options);
+  while (parts.size() > 1) {
+    const std::optional<HungPiece> piece = PieceOf(state, parts.back());
+    if (!piece || AskGnss(state, *piece) != GnssSays::kAsItIs) return std::move(parts.back());
+    parts.pop_back();
+  }
+  return {};
+}
+
+/// What is to be cut off next, ascending; empty: nothing.
+std::vector<ImageSlot> FindHungPiece(const MappingState& state, const MappingOptions& options) {
+  std::vector<std::vector<ImageSlot>> parts = PartsThatPairsHold(state, options);
+  if (parts.size() > 1) return std::move(parts.back());
+  std::vector<ImageSlot> elsewhere = FindHungElsewhere(state, options);
+  return elsewhere.empty() ? FindUntoldPart(state, options) : elsewhere;
+}
+
+MappingState WithoutImages(MappingState state, const std::vector<ImageSlot>& images) {
   for (const ImageSlot image : images) state.Deregister(image);
   return state;
 }
@@ -154,13 +203,13 @@ std::vector<MappingState> CutAtHinges(MappingState submodel, const MappingOption
   while (!uncut.empty()) {
     MappingState whole = std::move(uncut.back());
     uncut.pop_back();
-    const std::optional<HungPiece> piece = FindHungPiece(whole, options);
-    if (!piece) {
+    const std::vector<ImageSlot> piece = FindHungPiece(whole, options);
+    if (piece.empty()) {
       pieces.push_back(std::move(whole));
       continue;
     }
-    uncut.push_back(Without(whole, piece->rest));
-    uncut.push_back(Without(std::move(whole), piece->images));
+    uncut.push_back(WithoutImages(whole, Without(whole.Registered(), piece)));
+    uncut.push_back(WithoutImages(std::move(whole), piece));
   }
   std::ranges::stable_sort(pieces, std::greater<>(), [](const MappingState& piece) {
     return piece.Registered().size();

@@ -77,10 +77,20 @@ void SortLargestFirst(std::vector<Reconstruction>& submodels) {
       });
 }
 
-std::vector<MappingState> CutAll(std::vector<MappingState> states, const MappingOptions& options) {
+/// Cuts off what hangs by too little (CutAtHinges); pieces are adjusted without the points that
+/// held them together.
+absl::StatusOr<std::vector<MappingState>> CutAll(std::vector<MappingState> states,
+                                                 const MappingOptions& options,
+                                                 const StageContext& context) {
   std::vector<MappingState> cut;
-  for (MappingState& state : states)
-    std::ranges::move(CutAtHinges(std::move(state), options), std::back_inserter(cut));
+  for (MappingState& state : states) {
+    std::vector<MappingState> pieces = CutAtHinges(std::move(state), options);
+    for (MappingState& piece : pieces) {
+      if (pieces.size() > 1 && piece.Registered().size() >= kFewestImages)
+        ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(piece, options, context));
+      cut.push_back(std::move(piece));
+    }
+  }
   return cut;
 }
 
@@ -93,8 +103,8 @@ absl::Status DropOffScale(MappingState& state,
   return absl::OkStatus();
 }
 
-/// Grows submodels until no images are left, cuts off what hangs elsewhere than GNSS has it, then
-/// joins those that bridges hold together.
+/// Grows submodels until no images are left, cuts off what hangs by too little, then joins those
+/// that bridges hold together, and cuts these once more.
 absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& problem,
                                                        const CorrespondenceGraph& graph,
                                                        const MappingOptions& options,
@@ -126,13 +136,16 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
     states.push_back(*std::move(submodel.state));
   }
   if (!ScheduleOf(options).relaxes_registration) return states;
-  states = CutAll(std::move(states), options);
+  ORBWEAVE_ASSIGN_OR_RETURN(states, CutAll(std::move(states), options, context));
   const size_t grown = states.size();
   ORBWEAVE_ASSIGN_OR_RETURN(
       states, JoinByBridges(std::move(states), problem, graph, options, log, context));
+  result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
+  if (result.num_joined > 0) {
+    ORBWEAVE_ASSIGN_OR_RETURN(states, CutAll(std::move(states), options, context));
+  }
   for (MappingState& state : states)
     ORBWEAVE_RETURN_IF_ERROR(DropOffScale(state, options, context));
-  result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
   return states;
 }
 

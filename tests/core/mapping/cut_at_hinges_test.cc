@@ -96,7 +96,7 @@ TEST(CutAtHinges, LeavesWhatIsHardlyBentHoweverExactPositionsAre) {
 
 TEST(CutAtHinges, LeavesWhatPointsHold) {
   const BrokenStreet street({.pairs_between = 4});
-  EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.28, 40), {})), ElementsAre(24U));
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 0.28, 300), {})), ElementsAre(24U));
 }
 
 TEST(CutAtHinges, CutsWhatHangsAtPointsOfTwoPanoramasHoweverMany) {
@@ -106,16 +106,18 @@ TEST(CutAtHinges, CutsWhatHangsAtPointsOfTwoPanoramasHoweverMany) {
   EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 1.0, 40, Seen::kByTwo), {})), ElementsAre(24U));
 }
 
-TEST(CutAtHinges, LeavesWhatGnssSaysNothingOf) {
+TEST(CutAtHinges, CutsWhatNeitherPointsNorGnssTellTheSizeOf) {
   const BrokenStreet silent({.has_gnss = false, .pairs_between = 4});
-  EXPECT_THAT(SizesOf(CutAtHinges(Hung(silent, 0.28, 6), {})), ElementsAre(24U));
+  for (const double scale : {0.28, 1.0})
+    EXPECT_THAT(SizesOf(CutAtHinges(Hung(silent, scale, 6), {})), ElementsAre(12U, 12U)) << scale;
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(silent, 1.0, 300), {})), ElementsAre(24U));
   BrokenStreet scattered({.pairs_between = 4});
   Random random(3);
   for (uint32_t i = BrokenStreet::kFirstOfSecond; i < BrokenStreet::kImages; ++i) {
     *scattered.World().problem.images[i].prior.position_in_enu +=
         30.0 * Eigen::Vector3d(random.Normal(), random.Normal(), 0.0);
   }
-  EXPECT_THAT(SizesOf(CutAtHinges(Hung(scattered, 0.28, 6), {})), ElementsAre(24U));
+  EXPECT_THAT(SizesOf(CutAtHinges(Hung(scattered, 0.28, 6), {})), ElementsAre(12U, 12U));
 }
 
 }  // namespace
