@@ -5,53 +5,71 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "core/graph/disjoint_sets.h"
+#include "core/mapping/stations.h"
 #include "core/scene/reconstruction.h"
 
 namespace orbweave {
 namespace {
 
 using Eigen::Vector3d;
-using Triplet = std::array<ImageSlot, 3>;  ///< ascending
+using Triplet = std::array<ImageSlot, 3>;  ///< first images of stations, ascending
 
-constexpr ptrdiff_t kFewestTelling = 15;
-/// Of images that see a point so many take part, evenly chosen.
-constexpr size_t kMostImages = 10;
+/// Of stations that see a point so many take part.
+constexpr size_t kMostStations = 10;
 constexpr double kShareOfMinAngle = 2.0 / 3.0;
+/// Of that angle: what stands nearer to each other is one station.
+constexpr double kShareOfStation = 0.5;
 
-/// An image that sees a point, and from where.
+/// A station that sees a point, and from where.
 struct Sight {
-  ImageSlot image = 0;
+  ImageSlot station = 0;                   ///< its first image
+  uint32_t rank = 0;                       ///< of the station
   Vector3d direction = Vector3d::UnitZ();  ///< unit, from the point
 };
 
-std::vector<Sight> SightsOf(const MappingState& state, PointIndex point) {
-  const std::vector<ImageSlot> images = ImagesThatSee(state, point);
-  const size_t count = std::min(images.size(), kMostImages);
+/// Whether of two stations that see many points the first is to take part rather: those whose rank
+/// a higher power of two divides, so that neighbouring points take the same ones.
+bool IsPreferred(const Sight& one, const Sight& other) {
+  const auto power = [](const Sight& sight) { return std::countr_zero(sight.rank); };
+  return std::pair(-power(one), one.rank) < std::pair(-power(other), other.rank);
+}
+
+/// In order of stations.
+std::vector<Sight> SightsOf(const MappingState& state, const Stations& stations, PointIndex point) {
   std::vector<Sight> sights;
-  for (size_t i = 0; i < count; ++i) {
-    const ImageSlot image = images[count < 2 ? 0 : i * (images.size() - 1) / (count - 1)];
-    sights.push_back({image, (state.Centre(image) - state.Point(point).position).normalized()});
+  for (const ImageSlot image : ImagesThatSee(state, point)) {
+    const ImageSlot station = stations.FirstOf(image);
+    if (std::ranges::find(sights, station, &Sight::station) != sights.end()) continue;
+    sights.push_back({station,
+                      stations.RankOf(image),
+                      (state.Centre(image) - state.Point(point).position).normalized()});
   }
+  if (sights.size() > kMostStations) {
+    std::ranges::sort(sights, IsPreferred);
+    sights.resize(kMostStations);
+  }
+  std::ranges::sort(sights, {}, &Sight::station);
   return sights;
 }
 
-/// Each three images of which enough points tell, ascending.
-std::vector<Triplet> ToldTriplets(const MappingState& state, double min_angle_rad) {
+/// Each three stations of which enough points tell, ascending.
+std::vector<Triplet> ToldTriplets(const MappingState& state,
+                                  const Stations& stations,
+                                  double min_angle_rad) {
   const double max_cosine = std::cos(min_angle_rad);
   std::vector<Triplet> seen;  // by a point
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
-    const std::vector<Sight> sights = SightsOf(state, p);
+    const std::vector<Sight> sights = SightsOf(state, stations, p);
     const auto is_wide = [&](size_t i, size_t j) {
       return sights[i].direction.dot(sights[j].direction) < max_cosine;
     };
@@ -60,7 +78,7 @@ std::vector<Triplet> ToldTriplets(const MappingState& state, double min_angle_ra
         if (!is_wide(i, j)) continue;
         for (size_t k = j + 1; k < sights.size(); ++k) {
           if (is_wide(i, k) && is_wide(j, k))
-            seen.push_back({sights[i].image, sights[j].image, sights[k].image});
+            seen.push_back({sights[i].station, sights[j].station, sights[k].station});
         }
       }
     }
@@ -69,7 +87,7 @@ std::vector<Triplet> ToldTriplets(const MappingState& state, double min_angle_ra
   std::vector<Triplet> told;
   for (auto run = seen.begin(); run != seen.end();) {
     const auto end = std::upper_bound(run, seen.end(), *run);
-    if (end - run >= kFewestTelling) told.push_back(*run);
+    if (end - run >= kFewestThatTellSize) told.push_back(*run);
     run = end;
   }
   return told;
@@ -116,6 +134,14 @@ bool UniteOnce(std::vector<Part>& parts) {
     return true;
   }
   return false;
+}
+
+Part ImagesOfStations(const MappingState& state, const Stations& stations, const Part& part) {
+  Part images;
+  for (const ImageSlot image : state.Registered()) {
+    if (part.contains(stations.FirstOf(image))) images.insert(image);
+  }
+  return images;
 }
 
 void SortLargestFirst(std::vector<Part>& parts) {
@@ -192,9 +218,11 @@ class Adding {
 std::vector<std::vector<ImageSlot>> PartsOfOneScale(const MappingState& state,
                                                     const MappingOptions& options) {
   const double min_angle_rad = kShareOfMinAngle * options.min_angle_deg / 180.0 * std::numbers::pi;
-  std::vector<Part> parts = PartsOfTriplets(ToldTriplets(state, min_angle_rad));
+  const Stations stations(state, kShareOfStation * min_angle_rad);
+  std::vector<Part> parts = PartsOfTriplets(ToldTriplets(state, stations, min_angle_rad));
   while (UniteOnce(parts)) {
   }
+  for (Part& part : parts) part = ImagesOfStations(state, stations, part);
   parts = WithoutHinges(std::move(parts), static_cast<size_t>(options.min_component_images));
   if (parts.size() < 2) parts = {Part(state.Registered().begin(), state.Registered().end())};
   Adding(state, parts).AddAll();

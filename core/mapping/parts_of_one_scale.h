@@ -14,12 +14,14 @@ namespace orbweave {
 /// however many points it sees by itself and has in common with b: the triplets of a view graph
 /// carry its scale (Jiang, Cui and Tan, A Global Linear Method for Camera Pose Registration, ICCV
 /// 2013, section 4). Far away, or straight ahead, a point has no depth to tell: counted are points
-/// that each two of the three see under two thirds of options.min_angle_deg at least.
+/// that each two of the three see under two thirds of options.min_angle_deg at least. Images that
+/// stand nearer to each other than half of that are one (Stations): fifty at a traffic light see
+/// what is before it and behind it together, each hardly a point.
 ///
-/// The baselines of three images are of one scale where 15 points tell, and so are those of two
-/// parts that have two images in common. An image in which two parts hinge is of the larger one.
-/// What would be a part of fewer than options.min_component_images stays with the part that it has
-/// most points in common with: it is told (HingeFinder), and better than nothing.
+/// The baselines of three images are of one scale where kFewestThatTellSize points tell, and so are
+/// those of two parts that have two images in common. An image in which two parts hinge is of the
+/// larger one. What would be a part of fewer than options.min_component_images stays with the part
+/// that it has most points in common with: it is told (HingeFinder), and better than nothing.
 ///
 /// In 31 of 31 right models of rendered streets (2 to 12 m, docs/hard_cases.md) all is one part,
 /// for 15 to 20 points and half a degree to a degree and a half alike; of six that were off by

@@ -65,12 +65,14 @@ std::optional<CrossCheck> CheckFrames(const JobReport& report) {
   if (models_on_earth > 1)
     absl::StrAppend(&check.sentence, ", ", models_on_earth, " models joined by GNSS alone");
   if (check.level != CheckLevel::kGood) {
-    absl::StrAppend(&check.sentence,
-                    ", the others in ",
-                    frames - 1,
-                    frames == 2 ? " frame of its own" : " frames of their own",
-                    ": nothing says where these models lie to each other; panoramas between them, "
-                    "or GNSS positions, would");
+    absl::StrAppend(
+        &check.sentence,
+        ", the others in ",
+        frames - 1,
+        frames == 2 ? " frame of its own" : " frames of their own",
+        ": nothing says where these models lie to each other, nor how large one is beside "
+        "another; panoramas between them, "
+        "or GNSS positions, would");
   }
   return check;
 }

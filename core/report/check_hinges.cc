@@ -77,8 +77,8 @@ bool IsBorneOut(const AskedPiece& piece,
 
 CrossCheck CheckHinges(const JobResults& results) {
   CrossCheck check{.name = "hinges",
-                   .value = HingeFinder::kFewestHolding,
-                   .limit = HingeFinder::kFewestHolding,
+                   .value = kFewestThatTellSize,
+                   .limit = kFewestThatTellSize,
                    .unit = "count",
                    .bound = CheckBound::kAtLeast};
   std::optional<AskedPiece> worst;
@@ -108,7 +108,7 @@ CrossCheck CheckHinges(const JobResults& results) {
       "give exact GNSS positions",
       panoramas,
       pieces,
-      HingeFinder::kFewestHolding,
+      kFewestThatTellSize,
       results.manifest.At(worst->nearest_in_piece).name,
       results.manifest.At(worst->nearest_in_rest).name,
       worst->hinged->points);

@@ -38,6 +38,9 @@ struct Track {
 /// So many images must see a point for it to tell how large what they hold together is: two alone
 /// say which way one lies from the other.
 inline constexpr size_t kImagesThatTellSize = 3;
+/// And so many such points: fewer agree by chance, or look alike, often enough. 25 and more held
+/// each panorama of right models of streets 12 m apart; asking for 30 divided one.
+inline constexpr uint32_t kFewestThatTellSize = 15;
 
 /// How far a pose may be off: one standard deviation, relative to what the adjustment holds.
 struct PoseUncertainty {

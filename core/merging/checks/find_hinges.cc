@@ -87,7 +87,7 @@ bool HingeFinder::UnitePieces() {
   bool has_united = false;
   for (auto run = in_common.begin(); run != in_common.end();) {
     const auto end = std::upper_bound(run, in_common.end(), *run);
-    if (end - run >= kFewestHolding) has_united |= pieces_.Unite(run->first, run->second);
+    if (end - run >= kFewestThatTellSize) has_united |= pieces_.Unite(run->first, run->second);
     run = end;
   }
   return has_united;

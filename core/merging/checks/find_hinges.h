@@ -17,19 +17,16 @@ struct HingedPiece {
   uint32_t points = 0;            ///< that three panoramas see, in the piece and outside
 };
 
-/// Finds what hangs at a model by fewer points than an image needs to be registered, track by
+/// Finds what hangs at a model by fewer points than tell its size (kFewestThatTellSize), track by
 /// track. Two panoramas alone say which way one lies from the other; how long the step between them
 /// is, and so how large what lies behind it, only points that a third one sees tell: of those,
-/// kFewestHolding hold panoramas together, and pieces of such panoramas in turn, until no two
+/// so many hold panoramas together, and pieces of such panoramas in turn, until no two
 /// pieces have as many in common. Which pieces are left does not depend on the order of tracks.
 ///
 /// Memory: a place per panorama, and the tracks that are seen from several pieces; time linear in
 /// the observations, but for these.
 class HingeFinder {
  public:
-  /// As many as an image needs to be registered (MappingOptions::min_inliers).
-  static constexpr uint32_t kFewestHolding = 15;
-
   /// Of a model with these images; loose ones are in no piece.
   explicit HingeFinder(const std::map<ImageId, RegisteredImage>& images);
 

@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr uint32_t kHolding = HingeFinder::kFewestHolding;
+constexpr uint32_t kHolding = kFewestThatTellSize;
 
 std::map<ImageId, RegisteredImage> Images(uint32_t count) {
   std::map<ImageId, RegisteredImage> images;
