@@ -28,7 +28,7 @@ using Triplet = std::array<ImageSlot, 3>;  ///< first images of stations, ascend
 constexpr size_t kMostStations = 10;
 constexpr double kShareOfMinAngle = 2.0 / 3.0;
 /// Of that angle: what stands nearer to each other is one station.
-constexpr double kShareOfStation = 0.5;
+constexpr double kShareOfStation = 0.2;
 
 /// A station that sees a point, and from where.
 struct Sight {

@@ -15,7 +15,7 @@ namespace orbweave {
 /// carry its scale (Jiang, Cui and Tan, A Global Linear Method for Camera Pose Registration, ICCV
 /// 2013, section 4). Far away, or straight ahead, a point has no depth to tell: counted are points
 /// that each two of the three see under two thirds of options.min_angle_deg at least. Images that
-/// stand nearer to each other than half of that are one (Stations): fifty at a traffic light see
+/// stand nearer to each other than a fifth of that are one (Stations): fifty at a traffic light see
 /// what is before it and behind it together, each hardly a point.
 ///
 /// The baselines of three images are of one scale where kFewestThatTellSize points tell, and so are
