@@ -27,10 +27,8 @@ namespace orbweave {
 ///     way from the joint: what is bent by some degrees is worth more in one piece.
 ///
 /// What nothing tells the size of: parts of a scale of their own (PartsOfOneScale), unless GNSS has
-/// them as they are: seven tenths of their positions lie there. In models of six rendered streets
-/// 12 m apart without GNSS that were off by metres or a factor, such parts were right each by
-/// itself but for some panoramas; 88 panoramas of a town were parts of 55, 20, 10 and 3 on scales
-/// of 13, 42 and 18 to 1.
+/// them as they are: seven tenths of their positions lie there. 88 panoramas of a town without GNSS
+/// were parts of 55, 20 and 10, each right by itself, on scales of 13, 42 and 18 to 1.
 ///
 /// Bridges may join the pieces again, as pairs or GNSS have it; else each is a submodel of its own.
 /// The larger piece first; one piece, the submodel as it is, where nothing is cut.

@@ -23,10 +23,11 @@ namespace orbweave {
 /// larger one. What would be a part of fewer than options.min_component_images stays with the part
 /// that it has most points in common with: it is told (HingeFinder), and better than nothing.
 ///
-/// In 31 of 31 right models of rendered streets (2 to 12 m, docs/hard_cases.md) all is one part,
-/// for 15 to 20 points and half a degree to a degree and a half alike; of six that were off by
-/// metres, or by a factor, five are several. The most images first, of equal ones the lowest;
-/// ascending.
+/// In 23 of 23 right models of rendered streets (2 to 12 m, docs/hard_cases.md) all is one part,
+/// for 15 to 20 points and half a degree to a degree and a half alike; three of nine that were off
+/// by metres, or by a factor, are several, and so were 88 panoramas of a town.
+///
+/// The most images first, of equal ones the lowest; ascending.
 [[nodiscard]] std::vector<std::vector<ImageSlot>> PartsOfOneScale(const MappingState& state,
                                                                   const MappingOptions& options);
 
