@@ -62,27 +62,32 @@ std::vector<Sight> SightsOf(const MappingState& state, const Stations& stations,
   return sights;
 }
 
+/// Each three of the sights of a point of which each two are wide apart.
+void AddTriplets(const std::vector<Sight>& sights,
+                 double max_cosine,
+                 std::vector<Triplet>& triplets) {
+  const auto is_wide = [&](size_t i, size_t j) {
+    return sights[i].direction.dot(sights[j].direction) < max_cosine;
+  };
+  for (size_t i = 0; i < sights.size(); ++i) {
+    for (size_t j = i + 1; j < sights.size(); ++j) {
+      if (!is_wide(i, j)) continue;
+      for (size_t k = j + 1; k < sights.size(); ++k) {
+        if (is_wide(i, k) && is_wide(j, k))
+          triplets.push_back({sights[i].station, sights[j].station, sights[k].station});
+      }
+    }
+  }
+}
+
 /// Each three stations of which enough points tell, ascending.
 std::vector<Triplet> ToldTriplets(const MappingState& state,
                                   const Stations& stations,
                                   double min_angle_rad) {
   const double max_cosine = std::cos(min_angle_rad);
   std::vector<Triplet> seen;  // by a point
-  for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
-    const std::vector<Sight> sights = SightsOf(state, stations, p);
-    const auto is_wide = [&](size_t i, size_t j) {
-      return sights[i].direction.dot(sights[j].direction) < max_cosine;
-    };
-    for (size_t i = 0; i < sights.size(); ++i) {
-      for (size_t j = i + 1; j < sights.size(); ++j) {
-        if (!is_wide(i, j)) continue;
-        for (size_t k = j + 1; k < sights.size(); ++k) {
-          if (is_wide(i, k) && is_wide(j, k))
-            seen.push_back({sights[i].station, sights[j].station, sights[k].station});
-        }
-      }
-    }
-  }
+  for (PointIndex p = 0; p < state.EndOfPoints(); ++p)
+    AddTriplets(SightsOf(state, stations, p), max_cosine, seen);
   std::ranges::sort(seen);
   std::vector<Triplet> told;
   for (auto run = seen.begin(); run != seen.end();) {

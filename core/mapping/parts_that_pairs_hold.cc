@@ -9,12 +9,10 @@
 #include <utility>
 
 #include "core/graph/disjoint_sets.h"
-#include "core/mapping/lengths/asked_rays.h"
 #include "core/mapping/lengths/find_length_faults.h"
-#include "core/mapping/lengths/gap_votes.h"
 #include "core/mapping/lengths/matches_in_planes.h"
-#include "core/mapping/lengths/measure_gap_lengths.h"
 #include "core/mapping/lengths/registered_sequence.h"
+#include "core/mapping/lengths/ways_along_lines.h"
 #include "core/mapping/registration/pair_witness.h"
 
 namespace orbweave {
@@ -29,27 +27,27 @@ struct AskedPair {
 
 /// Unites the images of each line but across ways whose sides stand askew.
 void UniteAlongLines(const MappingState& state,
-                     const MappingOptions& options,
+                     const RegisteredSequence& places,
+                     double tolerance_px,
                      DisjointSets& parts) {
-  const AskedRays asked(state, options);
-  for (const GapVotes& gap : CollectGapVotes(asked)) {
-    if (!IsAskew(MatchesAcross(asked, gap))) parts.Unite(gap.image, gap.next);
+  for (const WayAlongLine& way : WaysAlongLines(state, places)) {
+    if (!IsAskew(MatchesAcross(state, way, tolerance_px))) parts.Unite(way.image, way.next);
   }
 }
 
 /// Unites the images of pairs of two lines that hold them together; returns the other pairs.
 std::vector<AskedPair> UniteLines(const MappingState& state,
-                                  const MappingOptions& options,
+                                  const RegisteredSequence& places,
+                                  double tolerance_px,
+                                  int min_inliers,
                                   DisjointSets& parts) {
-  const double tolerance_px = kMatchTolerance * options.max_error_px;
-  const RegisteredSequence places(state, tolerance_px);
   std::vector<AskedPair> others;
   for (const LinkedPair& pair : state.Graph().pairs) {
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;
     const LengthAgreement matches = AgreementOfMatches(state, pair, tolerance_px);
     const bool holds =
-        matches.told == 0.0 || (matches.agreeing >= options.min_inliers &&
-                                matches.agreeing > kAgreeingPairShare * matches.told);
+        matches.told == 0.0 ||
+        (matches.agreeing >= min_inliers && matches.agreeing > kAgreeingPairShare * matches.told);
     if (holds && places.LineOf(pair.a) != places.LineOf(pair.b)) {
       parts.Unite(pair.a, pair.b);
     } else {
@@ -98,8 +96,11 @@ std::vector<std::vector<ImageSlot>> ListParts(const MappingState& state, Disjoin
 std::vector<std::vector<ImageSlot>> PartsThatPairsHold(const MappingState& state,
                                                        const MappingOptions& options) {
   DisjointSets sets(state.Graph().NumImages());
-  UniteAlongLines(state, options, sets);
-  const std::vector<AskedPair> others = UniteLines(state, options, sets);
+  const double tolerance_px = kMatchTolerance * options.max_error_px;
+  const RegisteredSequence places(state, tolerance_px);
+  UniteAlongLines(state, places, tolerance_px, sets);
+  const std::vector<AskedPair> others =
+      UniteLines(state, places, tolerance_px, options.min_inliers, sets);
   MatchesBetween between = SumBetween(others, sets);
   while (UniteAlike(between, sets)) between = SumBetween(others, sets);
   std::set<uint32_t> askew;

@@ -3,10 +3,9 @@
 
 #include "core/mapping/stations.h"
 
-#include <algorithm>
 #include <map>
 #include <numeric>
-#include <utility>
+#include <vector>
 
 #include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
@@ -18,13 +17,25 @@ namespace {
 /// Of the points of an image; places far from each other have the skyline in common.
 constexpr double kCommonShare = 1.0 / 3.0;
 
-/// The points that each image sees.
-std::vector<std::vector<PointIndex>> PointsOfImages(const MappingState& state) {
-  std::vector<std::vector<PointIndex>> points(state.Graph().NumImages());
-  for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
-    for (const ImageSlot image : ImagesThatSee(state, p)) points[image].push_back(p);
+using AnglesOfStations = std::map<ImageSlot, std::vector<double>>;  // by their first image
+
+/// Those under which an image and the first ones of stations before it see common points.
+AnglesOfStations AnglesTo(const MappingState& state,
+                          const std::vector<ImageSlot>& first,
+                          ImageSlot image) {
+  const CorrespondenceGraph& graph = state.Graph();
+  AnglesOfStations angles_rad;
+  for (Node node = graph.first_node[image]; node < graph.first_node[image + 1]; ++node) {
+    if (state.PointOf(node) == kNoPoint) continue;
+    const MappedPoint& point = state.Point(state.PointOf(node));
+    for (const Node seen : point.nodes) {
+      const ImageSlot other = graph.image_of_node[seen];
+      if (other >= image || first[other] != other) continue;
+      angles_rad[other].push_back(
+          AngleBetween(state.Centre(image) - point.position, state.Centre(other) - point.position));
+    }
   }
-  return points;
+  return angles_rad;
 }
 
 }  // namespace
@@ -32,24 +43,13 @@ std::vector<std::vector<PointIndex>> PointsOfImages(const MappingState& state) {
 Stations::Stations(const MappingState& state, double max_angle_rad)
     : first_(state.Graph().NumImages()), rank_(first_.size()) {
   std::iota(first_.begin(), first_.end(), ImageSlot{0});
-  const std::vector<std::vector<PointIndex>> points = PointsOfImages(state);
   uint32_t next_rank = 0;
   for (ImageSlot image = 0; image < first_.size(); ++image) {
-    std::map<ImageSlot, std::vector<double>> angles_rad;  // by the first image of a station
-    for (const PointIndex p : points[image]) {
-      const Eigen::Vector3d& position = state.Point(p).position;
-      for (const ImageSlot other : ImagesThatSee(state, p)) {
-        if (other < image && first_[other] == other)
-          angles_rad[other].push_back(
-              AngleBetween(state.Centre(image) - position, state.Centre(other) - position));
-      }
-    }
-    for (auto& [other, angles] : angles_rad) {
-      if (angles.size() < kFewestThatTellSize ||
-          static_cast<double>(angles.size()) <
-              kCommonShare * static_cast<double>(points[image].size()))
-        continue;
-      if (Quantile(std::move(angles), 0.5) >= max_angle_rad) continue;
+    const double least_common = kCommonShare * state.NumObservations(image);
+    for (const auto& [other, angles_rad] : AnglesTo(state, first_, image)) {
+      if (angles_rad.size() < kFewestThatTellSize) continue;
+      if (static_cast<double>(angles_rad.size()) < least_common) continue;
+      if (Quantile(angles_rad, 0.5) >= max_angle_rad) continue;
       first_[image] = other;
       break;
     }

@@ -35,8 +35,8 @@ class Collector {
       : asked_(asked),
         places_(asked.state, kMatchTolerance * asked.max_error_px),
         votes_(places_.size()) {
-    const std::vector<LinkedPair>& pairs = asked.state.Graph().pairs;
-    for (uint32_t p = 0; p < pairs.size(); ++p) AddPair(p, pairs[p]);
+    for (WayAlongLine& way : WaysAlongLines(asked.state, places_))
+      static_cast<WayAlongLine&>(votes_[places_.PlaceOf(way.image)]) = std::move(way);
   }
 
   /// `depths`: of one ray.
@@ -53,24 +53,14 @@ class Collector {
   [[nodiscard]] std::vector<GapVotes> Take() {
     std::vector<GapVotes> gaps;
     for (size_t place = 0; place + 1 < places_.size(); ++place) {
-      GapVotes& gap = votes_[place];
-      gap.image = places_.At(place);
-      gap.next = places_.At(place + 1);
-      if (places_.LineOf(gap.image) == places_.LineOf(gap.next)) gaps.push_back(std::move(gap));
+      const bool is_way =
+          places_.LineOf(places_.At(place)) == places_.LineOf(places_.At(place + 1));
+      if (is_way) gaps.push_back(std::move(votes_[place]));
     }
     return gaps;
   }
 
  private:
-  void AddPair(uint32_t index, const LinkedPair& pair) {
-    const MappingState& state = asked_.state;
-    if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) return;
-    if (places_.LineOf(pair.a) != places_.LineOf(pair.b)) return;
-    const auto [first, last] = std::minmax({places_.PlaceOf(pair.a), places_.PlaceOf(pair.b)});
-    if (last - first > kReachAlongLine) return;
-    for (size_t gap = first; gap < last; ++gap) votes_[gap].pairs.push_back(index);
-  }
-
   /// Those with images of the same line.
   void CollectSights(ImageSlot own, std::span<const RayDepth> depths) {
     sights_.clear();

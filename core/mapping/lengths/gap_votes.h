@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mapping/lengths/asked_rays.h"
+#include "core/mapping/lengths/ways_along_lines.h"
 
 namespace orbweave {
 
@@ -16,12 +17,8 @@ struct LengthVote {
   Node ray = 0;
 };
 
-/// A way between two registered images that follow each other in a line, and how long the pairs
-/// that lead across it are as each side of it has it.
-struct GapVotes {
-  ImageSlot image = 0;
-  ImageSlot next = 0;
-  std::vector<uint32_t> pairs{};     ///< of the graph's: those that lead across
+/// A way along a line, and how long the pairs that lead across it are as each side of it has it.
+struct GapVotes : WayAlongLine {
   std::vector<LengthVote> before{};  ///< of rays of images before it
   std::vector<LengthVote> behind{};
   uint32_t asked = 0;  ///< rays of all pairs across, whether others tell how long these are or not
@@ -31,8 +28,7 @@ struct GapVotes {
 /// street is torn, everything behind the tear stands a house, or half of one, too far along: pairs
 /// that lead across are all too long, bear each other out, and outnumber those beside it. Therefore
 /// a ray tells the length of a pair that leads across by those of its pairs alone that stay on its
-/// own image's side, the median of them, which a tear leaves as they are. Pairs lead across that
-/// have no more than two images of the line between theirs: longer ones hide a step.
+/// own image's side, the median of them, which a tear leaves as they are.
 ///
 /// Pairs and votes may be none. Of lines in order, of images along them (RegisteredSequence); votes
 /// in order of rays.

@@ -84,15 +84,6 @@ uint32_t MatchesOfNeighbours(const MappingState& state, const GapVotes& gap) {
 
 }  // namespace
 
-LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap) {
-  LengthAgreement matches;
-  for (const uint32_t pair : gap.pairs) {
-    matches.Add(AgreementOfMatches(
-        asked.state, asked.state.Graph().pairs[pair], kMatchTolerance * asked.max_error_px));
-  }
-  return matches;
-}
-
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
   std::vector<GapLength> gaps;
   const std::map<ImageSlot, double> scale_jumps = MeasureScaleJumps(asked);
@@ -106,7 +97,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.here = wants_another.here;
     gap.elsewhere = wants_another.elsewhere;
     gap.scale_jump = scale_jumps.at(votes.image);
-    gap.matches = MatchesAcross(asked, votes);
+    gap.matches = MatchesAcross(asked.state, votes, kMatchTolerance * asked.max_error_px);
     gap.rays = std::max(votes.asked, MatchesOfNeighbours(asked.state, votes));
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     const GapShift wall = FindWallShift(asked, votes);

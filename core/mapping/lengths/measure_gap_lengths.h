@@ -30,7 +30,4 @@ namespace orbweave {
 [[nodiscard]] std::vector<GapLength> MeasureGapLengths(const AskedRays& asked,
                                                        const GnssWays* gnss = nullptr);
 
-/// Matches of the pairs that lead across, and those that agree (GapLength::matches).
-[[nodiscard]] LengthAgreement MatchesAcross(const AskedRays& asked, const GapVotes& gap);
-
 }  // namespace orbweave

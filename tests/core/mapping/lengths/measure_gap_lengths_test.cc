@@ -156,7 +156,7 @@ TEST(GapShift, IsNoneWhereNobodySaysAnything) {
   const TornStreet street;
   const MappingState right = street.Right();
   const AskedRays asked(right, {});
-  const GapShift shift = FindGapShift(asked, {.image = 3, .next = 4}, {});
+  const GapShift shift = FindGapShift(asked, {{.image = 3, .next = 4}}, {});
   EXPECT_EQ(shift.shift, 0.0);
   EXPECT_EQ(shift.here, 0.0);
   EXPECT_EQ(shift.elsewhere, 0.0);
