@@ -12,9 +12,9 @@
 #include <filesystem>
 #include <sstream>
 
-#include "cli/event_log.h"
+#include "cli/process/event_log.h"
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "tests/support/command.h"
 #include "tests/support/light_fleet.h"
 

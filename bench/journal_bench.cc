@@ -12,8 +12,8 @@
 #include <memory>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/postgres_journal.h"
-#include "coordinator/sqlite_journal.h"
+#include "coordinator/journal/postgres_journal.h"
+#include "coordinator/journal/sqlite_journal.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
 #include "tests/support/wide_job.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "coordinator/job_service.h"
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "coordinator/kept_blobs.h"
 #include "core/pipeline/admin_api.h"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "coordinator/job_table.h"
-#include "coordinator/journal.h"
-#include "coordinator/lease_book.h"
+#include "coordinator/jobs/lease_book.h"
+#include "coordinator/journal/journal.h"
 #include "coordinator/worker_roster.h"
 #include "core/pipeline/log_event.h"
 

@@ -4,7 +4,7 @@
 
 #include <unordered_set>
 
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "core/pipeline/blob_access.h"
 #include "core/pipeline/job_plan.h"
 

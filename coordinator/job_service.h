@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "coordinator/dispatcher.h"
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "core/base/clock.h"
 #include "core/pipeline/job_plan.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "coordinator/job_machine.h"
+#include "coordinator/jobs/job_machine.h"
 #include "coordinator/prepare_stage.h"
 #include "core/pipeline/worker_api.h"
 

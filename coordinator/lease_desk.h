@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "coordinator/dispatcher.h"
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "coordinator/task_call.h"
 #include "core/base/clock.h"
 

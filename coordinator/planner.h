@@ -9,7 +9,7 @@
 
 #include "coordinator/dispatcher.h"
 #include "coordinator/job_service.h"
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "coordinator/kept_blobs.h"
 #include "coordinator/pulse.h"
 #include "coordinator/wanted_slots.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "coordinator/kept_blobs.h"
 #include "core/pipeline/plan_stage.h"
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "coordinator/journal.h"
+#include "coordinator/journal/journal.h"
 #include "core/pipeline/job_api.h"
 #include "core/pipeline/worker_api.h"
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -39,6 +41,20 @@ class DisjointSets {
 
   /// Number of elements in the set of x.
   [[nodiscard]] uint32_t SizeOf(uint32_t x) { return size_[Find(x)]; }
+
+  /// Some elements by the sets that they are in, each list ascending: the one of most elements
+  /// first, of lists of as many that of the lowest element.
+  [[nodiscard]] std::vector<std::vector<uint32_t>> SetsOf(std::vector<uint32_t> elements) {
+    std::ranges::sort(elements);
+    std::map<uint32_t, std::vector<uint32_t>> list_of;
+    for (const uint32_t element : elements) list_of[Find(element)].push_back(element);
+    std::vector<std::vector<uint32_t>> lists;
+    for (auto& [representative, list] : list_of) lists.push_back(std::move(list));
+    std::ranges::sort(lists, [](const auto& x, const auto& y) {
+      return std::pair(y.size(), x.front()) < std::pair(x.size(), y.front());
+    });
+    return lists;
+  }
 
  private:
   std::vector<uint32_t> parent_;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/mapping/adjust_part.h"
+#include "core/mapping/adjustment/adjust_part.h"
 #include "core/mapping/model/filter_points.h"
 
 namespace orbweave {

@@ -3,9 +3,9 @@
 
 #include "core/mapping/reconstruct_globally.h"
 
-#include "core/mapping/check_against_pairs.h"
-#include "core/mapping/level_cameras.h"
-#include "core/mapping/start_globally.h"
+#include "core/mapping/adjustment/level_cameras.h"
+#include "core/mapping/checks/check_against_pairs.h"
+#include "core/mapping/growth/start_globally.h"
 
 namespace orbweave {
 

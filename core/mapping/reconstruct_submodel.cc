@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "core/mapping/borne_out_images.h"
-#include "core/mapping/compare_models.h"
-#include "core/mapping/find_seed_pairs.h"
-#include "core/mapping/initialise_from_pair.h"
-#include "core/mapping/level_cameras.h"
+#include "core/mapping/adjustment/level_cameras.h"
+#include "core/mapping/checks/borne_out_images.h"
+#include "core/mapping/checks/compare_models.h"
+#include "core/mapping/growth/find_seed_pairs.h"
+#include "core/mapping/growth/initialise_from_pair.h"
 #include "core/mapping/model/mapping_schedule.h"
 #include "core/mapping/reconstruct_globally.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/mapping/grow_submodel.h"
+#include "core/mapping/growth/grow_submodel.h"
 
 namespace orbweave {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/mapping/place_on_gnss.h"
+#include "core/mapping/positioning/place_on_gnss.h"
 #include "core/scene/image_manifest.h"
 #include "core/scene/usual_step.h"
 

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/exit_code.h"
-#include "cli/serve_command.h"
-#include "coordinator/postgres_journal.h"
+#include "cli/commands/serve_command.h"
+#include "cli/process/exit_code.h"
+#include "coordinator/journal/postgres_journal.h"
 #include "core/pipeline/build_version.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"

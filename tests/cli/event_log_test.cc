@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/event_log.h"
+#include "cli/process/event_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/fail_on_argument.h"
+#include "cli/arguments/fail_on_argument.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "cli/exit_code.h"
+#include "cli/process/exit_code.h"
 
 namespace orbweave {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/format_status.h"
+#include "cli/progress/format_status.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/format_summary.h"
+#include "cli/results/format_summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 // Real worker processes: this very executable, called with `work` by the fleet, does the stages of
 // the toy job.
 
-#include "cli/local_fleet.h"
+#include "cli/fleet/local_fleet.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/drain_command.h"
-#include "cli/exec_tasks_command.h"
-#include "cli/exit_code.h"
-#include "cli/work_command.h"
+#include "cli/commands/drain_command.h"
+#include "cli/commands/exec_tasks_command.h"
+#include "cli/commands/work_command.h"
+#include "cli/process/exit_code.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"
 #include "tests/support/http_get.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/patient_coordinator.h"
+#include "cli/fleet/patient_coordinator.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "tests/support/command.h"
 #include "worker/grpc_coordinator_client.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/preparation_bar.h"
+#include "cli/progress/preparation_bar.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/progress_bar.h"
+#include "cli/progress/progress_bar.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/root_argument.h"
+#include "cli/arguments/root_argument.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

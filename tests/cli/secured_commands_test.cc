@@ -7,12 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/exec_tasks_command.h"
-#include "cli/exit_code.h"
-#include "cli/keys_command.h"
-#include "cli/serve_command.h"
-#include "cli/status_command.h"
-#include "cli/work_command.h"
+#include "cli/commands/exec_tasks_command.h"
+#include "cli/commands/keys_command.h"
+#include "cli/commands/serve_command.h"
+#include "cli/commands/status_command.h"
+#include "cli/commands/work_command.h"
+#include "cli/process/exit_code.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"
 #include "tests/support/toy_job.h"

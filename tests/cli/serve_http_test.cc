@@ -8,8 +8,8 @@
 
 #include <filesystem>
 
-#include "cli/exit_code.h"
-#include "cli/serve_command.h"
+#include "cli/commands/serve_command.h"
+#include "cli/process/exit_code.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"
 #include "tests/support/http_get.h"

@@ -3,7 +3,7 @@
 
 // The scripts as Slurm runs them, with programs in Slurm's place that note how they were called.
 
-#include "cli/slurm_scripts.h"
+#include "cli/slurm/slurm_scripts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_split.h"
-#include "cli/exit_code.h"
+#include "cli/process/exit_code.h"
 #include "tests/support/command.h"
 
 namespace orbweave {

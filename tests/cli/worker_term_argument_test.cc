@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cli/worker_term_argument.h"
+#include "cli/arguments/worker_term_argument.h"
 
 #include <gtest/gtest.h>
 

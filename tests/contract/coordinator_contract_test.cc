@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "core/pipeline/build_version.h"
 #include "core/pipeline/damaged_blob.h"
 #include "tests/support/command.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 
 #include <gtest/gtest.h>
 

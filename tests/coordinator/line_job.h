@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/job_machine.h"
+#include "coordinator/jobs/job_machine.h"
 
 namespace orbweave::testing {
 

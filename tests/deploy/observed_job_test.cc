@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "cli/exec_tasks_command.h"
-#include "cli/serve_command.h"
-#include "cli/work_command.h"
+#include "cli/commands/exec_tasks_command.h"
+#include "cli/commands/serve_command.h"
+#include "cli/commands/work_command.h"
 #include "tests/deploy/named_metrics.h"
 #include "tests/support/command.h"
 #include "tests/support/command_or_tests.h"

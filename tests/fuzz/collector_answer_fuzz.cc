@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/otlp_json.h"
+#include "coordinator/traces/otlp_json.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/sqlite_journal.h"
+#include "coordinator/journal/sqlite_journal.h"
 #include "core/io/colmap/colmap_model_writer.h"
 #include "core/io/colmap/write_colmap_database.h"
 #include "core/io/sqlite_connection.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/http_server.h"
+#include "coordinator/http/http_server.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/round_trip.h"
 #include "tests/support/tcp_talk.h"

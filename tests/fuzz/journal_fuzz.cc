@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Orbweave authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "coordinator/sqlite_journal.h"
+#include "coordinator/journal/sqlite_journal.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "core/pipeline/build_version.h"
 #include "objects/s3_store.h"
 #include "tests/support/command.h"

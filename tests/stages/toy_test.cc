@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/exec_tasks_command.h"
-#include "cli/local_fleet.h"
-#include "cli/work_command.h"
+#include "cli/commands/exec_tasks_command.h"
+#include "cli/commands/work_command.h"
+#include "cli/fleet/local_fleet.h"
 #include "stages/job_reader.h"
 #include "stages/plan_builder.h"
 #include "stages/run_plan.h"

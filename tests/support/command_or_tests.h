@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "cli/command.h"
-#include "cli/exit_code.h"
+#include "cli/process/command.h"
+#include "cli/process/exit_code.h"
 
 namespace orbweave::testing {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "coordinator/forwarding_journal.h"
-#include "coordinator/open_journal.h"
+#include "coordinator/journal/forwarding_journal.h"
+#include "coordinator/journal/open_journal.h"
 #include "tests/support/command.h"
 
 namespace orbweave::testing {

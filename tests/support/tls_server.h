@@ -6,7 +6,7 @@
 #include <string>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "core/pipeline/build_version.h"
 #include "security/key_store.h"
 #include "security/unix_time.h"

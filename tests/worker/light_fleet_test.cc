@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "tests/support/command.h"
 
 namespace orbweave {

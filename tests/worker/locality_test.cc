@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "core/base/random.h"
 #include "tests/support/command.h"
 #include "tests/support/light_fleet.h"

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "coordinator/coordinator.h"
-#include "coordinator/grpc_server.h"
+#include "coordinator/grpc/grpc_server.h"
 #include "tests/support/command.h"
 #include "tests/support/in_process_executor.h"
 #include "tests/support/toy_job.h"

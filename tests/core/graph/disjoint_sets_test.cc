@@ -3,6 +3,7 @@
 
 #include "core/graph/disjoint_sets.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace orbweave {
@@ -24,6 +25,19 @@ TEST(DisjointSets, UniteTransitivelyAndOnce) {
   EXPECT_FALSE(sets.Unite(0, 3));
   EXPECT_EQ(sets.SizeOf(3), 4U);
   EXPECT_NE(sets.Find(2), sets.Find(0));
+}
+
+TEST(DisjointSets, ListElementsBySetTheLargestFirst) {
+  using testing::ElementsAre;
+  DisjointSets sets(8);
+  sets.Unite(7, 2);
+  sets.Unite(5, 7);
+  sets.Unite(6, 0);
+  sets.Unite(4, 1);
+  EXPECT_THAT(sets.SetsOf({7, 6, 5, 4, 2, 1, 0}),
+              ElementsAre(ElementsAre(2, 5, 7), ElementsAre(0, 6), ElementsAre(1, 4)));
+  EXPECT_THAT(sets.SetsOf({3, 7}), ElementsAre(ElementsAre(3), ElementsAre(7)));
+  EXPECT_THAT(sets.SetsOf({}), ElementsAre());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mapping/adjust_part.h"
+#include "core/mapping/adjustment/adjust_part.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "core/mapping/start_globally.h"
+#include "core/mapping/growth/start_globally.h"
 #include "tests/core/mapping/true_state.h"
 
 namespace orbweave {

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/process/command.h"
+
+namespace orbweave {
+
+/// `orbweave evaluate`: a finished model against known poses.
+void AddEvaluateCommand(CLI::App& app, SelectedCommand& selected);
+
+}  // namespace orbweave

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Orbweave authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "core/mapping/checks/misleading_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/mapping/true_state.h"
+
+namespace orbweave {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A walk of eight images with turned panoramas, whose pairs may be changed before they are asked.
+struct Walk {
+  StreetFixture street{
+      {.centres = StraightWalk(8, 3.0), .points_per_metre = 40, .random_rotations = true}};
+
+  uint32_t NumberOf(uint32_t a, uint32_t b) const {
+    const auto& pairs = street.graph.pairs;
+    const auto found = std::ranges::find_if(
+        pairs, [&](const LinkedPair& pair) { return pair.a == a && pair.b == b; });
+    return static_cast<uint32_t>(found - pairs.begin());
+  }
+  TwoViewGeometry& PairOf(uint32_t a, uint32_t b) {
+    return street.world.problem.pairs[street.graph.pairs[NumberOf(a, b)].index];
+  }
+  /// Whether the pair is misleading in the true model, of which these pairs are explained.
+  bool IsMisleading(uint32_t a, uint32_t b, std::vector<ImagePair> explained = {}) const {
+    std::vector<uint8_t> is_explained(street.graph.pairs.size(), 0);
+    for (const auto& [x, y] : explained) is_explained[NumberOf(x.value, y.value)] = 1;
+    const MappingState state = street.StateWith(FirstImages(8));
+    return MisleadingPairs(state, is_explained).IsMisleading(NumberOf(a, b));
+  }
+};
+
+ImagePair Pair(uint32_t a, uint32_t b) { return {ImageId(a), ImageId(b)}; }
+
+TEST(MisleadingPairs, AreThoseThatLeadBackWhereTheCameraGoesOn) {
+  for (const auto& [a, b] : {std::pair(0U, 1U), std::pair(3U, 4U), std::pair(3U, 5U)}) {
+    Walk walk;
+    EXPECT_FALSE(walk.IsMisleading(a, b));
+    walk.PairOf(a, b).b_from_a.translation *= -1.0;
+    EXPECT_TRUE(walk.IsMisleading(a, b)) << a << " " << b;
+  }
+}
+
+TEST(MisleadingPairs, FarImagesMaySeeEachOtherFromAnywhere) {
+  Walk walk;
+  walk.PairOf(1, 6).b_from_a.translation *= -1.0;
+  EXPECT_FALSE(walk.IsMisleading(1, 6));
+}
+
+TEST(MisleadingPairs, AnImageThatTheModelHasOnTheWrongSideSaysNothingOfThePair) {
+  Walk walk;
+  Rigid3& wrong = walk.street.world.cams_from_world[4];
+  wrong = Rigid3::FromCentre(wrong.rotation, Vector3d(4.0, 0.0, 0.0));  // behind image 2 of 6 m
+  EXPECT_FALSE(walk.IsMisleading(3, 4));
+  EXPECT_FALSE(walk.IsMisleading(4, 5));
+}
+
+TEST(MisleadingPairs, AreThoseThatTurnOtherwiseThanTwoExplainedOnesByWayOfAThirdImage) {
+  Walk walk;
+  Rigid3& b_from_a = walk.PairOf(2, 4).b_from_a;
+  const Eigen::Quaterniond truth = b_from_a.rotation;
+  const auto turn = [&](double degrees) {
+    b_from_a.rotation =
+        truth * Eigen::AngleAxisd(degrees * 3.14159265 / 180.0, Vector3d(0.6, 0.0, 0.8));
+  };
+  turn(5.0);
+  EXPECT_TRUE(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}));
+  EXPECT_TRUE(walk.IsMisleading(2, 4, {Pair(2, 5), Pair(4, 5)}) ==
+              (walk.PairOf(2, 5).inliers.size() >= walk.PairOf(2, 4).inliers.size()));
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3)}));
+  EXPECT_FALSE(walk.IsMisleading(2, 4));
+  turn(1.0);
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}));
+}
+
+TEST(MisleadingPairs, WeakPairsDoNotOutweighAStrongOne) {
+  Walk walk;
+  walk.PairOf(2, 4).b_from_a.rotation *=
+      Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Vector3d::UnitY()));
+  walk.PairOf(2, 3).inliers.resize(walk.PairOf(2, 4).inliers.size() - 1);
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}));
+}
+
+/// The pair of images 2 and 4 leads so many degrees off its way.
+void LeadOff(double degrees, Walk& walk) {
+  Rigid3& b_from_a = walk.PairOf(2, 4).b_from_a;
+  const Vector3d way = b_from_a.Centre();
+  const Eigen::AngleAxisd turn(degrees * 3.14159265 / 180.0, way.unitOrthogonal());
+  b_from_a = Rigid3::FromCentre(b_from_a.rotation, turn * way);
+}
+
+TEST(MisleadingPairs, AreThoseThatLeadOtherwiseThanTwoExplainedOnesByWayOfAThirdImage) {
+  const std::vector<ImagePair> by_way_of_3 = {Pair(2, 3), Pair(3, 4)};
+  Walk walk;
+  EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3));
+  LeadOff(3.0, walk);
+  EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3));
+  LeadOff(12.0, walk);
+  EXPECT_TRUE(walk.IsMisleading(2, 4, by_way_of_3));
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(3, 4)})) << "one of them may be what is wrong";
+  walk.PairOf(3, 4).inliers.resize(walk.PairOf(2, 4).inliers.size() - 1);
+  EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3)) << "a weak one";
+}
+
+/// Any direction between those of the two ways is right for some lengths of them, and lengths are
+/// what may be wrong.
+TEST(MisleadingPairs, LengthsOfTheWaysDoNotMatter) {
+  Walk walk;
+  Rigid3& corner = walk.street.world.cams_from_world[4];
+  corner = Rigid3::FromCentre(
+      corner.rotation, walk.street.world.cams_from_world[3].Centre() + Vector3d(0.0, 3.0, 0.0));
+  const auto& poses = walk.street.world.cams_from_world;
+  for (const auto& [a, b] : {std::pair(2U, 4U), std::pair(3U, 4U)})
+    walk.PairOf(a, b).b_from_a = poses[b] * poses[a].Inverse();
+  Rigid3& b_from_a = walk.PairOf(2, 4).b_from_a;
+  const Vector3d way = b_from_a.Centre();
+  const Vector3d axis = poses[2].rotation * Vector3d::UnitZ();
+  for (const double degrees : {-50.0, -35.0, 0.0, 35.0, 50.0}) {
+    const Eigen::AngleAxisd turn(degrees * 3.14159265 / 180.0, axis);
+    b_from_a = Rigid3::FromCentre(b_from_a.rotation, turn * way);
+    EXPECT_EQ(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}), std::abs(degrees) > 49.0)
+        << degrees;
+  }
+}
+
+/// A walk whose pair of images 2 and 4 has rays that hardly part, those of others by 20 degrees.
+struct StillWalk : Walk {
+  StillWalk() {
+    for (TwoViewGeometry& geometry : street.world.problem.pairs) geometry.median_angle_rad = 0.35;
+    PairOf(2, 4).median_angle_rad = 0.02;
+  }
+  bool StandsStill() const { return IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}); }
+};
+
+TEST(MisleadingPairs, AreThoseThatStandStillWhereTwoExplainedOnesGoOn) {
+  StillWalk walk;
+  EXPECT_TRUE(walk.StandsStill());
+  EXPECT_FALSE(walk.IsMisleading(2, 4, {Pair(2, 3)}));
+  EXPECT_FALSE(walk.IsMisleading(2, 4));
+  walk.PairOf(2, 4).median_angle_rad = 0.1;
+  EXPECT_FALSE(walk.StandsStill());
+}
+
+TEST(MisleadingPairs, ACameraThatComesBackSeesTheSame) {
+  StillWalk walk;
+  walk.PairOf(3, 4).b_from_a.translation *= -1.0;
+  EXPECT_FALSE(walk.StandsStill());
+}
+
+TEST(MisleadingPairs, NeitherAStopNorWeakPairsSayThatItWentOn) {
+  StillWalk stop;
+  stop.PairOf(3, 4).median_angle_rad = 0.03;
+  EXPECT_FALSE(stop.StandsStill());
+  StillWalk weak;
+  weak.PairOf(2, 3).inliers.resize(weak.PairOf(2, 4).inliers.size() / 2 - 1);
+  EXPECT_FALSE(weak.StandsStill());
+}
+
+}  // namespace
+}  // namespace orbweave
