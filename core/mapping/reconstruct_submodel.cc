@@ -120,11 +120,13 @@ absl::Status GrowFromSeeds(const ClusterProblem& problem,
     spent.NoteModel(state);
     const bool is_large =
         BorneOutImages(state) >= kGoodShare * CountReachable(graph, available, pair.a);
-    const bool is_contested =
-        is_large && ScheduleOf(options).relaxes_registration && IsContested(state, options);
+    std::optional<bool> asked;
+    if (is_large && ScheduleOf(options).relaxes_registration) asked = IsContested(state, options);
+    const bool is_contested = asked.value_or(false);
     if (!result.state || IsBetterModel(state, *result.state, options)) {
       result.state.emplace(std::move(state));
       result.started_globally = false;
+      result.is_contested = asked;
       log = own_log;
     }
     if (is_large && !is_contested) break;
@@ -215,6 +217,10 @@ absl::Status CompeteGlobally(const ClusterProblem& problem,
   return absl::OkStatus();
 }
 
+bool HasContestedState(const SubmodelResult& result, const MappingOptions& options) {
+  return result.is_contested ? *result.is_contested : IsContested(*result.state, options);
+}
+
 }  // namespace
 
 absl::StatusOr<SubmodelResult> ReconstructSubmodel(const ClusterProblem& problem,
@@ -234,7 +240,7 @@ absl::StatusOr<SubmodelResult> ReconstructSubmodel(const ClusterProblem& problem
   const bool may_compete = ScheduleOf(options).start == MappingStart::kIncremental &&
                            ScheduleOf(options).relaxes_registration;
   if (may_compete && (!result.state || LeavesImagesOut(graph, available, *result.state) ||
-                      IsContested(*result.state, options))) {
+                      HasContestedState(result, options))) {
     for (const GlobalStart start : {GlobalStart::kPairs, GlobalStart::kPositions}) {
       ORBWEAVE_RETURN_IF_ERROR(
           CompeteGlobally(problem, graph, available, start, options, log, context, result));

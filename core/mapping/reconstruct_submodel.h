@@ -14,6 +14,7 @@ struct SubmodelResult {
   std::optional<MappingState> state{};  ///< absent: nothing could be started
   GrowthReport growth{};                ///< of all starts together
   bool started_globally = false;
+  std::optional<bool> is_contested{};  ///< IsContested of the state, where it was asked
   std::string start_remark{};  ///< why not globally, or what speaks against it; empty: nothing
 };
 

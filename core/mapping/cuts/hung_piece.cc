@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <tuple>
 #include <utility>
 
 #include "core/graph/disjoint_sets.h"
@@ -21,21 +20,24 @@ constexpr size_t kAllPairs = 12;
 /// All joints, those of most telling points first, then of most points, then in order of their
 /// images.
 std::vector<Joint> JointsOf(const MappingState& state) {
-  std::vector<std::tuple<ImageSlot, ImageSlot, bool>> seen_by_both;
+  /// The other image of two that see a point, and whether that tells, by the first.
+  std::vector<std::vector<std::pair<ImageSlot, bool>>> seen_by_both(state.Graph().NumImages());
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesThatSee(state, p);
     const size_t reach = images.size() <= kAllPairs ? images.size() : 1;
     for (size_t i = 0; i < images.size(); ++i) {
       for (size_t j = i + 1; j < std::min(images.size(), i + 1 + reach); ++j)
-        seen_by_both.emplace_back(images[i], images[j], images.size() >= kImagesThatTellSize);
+        seen_by_both[images[i]].emplace_back(images[j], images.size() >= kImagesThatTellSize);
     }
   }
-  std::ranges::sort(seen_by_both);
   std::vector<Joint> joints;
-  for (const auto& [a, b, is_telling] : seen_by_both) {
-    if (joints.empty() || joints.back().a != a || joints.back().b != b) joints.push_back({a, b});
-    ++joints.back().points;
-    joints.back().telling += is_telling ? 1U : 0U;
+  for (ImageSlot a = 0; a < seen_by_both.size(); ++a) {
+    std::ranges::sort(seen_by_both[a]);
+    for (const auto& [b, is_telling] : seen_by_both[a]) {
+      if (joints.empty() || joints.back().a != a || joints.back().b != b) joints.push_back({a, b});
+      ++joints.back().points;
+      joints.back().telling += is_telling ? 1U : 0U;
+    }
   }
   std::ranges::stable_sort(joints, std::greater<>(), [](const Joint& joint) {
     return std::pair(joint.telling, joint.points);

@@ -62,10 +62,11 @@ std::vector<Sight> SightsOf(const MappingState& state, const Stations& stations,
   return sights;
 }
 
+/// The other two stations of triplets, one entry for each point, by the first of the three.
+using OthersOfFirst = std::vector<std::vector<std::pair<ImageSlot, ImageSlot>>>;
+
 /// Each three of the sights of a point of which each two are wide apart.
-void AddTriplets(const std::vector<Sight>& sights,
-                 double max_cosine,
-                 std::vector<Triplet>& triplets) {
+void AddTriplets(const std::vector<Sight>& sights, double max_cosine, OthersOfFirst& seen) {
   const auto is_wide = [&](size_t i, size_t j) {
     return sights[i].direction.dot(sights[j].direction) < max_cosine;
   };
@@ -74,7 +75,7 @@ void AddTriplets(const std::vector<Sight>& sights,
       if (!is_wide(i, j)) continue;
       for (size_t k = j + 1; k < sights.size(); ++k) {
         if (is_wide(i, k) && is_wide(j, k))
-          triplets.push_back({sights[i].station, sights[j].station, sights[k].station});
+          seen[sights[i].station].emplace_back(sights[j].station, sights[k].station);
       }
     }
   }
@@ -85,15 +86,17 @@ std::vector<Triplet> ToldTriplets(const MappingState& state,
                                   const Stations& stations,
                                   double min_angle_rad) {
   const double max_cosine = std::cos(min_angle_rad);
-  std::vector<Triplet> seen;  // by a point
+  OthersOfFirst seen(state.Graph().NumImages());
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p)
     AddTriplets(SightsOf(state, stations, p), max_cosine, seen);
-  std::ranges::sort(seen);
   std::vector<Triplet> told;
-  for (auto run = seen.begin(); run != seen.end();) {
-    const auto end = std::upper_bound(run, seen.end(), *run);
-    if (end - run >= kFewestThatTellSize) told.push_back(*run);
-    run = end;
+  for (ImageSlot first = 0; first < seen.size(); ++first) {
+    std::ranges::sort(seen[first]);
+    for (auto run = seen[first].begin(); run != seen[first].end();) {
+      const auto end = std::upper_bound(run, seen[first].end(), *run);
+      if (end - run >= kFewestThatTellSize) told.push_back({first, run->first, run->second});
+      run = end;
+    }
   }
   return told;
 }

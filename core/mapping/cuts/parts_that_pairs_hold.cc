@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "core/graph/disjoint_sets.h"
+#include "core/mapping/checks/find_contradicted_pairs.h"
 #include "core/mapping/lengths/find_length_faults.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/registered_sequence.h"
@@ -18,61 +20,133 @@
 namespace orbweave {
 namespace {
 
-/// A general pair of registered images, and how far the model agrees with it.
-struct AskedPair {
-  ImageSlot a = 0;
-  ImageSlot b = 0;
+/// What all pairs say of two sides that they join.
+struct PairsBetween {
   LengthAgreement matches{};
+  std::vector<uint32_t> pairs{};  ///< indices of the graph's
 };
 
-/// Unites the images of each line but across ways whose sides stand askew.
+/// Whether pairs hold two sides together.
+class Judge {
+ public:
+  Judge(const MappingState& state, const MappingOptions& options)
+      : state_(state), options_(options) {}
+
+  [[nodiscard]] bool HoldTogether(const PairsBetween& between) {
+    return !IsAskew(between.matches) && !AreTorn(between);
+  }
+  /// Whether every pair contradicts the model: the sides are torn whatever holds them elsewhere.
+  [[nodiscard]] bool AreTorn(const PairsBetween& between) {
+    return between.matches.Share() < kShareInPlanes &&
+           std::ranges::all_of(between.pairs, [&](uint32_t p) { return IsContradicted(p); });
+  }
+
+ private:
+  /// All are judged once one is asked for: in a right model none is.
+  bool IsContradicted(uint32_t p) {
+    if (!contradicted_) {
+      const std::vector<ImagePair> found = FindContradictedPairs(state_, options_);
+      contradicted_.emplace(found.begin(), found.end());
+    }
+    return contradicted_->contains(state_.Problem().pairs[state_.Graph().pairs[p].index].pair);
+  }
+
+  const MappingState& state_;
+  const MappingOptions& options_;
+  std::optional<std::set<ImagePair>> contradicted_{};
+};
+
+/// Images by part.
+class Parts {
+ public:
+  explicit Parts(uint32_t num_images) : sets_(num_images) {}
+
+  [[nodiscard]] uint32_t PartOf(ImageSlot image) { return sets_.Find(image); }
+  /// False when they were one already, or hold images that stay apart.
+  bool Unite(ImageSlot a, ImageSlot b) {
+    const auto sides = std::minmax({sets_.Find(a), sets_.Find(b)});
+    const bool stay_apart = std::ranges::any_of(torn_, [&](const auto& ends) {
+      return std::minmax({sets_.Find(ends.first), sets_.Find(ends.second)}) == sides;
+    });
+    return !stay_apart && sets_.Unite(a, b);
+  }
+  void KeepApart(ImageSlot a, ImageSlot b) { torn_.emplace_back(a, b); }
+  [[nodiscard]] std::vector<std::vector<ImageSlot>> List(const MappingState& state) {
+    return sets_.SetsOf(state.Registered());
+  }
+
+ private:
+  DisjointSets sets_;
+  std::vector<std::pair<ImageSlot, ImageSlot>> torn_{};
+};
+
+/// Unites the images of each line but across ways that pairs do not hold together.
 void UniteAlongLines(const MappingState& state,
                      const RegisteredSequence& places,
-                     double tolerance_px,
-                     DisjointSets& parts) {
-  for (const WayAlongLine& way : WaysAlongLines(state, places)) {
-    if (!IsAskew(MatchesAcross(state, way, tolerance_px))) parts.Unite(way.image, way.next);
+                     AgreeingMatches& matches,
+                     Judge& judge,
+                     Parts& parts) {
+  for (WayAlongLine& way : WaysAlongLines(state, places)) {
+    const PairsBetween across{matches.Across(way), std::move(way.pairs)};
+    if (judge.HoldTogether(across)) {
+      parts.Unite(way.image, way.next);
+    } else if (judge.AreTorn(across)) {
+      parts.KeepApart(way.image, way.next);
+    }
   }
 }
+
+/// A pair of registered images, and how far the model agrees with it.
+struct AskedPair {
+  uint32_t index = 0;  ///< of the graph's
+  LengthAgreement matches{};
+};
 
 /// Unites the images of pairs of two lines that hold them together; returns the other pairs.
 std::vector<AskedPair> UniteLines(const MappingState& state,
                                   const RegisteredSequence& places,
-                                  double tolerance_px,
+                                  AgreeingMatches& matches,
                                   int min_inliers,
-                                  DisjointSets& parts) {
+                                  Parts& parts) {
   std::vector<AskedPair> others;
-  for (const LinkedPair& pair : state.Graph().pairs) {
+  const std::vector<LinkedPair>& pairs = state.Graph().pairs;
+  for (uint32_t p = 0; p < pairs.size(); ++p) {
+    const LinkedPair& pair = pairs[p];
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;
-    const LengthAgreement matches = AgreementOfMatches(state, pair, tolerance_px);
-    const bool holds =
-        matches.told == 0.0 ||
-        (matches.agreeing >= min_inliers && matches.agreeing > kAgreeingPairShare * matches.told);
+    const LengthAgreement& asked = matches.OfPair(p);
+    const bool holds = asked.told == 0.0 || (asked.agreeing >= min_inliers &&
+                                             asked.agreeing > kAgreeingPairShare * asked.told);
     if (holds && places.LineOf(pair.a) != places.LineOf(pair.b)) {
       parts.Unite(pair.a, pair.b);
     } else {
-      others.push_back({pair.a, pair.b, matches});
+      others.push_back({p, asked});
     }
   }
   return others;
 }
 
-using MatchesBetween = std::map<std::pair<uint32_t, uint32_t>, LengthAgreement>;
+using PairsOfParts = std::map<std::pair<uint32_t, uint32_t>, PairsBetween>;
 
-MatchesBetween SumBetween(const std::vector<AskedPair>& pairs, DisjointSets& parts) {
-  MatchesBetween between;
-  for (const AskedPair& pair : pairs) {
-    const auto sides = std::minmax({parts.Find(pair.a), parts.Find(pair.b)});
-    if (sides.first != sides.second) between[sides].Add(pair.matches);
+PairsOfParts SumBetween(const MappingState& state,
+                        const std::vector<AskedPair>& pairs,
+                        Parts& parts) {
+  PairsOfParts sums;
+  for (const AskedPair& asked : pairs) {
+    const LinkedPair& pair = state.Graph().pairs[asked.index];
+    const auto sides = std::minmax({parts.PartOf(pair.a), parts.PartOf(pair.b)});
+    if (sides.first == sides.second) continue;
+    PairsBetween& between = sums[sides];
+    between.matches.Add(asked.matches);
+    between.pairs.push_back(asked.index);
   }
-  return between;
+  return sums;
 }
 
-/// Unites parts whose pairs are not askew to each other; whether there were any.
-bool UniteAlike(const MatchesBetween& between, DisjointSets& parts) {
+/// Unites parts that pairs hold together; whether there were any.
+bool UniteHeld(const PairsOfParts& sums, Judge& judge, Parts& parts) {
   bool has_united = false;
-  for (const auto& [sides, matches] : between) {
-    if (!IsAskew(matches)) has_united |= parts.Unite(sides.first, sides.second);
+  for (const auto& [sides, between] : sums) {
+    if (judge.HoldTogether(between)) has_united |= parts.Unite(sides.first, sides.second);
   }
   return has_united;
 }
@@ -81,21 +155,24 @@ bool UniteAlike(const MatchesBetween& between, DisjointSets& parts) {
 
 std::vector<std::vector<ImageSlot>> PartsThatPairsHold(const MappingState& state,
                                                        const MappingOptions& options) {
-  DisjointSets sets(state.Graph().NumImages());
+  Parts parts(state.Graph().NumImages());
   const double tolerance_px = kMatchTolerance * options.max_error_px;
   const RegisteredSequence places(state, tolerance_px);
-  UniteAlongLines(state, places, tolerance_px, sets);
+  Judge judge(state, options);
+  AgreeingMatches matches(state, tolerance_px);
+  UniteAlongLines(state, places, matches, judge, parts);
   const std::vector<AskedPair> others =
-      UniteLines(state, places, tolerance_px, options.min_inliers, sets);
-  MatchesBetween between = SumBetween(others, sets);
-  while (UniteAlike(between, sets)) between = SumBetween(others, sets);
+      UniteLines(state, places, matches, options.min_inliers, parts);
+  PairsOfParts sums = SumBetween(state, others, parts);
+  while (UniteHeld(sums, judge, parts)) sums = SumBetween(state, others, parts);
   std::set<uint32_t> askew;
-  for (const auto& [sides, matches] : between) askew.insert({sides.first, sides.second});
-  std::vector<std::vector<ImageSlot>> parts = sets.SetsOf(state.Registered());
-  for (const std::vector<ImageSlot>& part : parts) {
-    if (!askew.contains(sets.Find(part.front()))) sets.Unite(part.front(), parts.front().front());
+  for (const auto& [sides, between] : sums) askew.insert({sides.first, sides.second});
+  const std::vector<std::vector<ImageSlot>> listed = parts.List(state);
+  for (const std::vector<ImageSlot>& part : listed) {
+    if (!askew.contains(parts.PartOf(part.front())))
+      parts.Unite(part.front(), listed.front().front());
   }
-  return sets.SetsOf(state.Registered());
+  return parts.List(state);
 }
 
 }  // namespace orbweave

@@ -4,6 +4,7 @@
 #include "core/mapping/lengths/find_gap_shift.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -102,6 +103,17 @@ class Crossings {
     return shifts.empty() ? shift : Quantile(std::move(shifts), 0.5);
   }
 
+  /// So many or fewer agree with any shift between two.
+  [[nodiscard]] double MostWithin(double low, double high) const {
+    double most = 0.0;
+    for (const Crossing& crossing : crossings_) {
+      const auto length = [&](double shift) { return (crossing.step + shift * way_).norm(); };
+      const double nearest = std::clamp(-crossing.step.dot(way_), low, high);
+      most += crossing.told.MostWithin(length(nearest), std::max(length(low), length(high)));
+    }
+    return most;
+  }
+
   /// The shift between two with which most agree; elsewhere is 0 where votes of none crowd there.
   [[nodiscard]] GapShift BestWithin(double low, double high) const {
     GapShift best{.here = CountAgreeing(0.0)};
@@ -115,9 +127,18 @@ class Crossings {
     return best;
   }
 
-  [[nodiscard]] double CountRivals() const {
-    return std::max(BestWithin(kFarthestBack * length_, -kRivalShare * length_).elsewhere,
-                    BestWithin(kRivalShare * length_, kFarthest * length_).elsewhere);
+  /// Those with the best rival; more where that many leave no doubt (GapShift::IsHere).
+  [[nodiscard]] double CountRivals(double here) const {
+    const std::array<std::pair<double, double>, 2> ranges = {
+        {{kFarthestBack * length_, -kRivalShare * length_},
+         {kRivalShare * length_, kFarthest * length_}}};
+    double most = 0.0;
+    for (const auto& [low, high] : ranges) most = std::max(most, MostWithin(low, high));
+    if (GapShift{.here = here, .rival = most}.IsHere()) return most;
+    double rivals = 0.0;
+    for (const auto& [low, high] : ranges)
+      rivals = std::max(rivals, BestWithin(low, high).elsewhere);
+    return rivals;
   }
 
  private:
@@ -163,8 +184,9 @@ GapShift FindGapShift(const AskedRays& asked,
                       std::span<const LengthVote> votes) {
   if (!TellEnough(votes)) return {};
   const Crossings crossings(asked, gap, votes);
-  GapShift best{.here = crossings.CountAgreeing(0.0), .rival = crossings.CountRivals()};
+  GapShift best{.here = crossings.CountAgreeing(0.0)};
   best.elsewhere = best.here;
+  best.rival = crossings.CountRivals(best.here);
   for (const double candidate : crossings.Candidates()) {
     for (const double shift : {candidate, crossings.Refined(candidate)}) {
       const double agreeing = crossings.CountAgreeing(shift);
@@ -180,8 +202,13 @@ GapShift FindGapShiftWithin(const AskedRays& asked,
                             const GapVotes& gap,
                             std::span<const LengthVote> votes,
                             double low,
-                            double high) {
-  return Crossings(asked, gap, votes).BestWithin(low, high);
+                            double high,
+                            double min_deviations) {
+  const Crossings crossings(asked, gap, votes);
+  const double here = crossings.CountAgreeing(0.0);
+  if (DeviationsElsewhere(here, crossings.MostWithin(low, high)) <= min_deviations)
+    return {.here = here};
+  return crossings.BestWithin(low, high);
 }
 
 }  // namespace orbweave

@@ -16,7 +16,6 @@ namespace {
 constexpr double kFewestRays = 50.0;
 constexpr uint32_t kFewestPairs = 3;
 constexpr double kDeviations = 2.0;
-constexpr double kDeviationsOfWall = 1.5;
 
 struct Sum {
   LengthAgreement agreement{};

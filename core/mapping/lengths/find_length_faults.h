@@ -35,6 +35,7 @@ inline constexpr double kMinAgreeingMatches = 1.0 / 3.0;
 /// Two of them: another length is clearly what is told.
 [[nodiscard]] bool IsToldElsewhere(double here, double elsewhere);
 /// The same of rays to one wall of a street (FindWallShift), one and a half of them.
+inline constexpr double kDeviationsOfWall = 1.5;
 [[nodiscard]] bool IsToldByWall(double here, double elsewhere);
 
 /// What is wrong, and of what the agreement is.

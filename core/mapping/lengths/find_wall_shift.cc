@@ -29,17 +29,19 @@ std::array<std::vector<LengthVote>, 2> SplitByWalls(const MappingState& state,
   const Vector3d way = (state.Centre(gap.next) - state.Centre(gap.image)).normalized();
   const Vector3d across = way.unitOrthogonal();
   const Vector3d third = way.cross(across);
-  std::vector<double> azimuths;
+  std::vector<std::complex<double>> rays;  // across the way
+  rays.reserve(votes.size());
   std::complex<double> sum;
   for (const LengthVote& vote : votes) {
     const Vector3d ray = RayInWorld(state, vote.ray);
-    azimuths.push_back(std::atan2(ray.dot(third), ray.dot(across)));
-    sum += std::polar(1.0, 2.0 * azimuths.back());
+    const std::complex<double> z(ray.dot(across), ray.dot(third));
+    rays.push_back(z);
+    if (const double squared = std::norm(z); squared > 0.0) sum += z * z / squared;
   }
-  const double axis = 0.5 * std::arg(sum);
+  const std::complex<double> axis = std::polar(1.0, 0.5 * std::arg(sum));
   std::array<std::vector<LengthVote>, 2> walls;
   for (size_t i = 0; i < votes.size(); ++i)
-    walls[std::cos(azimuths[i] - axis) > 0.0 ? 0 : 1].push_back(votes[i]);
+    walls[std::real(rays[i] * std::conj(axis)) > 0.0 ? 0 : 1].push_back(votes[i]);
   return walls;
 }
 
@@ -51,9 +53,11 @@ GapShift FindWallShift(const AskedRays& asked, const GapVotes& gap) {
   GapShift clearest;
   for (const std::vector<LengthVote>& wall : SplitByWalls(asked.state, gap, votes)) {
     if (!TellEnough(wall)) continue;
-    const GapShift shift = FindGapShiftWithin(asked, gap, wall, -farthest, farthest);
-    if (DeviationsElsewhere(shift.here, shift.elsewhere) >
-        DeviationsElsewhere(clearest.here, clearest.elsewhere))
+    const GapShift shift =
+        FindGapShiftWithin(asked, gap, wall, -farthest, farthest, kDeviationsOfWall);
+    if (IsToldByWall(shift.here, shift.elsewhere) &&
+        DeviationsElsewhere(shift.here, shift.elsewhere) >
+            DeviationsElsewhere(clearest.here, clearest.elsewhere))
       clearest = shift;
   }
   return clearest;

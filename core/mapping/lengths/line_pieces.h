@@ -22,6 +22,8 @@ class LinePieces {
   /// From `first` to the end of its line.
   [[nodiscard]] std::vector<ImageSlot> From(ImageSlot first) const;
   [[nodiscard]] bool AreOfOneLine(ImageSlot one, ImageSlot other) const;
+  /// The lines.
+  [[nodiscard]] const RegisteredSequence& Places() const { return places_; }
 
  private:
   /// The image of a line with which one of another has most matches.

@@ -87,6 +87,7 @@ uint32_t MatchesOfNeighbours(const MappingState& state, const GapVotes& gap) {
 std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays* gnss) {
   std::vector<GapLength> gaps;
   const std::map<ImageSlot, double> scale_jumps = MeasureScaleJumps(asked);
+  AgreeingMatches matches(asked.state, kMatchTolerance * asked.max_error_px);
   for (const GapVotes& votes : CollectGapVotes(asked)) {
     const Side before = SideOf(votes, votes.before, asked);
     const Side behind = SideOf(votes, votes.behind, asked);
@@ -97,7 +98,7 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
     gap.here = wants_another.here;
     gap.elsewhere = wants_another.elsewhere;
     gap.scale_jump = scale_jumps.at(votes.image);
-    gap.matches = MatchesAcross(asked.state, votes, kMatchTolerance * asked.max_error_px);
+    gap.matches = matches.Across(votes);
     gap.rays = std::max(votes.asked, MatchesOfNeighbours(asked.state, votes));
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     const GapShift wall = FindWallShift(asked, votes);

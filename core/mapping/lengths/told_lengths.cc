@@ -23,17 +23,21 @@ std::span<const double> CloseTo(std::span<const double> sorted, double log_lengt
   return {first, last};
 }
 
-/// The middle of the interval of agreeing values that holds most of them; the first of several.
-double DensestOf(std::span<const double> sorted) {
-  double mode = 0.0;
-  ptrdiff_t most = 0;
+/// The interval of agreeing values that holds most of them.
+struct Crowd {
+  double middle = 0.0;
+  ptrdiff_t size = 0;
+};
+
+/// The first of several that hold as many.
+Crowd DensestOf(std::span<const double> sorted) {
+  Crowd most;
+  auto last = sorted.begin();
   for (auto first = sorted.begin(); first != sorted.end(); ++first) {
-    const auto last = std::upper_bound(first, sorted.end(), *first + 2.0 * kCloseTolerance);
-    if (last - first <= most) continue;
-    most = last - first;
-    mode = 0.5 * (*first + *(last - 1));
+    while (last != sorted.end() && *last <= *first + 2.0 * kCloseTolerance) ++last;
+    if (last - first > most.size) most = {0.5 * (*first + *(last - 1)), last - first};
   }
-  return mode;
+  return most;
 }
 
 }  // namespace
@@ -41,20 +45,31 @@ double DensestOf(std::span<const double> sorted) {
 ToldLengths::ToldLengths(const Eigen::Vector3d& direction, std::vector<double> log_lengths)
     : direction_(direction), log_lengths_(std::move(log_lengths)) {
   std::ranges::sort(log_lengths_);
+  lengths_.reserve(log_lengths_.size());
+  for (const double each : log_lengths_) lengths_.push_back(std::exp(each));
 }
 
 double ToldLengths::CountAgreeing(const Eigen::Vector3d& step) const {
   const double length = step.norm();
   if (!(length > 0.0) || step.dot(direction_) < kMinCosDirection * length) return 0.0;
-  const auto count = static_cast<double>(CloseTo(log_lengths_, std::log(length)).size());
-  return count * std::min(1.0, kMaxRays / static_cast<double>(log_lengths_.size()));
+  return WeightOfRay() * static_cast<double>(CloseTo(log_lengths_, std::log(length)).size());
+}
+
+double ToldLengths::WeightOfRay() const {
+  return std::min(1.0, kMaxRays / static_cast<double>(log_lengths_.size()));
+}
+
+double ToldLengths::MostWithin(double shortest, double longest) const {
+  const auto first = std::ranges::lower_bound(log_lengths_, std::log(shortest) - kCloseTolerance);
+  const auto last = std::ranges::upper_bound(log_lengths_, std::log(longest) + kCloseTolerance);
+  return first < last ? WeightOfRay() * static_cast<double>(DensestOf({first, last}).size) : 0.0;
 }
 
 std::vector<double> ToldLengths::Modes() const {
   std::vector<double> left = log_lengths_;
   std::vector<double> modes;
   while (modes.size() < kModes && !left.empty()) {
-    const double mode = DensestOf(left);
+    const double mode = DensestOf(left).middle;
     modes.push_back(std::exp(mode));
     std::erase_if(left, [mode](double each) { return std::abs(each - mode) <= kCloseTolerance; });
   }
@@ -65,13 +80,13 @@ std::optional<double> ToldLengths::ModeWithin(double shortest, double longest) c
   const auto first = std::ranges::lower_bound(log_lengths_, std::log(shortest));
   const auto last = std::ranges::upper_bound(log_lengths_, std::log(longest));
   if (first >= last) return std::nullopt;
-  return std::exp(DensestOf({first, last}));
+  return std::exp(DensestOf({first, last}).middle);
 }
 
-std::vector<double> ToldLengths::Near(double length) const {
-  std::vector<double> near;
-  for (const double each : CloseTo(log_lengths_, std::log(length))) near.push_back(std::exp(each));
-  return near;
+std::span<const double> ToldLengths::Near(double length) const {
+  const std::span<const double> near = CloseTo(log_lengths_, std::log(length));
+  return std::span(lengths_).subspan(static_cast<size_t>(near.data() - log_lengths_.data()),
+                                     near.size());
 }
 
 }  // namespace orbweave

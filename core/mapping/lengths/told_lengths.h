@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace orbweave {
@@ -22,14 +23,20 @@ class ToldLengths {
   /// Lengths that most say, two at most: the middle of the closely agreeing interval that holds
   /// most, and the same of what is left without it.
   [[nodiscard]] std::vector<double> Modes() const;
+  /// So many or fewer agree closely with any one length between two (CountAgreeing).
+  [[nodiscard]] double MostWithin(double shortest, double longest) const;
   /// The length between two that most say; nullopt where none does.
   [[nodiscard]] std::optional<double> ModeWithin(double shortest, double longest) const;
-  /// Those that agree closely with a length.
-  [[nodiscard]] std::vector<double> Near(double length) const;
+  /// Those that agree closely with a length, ascending. Refers to this.
+  [[nodiscard]] std::span<const double> Near(double length) const;
 
  private:
+  /// The weight of one ray, 50 of the pair at most.
+  [[nodiscard]] double WeightOfRay() const;
+
   Eigen::Vector3d direction_;
   std::vector<double> log_lengths_;  ///< ascending
+  std::vector<double> lengths_{};    ///< the same
 };
 
 }  // namespace orbweave

@@ -43,12 +43,15 @@ std::vector<WayAlongLine> WaysAlongLines(const MappingState& state,
   return ways;
 }
 
-LengthAgreement MatchesAcross(const MappingState& state,
-                              const WayAlongLine& way,
-                              double tolerance_px) {
+const LengthAgreement& AgreeingMatches::OfPair(uint32_t pair) {
+  std::optional<LengthAgreement>& asked = of_pair_[pair];
+  if (!asked) asked = AgreementOfMatches(state_, state_.Graph().pairs[pair], tolerance_px_);
+  return *asked;
+}
+
+LengthAgreement AgreeingMatches::Across(const WayAlongLine& way) {
   LengthAgreement matches;
-  for (const uint32_t pair : way.pairs)
-    matches.Add(AgreementOfMatches(state, state.Graph().pairs[pair], tolerance_px));
+  for (const uint32_t pair : way.pairs) matches.Add(OfPair(pair));
   return matches;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/mapping/lengths/pair_length.h"
@@ -23,9 +24,22 @@ struct WayAlongLine {
 [[nodiscard]] std::vector<WayAlongLine> WaysAlongLines(const MappingState& state,
                                                        const RegisteredSequence& places);
 
-/// Matches of the pairs that lead across, and those that agree (GapLength::matches).
-[[nodiscard]] LengthAgreement MatchesAcross(const MappingState& state,
-                                            const WayAlongLine& way,
-                                            double tolerance_px);
+/// Matches of the pairs of a model, and those that agree (AgreementOfMatches); each pair is asked
+/// once. Refers to the state, which stays as it is.
+class AgreeingMatches {
+ public:
+  AgreeingMatches(const MappingState& state, double tolerance_px)
+      : state_(state), tolerance_px_(tolerance_px), of_pair_(state.Graph().pairs.size()) {}
+
+  /// By its place in the graph's.
+  [[nodiscard]] const LengthAgreement& OfPair(uint32_t pair);
+  /// Of all pairs that lead across (GapLength::matches).
+  [[nodiscard]] LengthAgreement Across(const WayAlongLine& way);
+
+ private:
+  const MappingState& state_;
+  double tolerance_px_;
+  std::vector<std::optional<LengthAgreement>> of_pair_;
+};
 
 }  // namespace orbweave

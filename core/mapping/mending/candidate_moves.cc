@@ -18,7 +18,6 @@
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/measure_gap_lengths.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
-#include "core/mapping/lengths/registered_sequence.h"
 
 namespace orbweave {
 namespace {
@@ -169,12 +168,11 @@ std::vector<CandidateMove> ListShifts(const MappingState& state, const MappingOp
 }
 
 std::vector<CandidateMove> ListTurns(const MappingState& state, const MappingOptions& options) {
-  const double tolerance_px = kMatchTolerance * options.max_error_px;
-  const RegisteredSequence places(state, tolerance_px);
   const LinePieces pieces(state, options);
   std::vector<CandidateMove> turns;
-  for (const WayAlongLine& way : WaysAlongLines(state, places)) {
-    if (!IsAskew(MatchesAcross(state, way, tolerance_px))) continue;
+  AgreeingMatches matches(state, kMatchTolerance * options.max_error_px);
+  for (const WayAlongLine& way : WaysAlongLines(state, pieces.Places())) {
+    if (!IsAskew(matches.Across(way))) continue;
     const std::vector<ImageSlot> piece = pieces.From(way.next);
     for (const uint32_t pair : StrongestOf(state, way.pairs)) {
       CandidateMove turn = TurnedBy(state, state.Graph().pairs[pair], piece);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "core/geometry/epipolar.h"
@@ -41,17 +42,19 @@ struct MatchCount {
   uint32_t far_agreeing = 0;
 };
 
-/// Nothing agrees with a pose in the same place.
+/// Nothing agrees with a pose in the same place. Not all are counted once `enough` of those with
+/// parallax agree.
 MatchCount CountMatches(const Rigid3& cam_from_world,
                         const ViewMatches& matches,
-                        double max_error_rad) {
+                        double max_error_rad,
+                        double enough = std::numeric_limits<double>::infinity()) {
   Rigid3 cam_from_view = cam_from_world * matches.view_from_world.Inverse();
   const bool has_baseline = cam_from_view.translation.norm() > 0.0;
   cam_from_view.translation.normalize();
   const PoseOfRays rays_of(cam_from_view);
   const double min_cos_far = std::cos(2.0 * max_error_rad);
   MatchCount count;
-  for (size_t i = 0; i < matches.in_view.size(); ++i) {
+  for (size_t i = 0; i < matches.in_view.size() && count.near_agreeing < enough; ++i) {
     const RayPair rays = rays_of(matches.in_view[i], matches.in_image[i]);
     const bool is_far = rays.cosine > min_cos_far;
     count.near += is_far ? 0U : 1U;
@@ -108,8 +111,10 @@ bool ContradictsStrongPair(const Rigid3& cam_from_world,
                            double max_error_rad) {
   return std::ranges::any_of(views, [&](const ViewMatches& view) {
     if (2 * view.in_view.size() < views.front().in_view.size()) return false;
-    const MatchCount count = CountMatches(cam_from_world, view, kPairSlack * max_error_rad);
-    return count.near >= kTellingParallax * static_cast<double>(view.in_view.size()) &&
+    const auto num_matches = static_cast<double>(view.in_view.size());
+    const MatchCount count = CountMatches(
+        cam_from_world, view, kPairSlack * max_error_rad, kAgreeingPairShare * num_matches);
+    return count.near >= kTellingParallax * num_matches &&
            count.near_agreeing < kAgreeingPairShare * count.near;
   });
 }

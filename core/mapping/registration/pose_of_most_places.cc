@@ -4,10 +4,10 @@
 #include "core/mapping/registration/pose_of_most_places.h"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "core/estimators/estimate_absolute_pose.h"
@@ -24,7 +24,9 @@ constexpr size_t kMaxViews = 5;
 constexpr size_t kMaxLengths = 100;  ///< per view that are tried
 constexpr int kMaxRounds = 3;        ///< of refinement
 
-using Places = std::bitset<static_cast<size_t>(kSpreadCells) * kSpreadCells>;
+constexpr uint32_t kCells = kSpreadCells * kSpreadCells;
+
+using Places = std::bitset<kCells>;
 
 /// The places of correspondences that agree with cameras of one rotation.
 class PlaceCounter {
@@ -38,15 +40,15 @@ class PlaceCounter {
       rays_.push_back(cam_from_world.conjugate() * bearing);
       cells.push_back(SphereCell(bearing, kSpreadCells));
     }
-    by_place_.resize(rays_.size());
-    std::iota(by_place_.begin(), by_place_.end(), 0U);
-    std::ranges::stable_sort(by_place_, {}, [&](uint32_t i) { return cells[i]; });
-    for (uint32_t k = 0; k < by_place_.size(); ++k) {
-      const uint32_t cell = cells[by_place_[k]];
-      if (places_.empty() || places_.back().cell != cell)
-        places_.push_back({.cell = cell, .first = k});
-      places_.back().end = k + 1;
+    std::array<uint32_t, kCells + 1> next{};  // of each cell in by_place_
+    for (const uint32_t cell : cells) ++next[cell + 1];
+    for (uint32_t cell = 0; cell < kCells; ++cell) {
+      const uint32_t first = next[cell];
+      next[cell + 1] += first;
+      if (next[cell + 1] > first) places_.push_back({cell, first, next[cell + 1]});
     }
+    by_place_.resize(rays_.size());
+    for (uint32_t i = 0; i < cells.size(); ++i) by_place_[next[cells[i]]++] = i;
   }
 
   [[nodiscard]] Places At(const Vector3d& centre) const {
@@ -177,6 +179,7 @@ bool HasClearlyMorePlaces(const Rigid3& x,
                           const SceneCorrespondences& correspondences,
                           double max_error_rad) {
   constexpr double kDeviations = 2.0;
+  if (x.translation == y.translation && x.rotation.coeffs() == y.rotation.coeffs()) return false;
   const Places of_x = PlacesOf(x, correspondences, max_error_rad);
   const Places of_y = PlacesOf(y, correspondences, max_error_rad);
   const auto x_alone = static_cast<double>((of_x & ~of_y).count());
