@@ -12,6 +12,7 @@
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/checks/find_contradicted_pairs.h"
 #include "core/mapping/lengths/find_length_faults.h"
+#include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/registered_sequence.h"
 #include "core/mapping/lengths/ways_along_lines.h"
@@ -35,10 +36,12 @@ class Judge {
   [[nodiscard]] bool HoldTogether(const PairsBetween& between) {
     return !IsAskew(between.matches) && !AreTorn(between);
   }
-  /// Whether every pair contradicts the model: the sides are torn whatever holds them elsewhere.
+  /// Whether every pair contradicts the model and leads elsewhere, or turns otherwise
+  /// (LogLengthOfPair): the sides are torn whatever holds them at another place.
   [[nodiscard]] bool AreTorn(const PairsBetween& between) {
-    return between.matches.Share() < kShareInPlanes &&
-           std::ranges::all_of(between.pairs, [&](uint32_t p) { return IsContradicted(p); });
+    return !between.pairs.empty() && std::ranges::all_of(between.pairs, [&](uint32_t p) {
+      return !LogLengthOfPair(state_, state_.Graph().pairs[p]) && IsContradicted(p);
+    });
   }
 
  private:

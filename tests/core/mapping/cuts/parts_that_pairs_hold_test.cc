@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mapping/checks/find_contradicted_pairs.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "tests/core/mapping/broken_street.h"
 
@@ -145,6 +146,15 @@ TEST(PartsThatPairsHold, APairThatTheModelContradictsHoldsNothingThoughHalfOfItA
   const LinkedPair& pair = PairBetween(torn, 1);
   EXPECT_NEAR(AgreementOfMatches(torn, pair, 8.0).Share(), 0.5, 0.1) << "is not askew";
   EXPECT_THAT(SizesOf(PartsThatPairsHold(torn, {})), ElementsAre(12U, 12U));
+}
+
+/// A pair of few matches may be some degrees off, and the model that points hold right.
+TEST(PartsThatPairsHold, APairThatLeadsAboutTheSameWayTearsNothing) {
+  BrokenStreet street({.pairs_between = 1});
+  AddMatchesAtTheHorizon(street);
+  const MappingState bent = SetAside(street, 5.0);
+  EXPECT_FALSE(FindContradictedPairs(bent, {}).empty());
+  EXPECT_THAT(SizesOf(PartsThatPairsHold(bent, {})), ElementsAre(24U));
 }
 
 TEST(PartsThatPairsHold, APairThatIsNotContradictedHoldsThemBesideOneThatIs) {
