@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "core/geometry/rotation.h"
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/checks/find_contradicted_pairs.h"
 #include "core/mapping/lengths/find_length_faults.h"
-#include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/registered_sequence.h"
 #include "core/mapping/lengths/ways_along_lines.h"
@@ -20,6 +21,19 @@
 
 namespace orbweave {
 namespace {
+
+/// Further off than a loop that does not close: such were 6 and 14 degrees.
+constexpr double kElsewhereDeg = 20.0;
+
+/// Whether a pair leads elsewhere than the model, or turns otherwise.
+bool LeadsElsewhere(const MappingState& state, const LinkedPair& pair) {
+  const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
+  if (geometry.kind != TwoViewKind::kGeneral) return false;
+  const Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
+  const double off_rad = std::max(b_from_a.rotation.angularDistance(geometry.b_from_a.rotation),
+                                  AngleBetween(b_from_a.Centre(), geometry.b_from_a.Centre()));
+  return off_rad > kElsewhereDeg / 180.0 * std::numbers::pi;
+}
 
 /// What all pairs say of two sides that they join.
 struct PairsBetween {
@@ -36,11 +50,11 @@ class Judge {
   [[nodiscard]] bool HoldTogether(const PairsBetween& between) {
     return !IsAskew(between.matches) && !AreTorn(between);
   }
-  /// Whether every pair contradicts the model and leads elsewhere, or turns otherwise
-  /// (LogLengthOfPair): the sides are torn whatever holds them at another place.
+  /// Whether every pair contradicts the model and leads elsewhere: the sides are torn whatever
+  /// holds them at another place.
   [[nodiscard]] bool AreTorn(const PairsBetween& between) {
     return !between.pairs.empty() && std::ranges::all_of(between.pairs, [&](uint32_t p) {
-      return !LogLengthOfPair(state_, state_.Graph().pairs[p]) && IsContradicted(p);
+      return LeadsElsewhere(state_, state_.Graph().pairs[p]) && IsContradicted(p);
     });
   }
 

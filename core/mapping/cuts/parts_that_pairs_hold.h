@@ -11,8 +11,8 @@ namespace orbweave {
 
 /// The registered images in parts that verified pairs hold together. Between two of them fewer than
 /// a third of the matches lie where the model has the two stand and turn to each other (IsAskew),
-/// or every pair contradicts the model (JudgePairs) and leads elsewhere or turns otherwise
-/// (LogLengthOfPair): of 1,267 matches round a corner half agreed with a model that had the second
+/// or every pair contradicts the model (JudgePairs) and leads elsewhere or turns otherwise, by
+/// 20 degrees or more: of 1,267 matches round a corner half agreed with a model that had the second
 /// image 80 degrees beside where it is, as they lay on the horizon. Each part may be right by
 /// itself; what put the one beside the other are a few points that outvoted pairs: 8 of the 400
 /// matches of a neighbour agreed in a street that was wrong from there on, 3 of 329 in another.

@@ -36,9 +36,9 @@ std::optional<LengthFault> TearAt(const GapLength& gap) {
     return LengthFault{gap.between.a, gap.between.b, agreement, kind};
   };
   if (IsAskew(gap.matches)) return tear(gap.matches, LengthFaultKind::kHinge);
-  if (gap.is_borne_out) return std::nullopt;
   if (const double scale = std::exp(-gap.scale_jump); scale < kMinScaleOfOther)
     return tear({.told = 1.0, .agreeing = scale}, LengthFaultKind::kScale);
+  if (gap.is_borne_out) return std::nullopt;
   if (Sum{gap.agreement, gap.pairs}.IsFault(kMinAgreeingAcross))
     return tear(gap.agreement, LengthFaultKind::kWay);
   if (IsToldElsewhere(gap.here, gap.elsewhere))

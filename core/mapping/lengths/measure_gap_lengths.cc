@@ -97,15 +97,16 @@ std::vector<GapLength> MeasureGapLengths(const AskedRays& asked, const GnssWays*
         gaps.emplace_back(TellsLess(before.length, behind.length) ? behind.length : before.length);
     gap.here = wants_another.here;
     gap.elsewhere = wants_another.elsewhere;
-    gap.scale_jump = scale_jumps.at(votes.image);
     gap.matches = matches.Across(votes);
     gap.rays = std::max(votes.asked, MatchesOfNeighbours(asked.state, votes));
     gap.telling_rays = static_cast<uint32_t>(std::max(votes.before.size(), votes.behind.size()));
     const GapShift wall = FindWallShift(asked, votes);
     gap.wall = {.told = wall.here + wall.elsewhere, .agreeing = wall.here};
-    gap.is_borne_out =
-        (AreTold(before.shift, behind.shift) && !IsToldByWall(wall.here, wall.elsewhere)) ||
-        (gnss != nullptr && IsBorneOut(asked, votes, *gnss, WishOf(wants_another, wall)));
+    const bool is_on_gnss =
+        gnss != nullptr && IsBorneOut(asked, votes, *gnss, WishOf(wants_another, wall));
+    gap.is_borne_out = is_on_gnss || (AreTold(before.shift, behind.shift) &&
+                                      !IsToldByWall(wall.here, wall.elsewhere));
+    gap.scale_jump = is_on_gnss ? 0.0 : scale_jumps.at(votes.image);
   }
   return gaps;
 }

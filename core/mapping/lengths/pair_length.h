@@ -37,7 +37,8 @@ struct GapLength {
   /// Rays to one wall of the street that say closely what the model has, of these and those of
   /// another length that they say (FindWallShift).
   LengthAgreement wall{};
-  double scale_jump = 0.0;  ///< |log| of the ratio of its sides' scales (MeasureScaleJumps)
+  /// |log| of the ratio of its sides' scales (MeasureScaleJumps); 0 where GNSS bears out the way.
+  double scale_jump = 0.0;
   /// Matches of the pairs that lead across, and those that agree with how the model has its two
   /// sides stand and turn to each other (AgreementOfMatches).
   LengthAgreement matches{};

@@ -152,7 +152,7 @@ TEST(PartsThatPairsHold, APairThatTheModelContradictsHoldsNothingThoughHalfOfItA
 TEST(PartsThatPairsHold, APairThatLeadsAboutTheSameWayTearsNothing) {
   BrokenStreet street({.pairs_between = 1});
   AddMatchesAtTheHorizon(street);
-  const MappingState bent = SetAside(street, 5.0);
+  const MappingState bent = SetAside(street, 2.0);
   EXPECT_FALSE(FindContradictedPairs(bent, {}).empty());
   EXPECT_THAT(SizesOf(PartsThatPairsHold(bent, {})), ElementsAre(24U));
 }
