@@ -24,6 +24,7 @@
 #include "core/merging/checks/check_leans.h"
 #include "core/merging/checks/check_missed_points.h"
 #include "core/merging/checks/check_sequence_steps.h"
+#include "core/merging/checks/check_vanished_steps.h"
 #include "core/merging/georeference/choose_local_frame.h"
 #include "core/merging/georeference/global_problem.h"
 #include "core/merging/georeference/judge_gnss.h"
@@ -231,6 +232,7 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   const std::map<ImageId, RegisteredImage> images = ModelImages(world);
   world.report.checks.push_back(CheckSequenceSteps(images, manifest, is_in_metres));
   world.report.checks.push_back(CheckEvenSteps(images, manifest));
+  world.report.checks.push_back(CheckVanishedSteps(images, manifest));
   if (is_in_metres) world.report.checks.push_back(CheckDriveMotion(images, manifest));
   world.report.checks.push_back(CheckMissedPoints(seen_between, images, manifest));
   world.report.checks.push_back(CheckLeans(images, manifest));

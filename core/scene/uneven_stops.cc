@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/quantile.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -117,6 +118,11 @@ std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
   return worst;
 }
 
+/// Whether a step is as long as those around.
+bool IsUsual(const Step& step, const Usual& usual) {
+  return step.places >= 1.0 && std::abs(step.Each() - usual.step) <= kEven * usual.step;
+}
+
 bool Overlap(const UnevenStop& one, const UnevenStop& other) {
   return one.first < other.last && other.first < one.last;
 }
@@ -160,6 +166,31 @@ bool IsBorneOut(const UnevenStop& uneven,
   const double by_gnss_m = at_m - uneven.even_share * length_m;
   return sigma_m <= kKnownShare * std::abs(off_m) &&
          std::abs(by_gnss_m - off_m) < std::abs(by_gnss_m);
+}
+
+std::vector<VanishedStep> FindVanishedSteps(std::span<const DriveStop> stops) {
+  const std::vector<Step> steps = StepsOf(stops);
+  std::vector<VanishedStep> found;
+  for (size_t i = 1; i + 1 < steps.size(); ++i) {
+    const std::optional<Usual> usual = UsualAround(steps, i, i + 1);
+    if (!usual || !IsUsual(steps[i - 1], *usual) || !IsUsual(steps[i + 1], *usual)) continue;
+    const double share = steps[i].length / usual->step;
+    const double most = std::min(kMostVanished_steps, 1.0 - usual->limit);
+    if (share > kSamePlace && share < most) found.push_back({i, usual->step, share});
+  }
+  return found;
+}
+
+bool IsBorneOut(const VanishedStep& vanished, const std::array<PosePrior, 4>& around) {
+  if (!std::ranges::all_of(
+          around, [](const PosePrior& prior) { return prior.position_in_enu.has_value(); }))
+    return false;
+  const double beside_m =
+      0.5 * (DistanceBetween(around[0], around[1]) + DistanceBetween(around[2], around[3]));
+  const double length_m = DistanceBetween(around[1], around[2]);
+  const double short_m = vanished.share * beside_m;
+  return SigmaBetween(around[1], around[2]) <= kKnownShare * (beside_m - short_m) &&
+         std::abs(length_m - short_m) < std::abs(length_m - beside_m);
 }
 
 }  // namespace orbweave

@@ -9,9 +9,7 @@
 #include <iterator>
 #include <vector>
 
-#include "core/scene/captures_along.h"
-#include "core/scene/sequence_of_drive.h"
-#include "core/scene/uneven_stops.h"
+#include "core/merging/checks/stops_of_drives.h"
 
 namespace orbweave {
 namespace {
@@ -22,26 +20,14 @@ struct OffPlace {
   double steps = 0.0;
 };
 
-/// Those of one drive, given in its order.
-std::vector<OffPlace> FindOffPlaces(const std::vector<ImageId>& drive,
-                                    const std::map<ImageId, RegisteredImage>& images,
-                                    const ImageManifest& manifest) {
-  const std::vector<uint32_t> captures = CapturesAlong(manifest, drive);
-  std::vector<DriveStop> stops;
-  std::vector<ImageId> stopped;
-  for (size_t i = 0; i < drive.size(); ++i) {
-    const auto found = images.find(drive[i]);
-    if (found == images.end() || found->second.loose) continue;
-    stops.push_back({captures[i], found->second.cam_from_world.Centre()});
-    stopped.push_back(drive[i]);
-  }
+std::vector<OffPlace> FindOffPlaces(const StopsOfDrive& drive, const ImageManifest& manifest) {
   std::vector<OffPlace> off;
-  for (const UnevenStop& uneven : FindUnevenStops(stops)) {
+  for (const UnevenStop& uneven : FindUnevenStops(drive.stops)) {
     const auto prior = [&](size_t stop) -> const PosePrior& {
-      return manifest.At(stopped[stop]).prior;
+      return manifest.At(drive.images[stop]).prior;
     };
     if (!IsBorneOut(uneven, prior(uneven.first), prior(uneven.stop), prior(uneven.last)))
-      off.push_back({stopped[uneven.stop], uneven.off_steps});
+      off.push_back({drive.images[uneven.stop], uneven.off_steps});
   }
   return off;
 }
@@ -52,8 +38,8 @@ CrossCheck CheckEvenSteps(const std::map<ImageId, RegisteredImage>& images,
                           const ImageManifest& manifest) {
   CrossCheck check{.name = "even_steps", .limit = kLeastUneven_steps, .unit = "step"};
   std::vector<OffPlace> off;
-  for (const auto& [drive, ids] : SequenceOfDrives(manifest))
-    std::ranges::copy(FindOffPlaces(ids, images, manifest), std::back_inserter(off));
+  for (const StopsOfDrive& drive : StopsOfDrives(images, manifest))
+    std::ranges::copy(FindOffPlaces(drive, manifest), std::back_inserter(off));
   if (off.empty()) {
     check.sentence = "no panorama stands off the even steps of its drive";
     return check;

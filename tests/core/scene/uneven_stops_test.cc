@@ -40,6 +40,21 @@ TEST(FindUnevenStops, FindsNothingInDrivesWhoseStepsVary) {
   EXPECT_THAT(FindUnevenStops({}), IsEmpty());
 }
 
+TEST(FindVanishedSteps, FindsTheOneWhateverTheScale) {
+  for (uint32_t seed = 0; seed < 100; ++seed) {
+    std::vector<DriveStop> stops = Drive(0.15, seed);
+    EXPECT_THAT(FindVanishedSteps(stops), IsEmpty()) << seed;
+    const double length = stops[12].centre.x() - stops[11].centre.x();
+    for (size_t i = 12; i < stops.size(); ++i) stops[i].centre.x() -= length - 0.05;
+    for (DriveStop& stop : stops) stop.centre *= 1e-3;
+    const std::vector<VanishedStep> found = FindVanishedSteps(stops);
+    ASSERT_THAT(found, SizeIs(1)) << seed;
+    EXPECT_EQ(found[0].stop, 11U);
+    EXPECT_NEAR(found[0].share, 0.05, 0.02);
+  }
+  EXPECT_THAT(FindVanishedSteps({}), IsEmpty());
+}
+
 TEST(FindUnevenStops, FindsWhoStandsAWindowTooFar) {
   for (const double further : {0.5, -0.5, 0.9, -0.9}) {
     const std::vector<UnevenStop> found = FindUnevenStops(With(Drive(0.05), 11, further));

@@ -6,51 +6,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <string>
+#include "tests/core/merging/checks/even_drive.h"
 
 namespace orbweave {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr uint32_t kImages = 40;
-constexpr double kStep_m = 8.0;
-
-/// An even drive along a street.
-struct Street {
-  Street() {
-    for (uint32_t i = 0; i < kImages; ++i) {
-      ImageRecord& image = manifest.images.emplace_back();
-      image.id = ImageId(i);
-      image.name = std::to_string(i) + ".jpg";
-      Move(i, 0.0);
-    }
-  }
-
-  void Move(uint32_t i, double further_m) { Place(i, {kStep_m * i + further_m, 0.0, 0.0}); }
-
-  void Place(uint32_t i, const Eigen::Vector3d& centre) {
-    images[ImageId(i)].cam_from_world = Rigid3::FromCentre(Eigen::Quaterniond::Identity(), centre);
-  }
-
-  void Position(uint32_t i, double further_m) {
-    PosePrior& prior = manifest.images[i].prior;
-    prior.position_in_enu = Eigen::Vector3d(kStep_m * i + further_m, 0.0, 0.0);
-    prior.horizontal_sigma_m = 0.5;
-  }
-
-  ImageManifest manifest{};
-  std::map<ImageId, RegisteredImage> images{};
-};
+constexpr double kStep_m = EvenDrive::kStep_m;
+constexpr uint32_t kImages = EvenDrive::kImages;
 
 TEST(CheckEvenSteps, IsGoodWhereStepsAreEven) {
-  const Street street;
+  const EvenDrive street;
   EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
   EXPECT_EQ(CheckEvenSteps({}, street.manifest).level, CheckLevel::kGood);
 }
 
 TEST(CheckEvenSteps, NamesWhoStandsAWindowOff) {
-  Street street;
+  EvenDrive street;
   street.Move(17, 5.0);
   street.Move(30, -4.0);
   const CrossCheck check = CheckEvenSteps(street.images, street.manifest);
@@ -61,7 +34,7 @@ TEST(CheckEvenSteps, NamesWhoStandsAWindowOff) {
 }
 
 TEST(CheckEvenSteps, CountsPlacesOfThoseThatAreLeftOut) {
-  Street street;
+  EvenDrive street;
   street.images.erase(ImageId(12));
   street.images.erase(ImageId(25));
   street.images[ImageId(26)].loose = true;
@@ -70,7 +43,7 @@ TEST(CheckEvenSteps, CountsPlacesOfThoseThatAreLeftOut) {
 
 TEST(CheckEvenSteps, CountsCapturesThatWereTakenOutByTheirNumbers) {
   // The one before a corner was taken out: from 16 to 17 are two steps.
-  Street street;
+  EvenDrive street;
   const Eigen::Vector3d corner(18.0 * kStep_m, 0.0, 0.0);
   const Eigen::Vector3d onward = kStep_m * Eigen::Vector3d(-0.25, 0.97, 0.0);
   for (uint32_t i = 17; i < kImages; ++i) street.Place(i, corner + (i - 17.0) * onward);
@@ -81,7 +54,7 @@ TEST(CheckEvenSteps, CountsCapturesThatWereTakenOutByTheirNumbers) {
 }
 
 TEST(CheckEvenSteps, BelievesPositions) {
-  Street street;
+  EvenDrive street;
   street.Move(17, 5.0);
   for (uint32_t i = 0; i < kImages; ++i) street.Position(i, i == 17 ? 5.0 : 0.0);
   EXPECT_EQ(CheckEvenSteps(street.images, street.manifest).level, CheckLevel::kGood);
