@@ -62,9 +62,10 @@ std::vector<ImageSlot> FindHungElsewhere(const MappingState& state, const Mappin
   return {};
 }
 
-/// A part of a scale of its own that GNSS does not have as it is; empty: none is.
-std::vector<ImageSlot> FindUntoldPart(const MappingState& state, const MappingOptions& options) {
-  std::vector<std::vector<ImageSlot>> parts = PartsOfOneScale(state, options);
+/// Of parts, but for the first, the last one that GNSS does not have as it is; empty: there is
+/// none.
+std::vector<ImageSlot> FindOddPart(const MappingState& state,
+                                   std::vector<std::vector<ImageSlot>> parts) {
   while (parts.size() > 1) {
     const std::optional<HungPiece> piece = PieceOf(state, parts.back());
     if (!piece || AskGnss(state, *piece) != GnssSays::kAsItIs) return std::move(parts.back());
@@ -75,10 +76,10 @@ std::vector<ImageSlot> FindUntoldPart(const MappingState& state, const MappingOp
 
 /// What is to be cut off next, ascending; empty: nothing.
 std::vector<ImageSlot> FindHungPiece(const MappingState& state, const MappingOptions& options) {
-  std::vector<std::vector<ImageSlot>> parts = PartsThatPairsHold(state, options);
-  if (parts.size() > 1) return std::move(parts.back());
-  std::vector<ImageSlot> elsewhere = FindHungElsewhere(state, options);
-  return elsewhere.empty() ? FindUntoldPart(state, options) : elsewhere;
+  std::vector<ImageSlot> piece = FindOddPart(state, PartsThatPairsHold(state, options));
+  if (piece.empty()) piece = FindHungElsewhere(state, options);
+  if (piece.empty()) piece = FindOddPart(state, PartsOfOneScale(state, options));
+  return piece;
 }
 
 MappingState WithoutImages(MappingState state, const std::vector<ImageSlot>& images) {

@@ -6,9 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
+#include "core/mapping/cuts/parts_that_pairs_hold.h"
 #include "tests/core/mapping/broken_street.h"
 
 namespace orbweave {
@@ -81,6 +83,30 @@ TEST(CutAtHinges, CutsOffAStreetOnAnotherScale) {
 TEST(CutAtHinges, LeavesWhatGnssBearsOut) {
   const BrokenStreet street({.pairs_between = 4});
   EXPECT_THAT(SizesOf(CutAtHinges(Hung(street, 1.0, 6), {})), ElementsAre(24U));
+}
+
+/// A pair between the halves, the only one, that has the second turned by 40 degrees.
+TEST(CutAtHinges, LeavesWhatGnssBearsOutThoughThePairBetweenContradictsIt) {
+  BrokenStreet street({.pairs_between = 1});
+  street.DetachPairsBetween();
+  ClusterProblem& problem = street.World().problem;
+  const auto between = std::ranges::find_if(problem.pairs, &BrokenStreet::IsBetween);
+  const Rigid3 turn{RotationFromVector({0.0, 0.7, 0.0}), Eigen::Vector3d::Zero()};
+  between->b_from_a = turn * between->b_from_a;
+  std::vector<Eigen::Vector3d>& bearings = problem.images[between->pair.b.value].bearings;
+  for (const FeatureMatch& match : between->inliers)
+    bearings[match.b] = turn.rotation * bearings[match.b];
+  street.Rebuild();
+  MappingState whole = Hung(street, 1.0, 0);
+  for (size_t i = 0; i < 6; ++i) {
+    const auto& [a, b] = between->inliers[i];
+    const CorrespondenceGraph& graph = street.Graph();
+    whole.AddPoint(whole.Centre(between->pair.a.value) + Eigen::Vector3d::UnitZ(),
+                   std::array{graph.node_of_feature[between->pair.a.value][a],
+                              graph.node_of_feature[between->pair.b.value][b]});
+  }
+  EXPECT_EQ(PartsThatPairsHold(whole, {}).size(), 2U);
+  EXPECT_THAT(SizesOf(CutAtHinges(whole, {})), ElementsAre(24U));
 }
 
 TEST(CutAtHinges, LeavesWhatIsHardlyBentHoweverExactPositionsAre) {
