@@ -20,7 +20,7 @@ constexpr size_t kAllPairs = 12;
 /// All joints, those of most telling points first, then of most points, then in order of their
 /// images.
 std::vector<Joint> JointsOf(const MappingState& state) {
-  /// The other image of two that see a point, and whether that tells, by the first.
+  // The other image of two that see a point, and whether that tells, by the first.
   std::vector<std::vector<std::pair<ImageSlot, bool>>> seen_by_both(state.Graph().NumImages());
   for (PointIndex p = 0; p < state.EndOfPoints(); ++p) {
     const std::vector<ImageSlot> images = ImagesThatSee(state, p);

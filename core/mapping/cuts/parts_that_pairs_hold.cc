@@ -14,6 +14,7 @@
 #include "core/graph/disjoint_sets.h"
 #include "core/mapping/checks/find_contradicted_pairs.h"
 #include "core/mapping/lengths/find_length_faults.h"
+#include "core/mapping/lengths/log_length_of_pair.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/registered_sequence.h"
 #include "core/mapping/lengths/ways_along_lines.h"
@@ -29,7 +30,7 @@ constexpr double kElsewhereDeg = 20.0;
 bool LeadsElsewhere(const MappingState& state, const LinkedPair& pair) {
   const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
   if (geometry.kind != TwoViewKind::kGeneral) return false;
-  const Rigid3 b_from_a = state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
+  const Rigid3 b_from_a = PoseInModel(state, pair);
   const double off_rad = std::max(b_from_a.rotation.angularDistance(geometry.b_from_a.rotation),
                                   AngleBetween(b_from_a.Centre(), geometry.b_from_a.Centre()));
   return off_rad > kElsewhereDeg / 180.0 * std::numbers::pi;
@@ -113,19 +114,14 @@ void UniteAlongLines(const MappingState& state,
   }
 }
 
-/// A pair of registered images, and how far the model agrees with it.
-struct AskedPair {
-  uint32_t index = 0;  ///< of the graph's
-  LengthAgreement matches{};
-};
-
-/// Unites the images of pairs of two lines that hold them together; returns the other pairs.
-std::vector<AskedPair> UniteLines(const MappingState& state,
-                                  const RegisteredSequence& places,
-                                  AgreeingMatches& matches,
-                                  int min_inliers,
-                                  Parts& parts) {
-  std::vector<AskedPair> others;
+/// Unites the images of pairs of two lines that hold them together; returns the other pairs of
+/// registered images, as indices of the graph's.
+std::vector<uint32_t> UniteLines(const MappingState& state,
+                                 const RegisteredSequence& places,
+                                 AgreeingMatches& matches,
+                                 int min_inliers,
+                                 Parts& parts) {
+  std::vector<uint32_t> others;
   const std::vector<LinkedPair>& pairs = state.Graph().pairs;
   for (uint32_t p = 0; p < pairs.size(); ++p) {
     const LinkedPair& pair = pairs[p];
@@ -136,7 +132,7 @@ std::vector<AskedPair> UniteLines(const MappingState& state,
     if (holds && places.LineOf(pair.a) != places.LineOf(pair.b)) {
       parts.Unite(pair.a, pair.b);
     } else {
-      others.push_back({p, asked});
+      others.push_back(p);
     }
   }
   return others;
@@ -145,16 +141,17 @@ std::vector<AskedPair> UniteLines(const MappingState& state,
 using PairsOfParts = std::map<std::pair<uint32_t, uint32_t>, PairsBetween>;
 
 PairsOfParts SumBetween(const MappingState& state,
-                        const std::vector<AskedPair>& pairs,
+                        const std::vector<uint32_t>& pairs,
+                        AgreeingMatches& matches,
                         Parts& parts) {
   PairsOfParts sums;
-  for (const AskedPair& asked : pairs) {
-    const LinkedPair& pair = state.Graph().pairs[asked.index];
+  for (const uint32_t p : pairs) {
+    const LinkedPair& pair = state.Graph().pairs[p];
     const auto sides = std::minmax({parts.PartOf(pair.a), parts.PartOf(pair.b)});
     if (sides.first == sides.second) continue;
     PairsBetween& between = sums[sides];
-    between.matches.Add(asked.matches);
-    between.pairs.push_back(asked.index);
+    between.matches.Add(matches.OfPair(p));
+    between.pairs.push_back(p);
   }
   return sums;
 }
@@ -178,10 +175,10 @@ std::vector<std::vector<ImageSlot>> PartsThatPairsHold(const MappingState& state
   Judge judge(state, options);
   AgreeingMatches matches(state, tolerance_px);
   UniteAlongLines(state, places, matches, judge, parts);
-  const std::vector<AskedPair> others =
+  const std::vector<uint32_t> others =
       UniteLines(state, places, matches, options.min_inliers, parts);
-  PairsOfParts sums = SumBetween(state, others, parts);
-  while (UniteHeld(sums, judge, parts)) sums = SumBetween(state, others, parts);
+  PairsOfParts sums = SumBetween(state, others, matches, parts);
+  while (UniteHeld(sums, judge, parts)) sums = SumBetween(state, others, matches, parts);
   std::set<uint32_t> askew;
   for (const auto& [sides, between] : sums) askew.insert({sides.first, sides.second});
   const std::vector<std::vector<ImageSlot>> listed = parts.List(state);

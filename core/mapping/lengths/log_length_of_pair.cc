@@ -11,22 +11,23 @@ namespace {
 
 constexpr double kMaxTurn_rad = 10.0 / 180.0 * std::numbers::pi;
 
-Rigid3 BFromA(const MappingState& state, const LinkedPair& pair) {
+}  // namespace
+
+Rigid3 PoseInModel(const MappingState& state, const LinkedPair& pair) {
   return state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
 }
-
-}  // namespace
 
 bool HasRotationOfModel(const MappingState& state, const LinkedPair& pair) {
   const TwoViewGeometry& geometry = state.Problem().pairs[pair.index];
   return state.IsRegistered(pair.a) && state.IsRegistered(pair.b) &&
          geometry.kind == TwoViewKind::kGeneral &&
-         geometry.b_from_a.rotation.angularDistance(BFromA(state, pair).rotation) <= kMaxTurn_rad;
+         geometry.b_from_a.rotation.angularDistance(PoseInModel(state, pair).rotation) <=
+             kMaxTurn_rad;
 }
 
 std::optional<double> LogLengthOfPair(const MappingState& state, const LinkedPair& pair) {
   if (!HasRotationOfModel(state, pair)) return std::nullopt;
-  const Eigen::Vector3d step = BFromA(state, pair).Centre();
+  const Eigen::Vector3d step = PoseInModel(state, pair).Centre();
   const Eigen::Vector3d direction =
       state.Problem().pairs[pair.index].b_from_a.Centre().normalized();
   const double length = step.norm();

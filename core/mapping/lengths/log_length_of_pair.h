@@ -20,6 +20,9 @@ inline constexpr double kMinCosDirection = 0.5;
 inline constexpr size_t kFewestRaysOfPair = 8;
 inline constexpr double kMaxRaysOfPair = 200.0;
 
+/// From the pair's first image to its second, both registered, as the model has them.
+[[nodiscard]] Rigid3 PoseInModel(const MappingState& state, const LinkedPair& pair);
+
 /// Whether both images are registered, the pair has a general geometry, and the model agrees with
 /// its rotation up to 10 degrees.
 [[nodiscard]] bool HasRotationOfModel(const MappingState& state, const LinkedPair& pair);

@@ -10,10 +10,6 @@
 namespace orbweave {
 namespace {
 
-Rigid3 PoseInModel(const MappingState& state, const LinkedPair& pair) {
-  return state.CamFromWorld(pair.b) * state.CamFromWorld(pair.a).Inverse();
-}
-
 PoseOfRays RaysAt(Rigid3 b_from_a) {
   b_from_a.translation.normalize();
   return PoseOfRays(b_from_a);
