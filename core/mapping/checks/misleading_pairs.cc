@@ -4,6 +4,8 @@
 #include "core/mapping/checks/misleading_pairs.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -11,6 +13,7 @@
 
 #include "core/geometry/angle_to_arc.h"
 #include "core/geometry/rotation.h"
+#include "core/mapping/registration/gnss_steps.h"
 
 namespace orbweave {
 namespace {
@@ -26,6 +29,7 @@ constexpr double kTurnsOtherwise_rad = 2.0 * kDegree_rad;
 constexpr double kTurnsAlike_rad = 0.75 * kDegree_rad;
 constexpr double kLeadsAlike_rad = 2.0 * kDegree_rad;
 constexpr double kLeadsOtherwise_rad = 4.0 * kDegree_rad;
+constexpr double kSigmasOfGnss = 3.0;
 constexpr double kHardlyParts = 0.25;   // of the angles of either way
 constexpr size_t kTimesTheMatches = 2;  // the pair may have of those of either way
 
@@ -120,7 +124,7 @@ bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
 bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
   const TwoViewGeometry& geometry = GeometryOf(pair);
   if (!HasBaseline(geometry.kind)) return false;
-  const ImageSlot first = state_.Graph().pairs[pair].a;
+  const auto [first, last] = std::pair(state_.Graph().pairs[pair].a, state_.Graph().pairs[pair].b);
   const Vector3d way = WayInWorld(pair, first).normalized();
   return AnyByWayOfThird(
       pair,
@@ -128,9 +132,27 @@ bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
       [&](uint32_t before, ImageSlot third, uint32_t behind) {
         const Vector3d to_third = WayInWorld(before, first).normalized();
         const Vector3d from_third = WayInWorld(behind, third).normalized();
-        const bool leads_back = AngleBetween(to_third, -from_third) < kOnward_rad;
-        return !leads_back && AngleToArc(way, to_third, from_third) > kLeadsOtherwise_rad;
+        if (AngleBetween(to_third, -from_third) < kOnward_rad) return false;
+        const auto [least, most] = SharesByGnss(first, third, last);
+        const auto leads = [&](double share) -> Vector3d {
+          return ((1.0 - share) * to_third + share * from_third).normalized();
+        };
+        return AngleToArc(way, leads(least), leads(most)) > kLeadsOtherwise_rad;
       });
+}
+
+std::array<double, 2> MisleadingPairs::SharesByGnss(ImageSlot first,
+                                                    ImageSlot third,
+                                                    ImageSlot last) const {
+  const GnssStep before = StepBetween(state_.Problem(), first, third);
+  const GnssStep behind = StepBetween(state_.Problem(), third, last);
+  const double log_ratio = behind.log_length - before.log_length;
+  const double reach = kSigmasOfGnss * std::hypot(before.sigma, behind.sigma);
+  const double in_model = std::log((state_.Centre(last) - state_.Centre(third)).norm() /
+                                   (state_.Centre(third) - state_.Centre(first)).norm());
+  if (!(std::abs(log_ratio - in_model) <= reach)) return {0.0, 1.0};
+  const auto share = [](double log) { return 1.0 / (1.0 + std::exp(-log)); };
+  return {share(log_ratio - reach), share(log_ratio + reach)};
 }
 
 Vector3d MisleadingPairs::WayInWorld(uint32_t pair, ImageSlot image) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -33,12 +34,12 @@ class MisleadingPairs {
   /// as many matches or more each, by way of a third image as the model does (to 0.75 degrees).
   /// Lengths that are wrong turn nothing, and where the model is askew no pairs across agree.
   [[nodiscard]] bool TurnsOtherwise(uint32_t pair) const;
-  /// The pair leads elsewhere than by way of a third image: whatever the lengths of two explained
-  /// pairs, of as many matches or more each, which turn and lead as the model does (to 0.75 and 2
-  /// degrees), from the one image by way of the third to the other the direction lies between
-  /// theirs, and the pair's is more than 4 degrees off all that do. Matches of one facade leave two
-  /// poses open, or are those of the next window. Right pairs lead to a degree as the model does,
-  /// such ones were 15 to 25 degrees off it.
+  /// The pair leads elsewhere than by way of a third image: whatever the lengths that GNSS leaves
+  /// (SharesByGnss) of two explained pairs, of as many matches or more each, which turn and lead as
+  /// the model does (to 0.75 and 2 degrees), from the one image by way of the third to the other
+  /// the direction lies between theirs, and the pair's is more than 4 degrees off all that do.
+  /// Matches of one facade leave two poses open, or are those of the next window. Right pairs lead
+  /// to a degree as the model does, such ones were 15 to 25 degrees off it.
   [[nodiscard]] bool LeadsOtherwise(uint32_t pair) const;
   /// The rays of the pair hardly part, as if no way lay between its images, and two explained
   /// pairs, of half as many matches or more each, lead from the one by way of a third to the other,
@@ -52,6 +53,12 @@ class MisleadingPairs {
   [[nodiscard]] bool AnyByWayOfThird(uint32_t pair,
                                      const Counts& counts,
                                      const SaysSo& says_so) const;
+  /// Of the ways from `first` to `third` and from there to `last`, what part the second is of both
+  /// together: the least and the most, by three sigmas of positions. 0 and 1 where there are none,
+  /// or where they have it otherwise than the model: then they are no witness for it.
+  [[nodiscard]] std::array<double, 2> SharesByGnss(ImageSlot first,
+                                                   ImageSlot third,
+                                                   ImageSlot last) const;
   [[nodiscard]] const TwoViewGeometry& GeometryOf(uint32_t pair) const;
   /// By the pair's own geometry, from `image`, one of its two, to the other; not a unit vector.
   [[nodiscard]] Eigen::Vector3d WayInWorld(uint32_t pair, ImageSlot image) const;

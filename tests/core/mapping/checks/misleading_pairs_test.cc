@@ -110,25 +110,59 @@ TEST(MisleadingPairs, AreThoseThatLeadOtherwiseThanTwoExplainedOnesByWayOfAThird
   EXPECT_FALSE(walk.IsMisleading(2, 4, by_way_of_3)) << "a weak one";
 }
 
+/// A walk that turns by 90 degrees at image 3, whose pair of images 2 and 4 leads otherwise.
+struct Corner : Walk {
+  Corner() {
+    auto& poses = street.world.cams_from_world;
+    poses[4] =
+        Rigid3::FromCentre(poses[4].rotation, poses[3].Centre() + Vector3d(0.0, 3.0, 0.0));
+    for (const auto& [a, b] : {std::pair(2U, 4U), std::pair(3U, 4U)})
+      PairOf(a, b).b_from_a = poses[b] * poses[a].Inverse();
+  }
+  bool IsMisleadingBy(double degrees) {
+    const auto& poses = street.world.cams_from_world;
+    Rigid3& b_from_a = PairOf(2, 4).b_from_a;
+    const Rigid3 truth = poses[4] * poses[2].Inverse();
+    const Vector3d axis = poses[2].rotation * Vector3d::UnitZ();
+    b_from_a = Rigid3::FromCentre(
+        truth.rotation,
+        Eigen::AngleAxisd(degrees * 3.14159265 / 180.0, axis) * truth.Centre());
+    return IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)});
+  }
+  void GivePositions(double sigma_m) {
+    for (uint32_t i = 2; i <= 4; ++i) {
+      PosePrior& prior = street.world.problem.images[i].prior;
+      prior.position_in_enu = street.world.cams_from_world[i].Centre();
+      prior.horizontal_sigma_m = sigma_m;
+    }
+  }
+};
+
 /// Any direction between those of the two ways is right for some lengths of them, and lengths are
 /// what may be wrong.
 TEST(MisleadingPairs, LengthsOfTheWaysDoNotMatter) {
-  Walk walk;
-  Rigid3& corner = walk.street.world.cams_from_world[4];
-  corner = Rigid3::FromCentre(
-      corner.rotation, walk.street.world.cams_from_world[3].Centre() + Vector3d(0.0, 3.0, 0.0));
-  const auto& poses = walk.street.world.cams_from_world;
-  for (const auto& [a, b] : {std::pair(2U, 4U), std::pair(3U, 4U)})
-    walk.PairOf(a, b).b_from_a = poses[b] * poses[a].Inverse();
-  Rigid3& b_from_a = walk.PairOf(2, 4).b_from_a;
-  const Vector3d way = b_from_a.Centre();
-  const Vector3d axis = poses[2].rotation * Vector3d::UnitZ();
-  for (const double degrees : {-50.0, -35.0, 0.0, 35.0, 50.0}) {
-    const Eigen::AngleAxisd turn(degrees * 3.14159265 / 180.0, axis);
-    b_from_a = Rigid3::FromCentre(b_from_a.rotation, turn * way);
-    EXPECT_EQ(walk.IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)}), std::abs(degrees) > 49.0)
-        << degrees;
-  }
+  Corner corner;
+  for (const double degrees : {-50.0, -40.0, 0.0, 40.0, 50.0})
+    EXPECT_EQ(corner.IsMisleadingBy(degrees), std::abs(degrees) > 49.0) << degrees;
+}
+
+/// Both ways are 3 m: with sigmas of 0.2 m one may be 1.49 times as long as the other, and the pair
+/// lead 11 degrees otherwise.
+TEST(MisleadingPairs, LengthsThatGnssKnowsDo) {
+  Corner corner;
+  corner.GivePositions(0.2);
+  for (const double degrees : {-40.0, -20.0, -10.0, 0.0, 10.0, 20.0, 40.0})
+    EXPECT_EQ(corner.IsMisleadingBy(degrees), std::abs(degrees) > 19.0) << degrees;
+}
+
+TEST(MisleadingPairs, PositionsThatKnowNoLengthsOrContradictTheModelSayNothing) {
+  Corner vague;
+  vague.GivePositions(3.0);
+  EXPECT_FALSE(vague.IsMisleadingBy(40.0));
+  Corner off;
+  off.GivePositions(0.2);
+  off.street.world.problem.images[4].prior.position_in_enu->y() += 3.0;
+  EXPECT_FALSE(off.IsMisleadingBy(20.0));
 }
 
 /// A walk whose pair of images 2 and 4 has rays that hardly part, those of others by 20 degrees.
