@@ -261,29 +261,31 @@ std::vector<Meeting> FindMeetings(const MappingState& state,
 /// Runs joined at their ends, each end once, to lines without a loop.
 class Joiner {
  public:
-  explicit Joiner(size_t num_runs) : line_of_run_(num_runs) {
+  explicit Joiner(const std::vector<StreetLine>& runs) : runs_(runs), line_of_run_(runs.size()) {
     std::iota(line_of_run_.begin(), line_of_run_.end(), 0);
   }
 
   void Join(const Meeting& meeting) {
-    const size_t one = line_of_run_[meeting.one.run];
-    const size_t other = line_of_run_[meeting.other.run];
-    if (one == other || next_.contains(meeting.one) || next_.contains(meeting.other)) return;
-    next_[meeting.one] = meeting.other;
-    next_[meeting.other] = meeting.one;
-    std::ranges::replace(line_of_run_, std::max(one, other), std::min(one, other));
+    const size_t line = line_of_run_[meeting.one.run];
+    const size_t other_line = line_of_run_[meeting.other.run];
+    const End one = FreeOf(meeting.one);
+    const End other = FreeOf(meeting.other);
+    if (line == other_line || next_.contains(one) || next_.contains(other)) return;
+    next_[one] = other;
+    next_[other] = one;
+    std::ranges::replace(line_of_run_, std::max(line, other_line), std::min(line, other_line));
   }
 
   /// By their lowest runs.
-  [[nodiscard]] std::vector<StreetLine> Take(const std::vector<StreetLine>& runs) const {
+  [[nodiscard]] std::vector<StreetLine> Take() const {
     std::vector<StreetLine> lines;
-    std::vector<uint8_t> is_taken(runs.size(), 0);
-    for (size_t run = 0; run < runs.size(); ++run) {
+    std::vector<uint8_t> is_taken(runs_.size(), 0);
+    for (size_t run = 0; run < runs_.size(); ++run) {
       if (is_taken[run] != 0) continue;
       StreetLine& line = lines.emplace_back();
       for (std::optional<End> from = BeginOf(run); from; from = After(*from)) {
         is_taken[from->run] = 1;
-        const StreetLine& images = runs[from->run];
+        const StreetLine& images = runs_[from->run];
         if (from->is_last) {
           std::ranges::copy(images.rbegin(), images.rend(), std::back_inserter(line));
         } else {
@@ -295,6 +297,12 @@ class Joiner {
   }
 
  private:
+  /// Both ends of a run of one image are that image: the one that is free serves.
+  [[nodiscard]] End FreeOf(End end) const {
+    const bool is_other = runs_[end.run].size() == 1 && next_.contains(end);
+    return is_other ? End{end.run, !end.is_last} : end;
+  }
+
   /// The run that the line is entered by next, and at which end, having entered one at `from`.
   [[nodiscard]] std::optional<End> After(End from) const {
     const auto next = next_.find({from.run, !from.is_last});
@@ -310,6 +318,7 @@ class Joiner {
     return std::min(follow({run, false}), follow({run, true}));
   }
 
+  const std::vector<StreetLine>& runs_;
   std::vector<size_t> line_of_run_;
   std::map<End, End> next_{};
 };
@@ -318,9 +327,9 @@ class Joiner {
 
 std::vector<StreetLine> FindStreetLines(const MappingState& state, double tolerance_px) {
   const std::vector<StreetLine> runs = FindRuns(state, tolerance_px);
-  Joiner joiner(runs.size());
+  Joiner joiner(runs);
   for (const Meeting& meeting : FindMeetings(state, runs, tolerance_px)) joiner.Join(meeting);
-  return joiner.Take(runs);
+  return joiner.Take();
 }
 
 }  // namespace orbweave

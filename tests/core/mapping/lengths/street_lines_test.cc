@@ -82,6 +82,11 @@ TEST(FindStreetLines, StretchesOfTwoDaysAreOneStreet) {
               ElementsAre(ElementsAreArray(InOrder())));
 }
 
+TEST(FindStreetLines, AStretchMayBeOneImage) {
+  EXPECT_THAT(LinesOf(Street(), {0, 0, 0, 0, 0, 0, 0, 2, 1, 1, 1, 1, 1, 1, 1, 1}),
+              ElementsAre(ElementsAreArray(InOrder())));
+}
+
 TEST(FindStreetLines, TheSecondDayMayHaveComeTheOtherWay) {
   StreetFixture street = Street();
   for (uint32_t i = 0; i < kImages; ++i)
