@@ -15,7 +15,12 @@ namespace orbweave {
 
 namespace {
 
-/// Ranks, not places: an image that is added elsewhere leaves the recipe as it is.
+/// Beyond so many captures nobody looks along a drive (kReachAlongLine, FindUnevenStops).
+constexpr uint32_t kOutOfSight = 16;
+
+/// Ranks, not places: an image that is added elsewhere leaves the recipe as it is. Captures that
+/// are not of the cluster count, kOutOfSight at most: where a street was driven there and back, the
+/// drive leaves the cluster and returns, and its images are no neighbours there.
 std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe, const PlacesInDrives& places) {
   std::vector<size_t> order(recipe.images.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -26,8 +31,8 @@ std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe, const PlacesInDrives&
   for (size_t i = 1; i < order.size(); ++i) {
     if (recipe.drives[order[i]] != recipe.drives[order[i - 1]]) continue;
     const ImagePair step{recipe.images[order[i - 1]].image, recipe.images[order[i]].image};
-    const uint32_t taken_out = *places.CapturesBetween(step) - *places.StepsBetween(step);
-    ranks[order[i]] = ranks[order[i - 1]] + 1 + taken_out;
+    ranks[order[i]] =
+        ranks[order[i - 1]] + std::min(*places.CapturesBetween(step), kOutOfSight);
   }
   return ranks;
 }

@@ -74,6 +74,23 @@ TEST(PlanClusters, RanksImagesByTimeAmongThoseOfTheirDriveInTheCluster) {
   EXPECT_EQ(ranks(), (std::vector<uint32_t>{6, 5, 0})) << "of which 14 to 17 were taken out";
 }
 
+/// Where a drive comes back its images of another cluster lie between.
+TEST(PlanClusters, ImagesOfOtherClustersLieBetweenThoseOfADrive) {
+  Partition partition{.clusters = {{.images = {ImageId(0), ImageId(1), ImageId(6)}}}};
+  const auto ranks = [&](uint32_t num_images) {
+    ImageManifest manifest;
+    for (uint32_t i = 0; i < num_images; ++i) manifest.images.push_back({.id = ImageId(i)});
+    return PlanClusters(
+        partition, {.num_images = num_images}, manifest, SomeDigests(num_images), {})[0].ranks;
+  };
+  EXPECT_EQ(ranks(7), (std::vector<uint32_t>{0, 1, 6}));
+  partition.clusters[0].images.back() = ImageId(40);
+  const std::vector<uint32_t> far_apart = ranks(41);
+  partition.clusters[0].images.back() = ImageId(50);
+  EXPECT_EQ(ranks(51), far_apart) << "one more far away leaves the recipe as it is";
+  EXPECT_GT(far_apart.back(), 10U);
+}
+
 TileRuns PointsIn(const std::string& panorama, std::vector<std::pair<TileCell, uint64_t>> counts) {
   TileRuns runs;
   for (const auto& [cell, count] : counts)

@@ -24,7 +24,8 @@ struct ClusterImage {
   PosePrior prior{};
   bool is_position_of_drive = false;  ///< PositionFix::is_of_drive
   uint32_t drive = 0;
-  /// Among those of the cluster, as they were taken; captures that nobody has count, too.
+  /// Among those of the cluster, as they were taken; captures that nobody or another cluster has
+  /// count, too, up to where none sees what the others do.
   uint32_t rank_in_drive = 0;
 };
 
