@@ -64,7 +64,7 @@ struct ClusterRecipe {
   uint32_t cluster = 0;
   std::vector<FeatureFile> images{};  ///< sorted
   std::vector<uint32_t> drives{};     ///< of each of the images
-  /// Of each among those of its drive, as they were taken; captures that nobody has count, too.
+  /// Of each among those of its drive (ClusterImage::rank_in_drive).
   std::vector<uint32_t> ranks{};
   std::vector<ImagePair> pairs{};    ///< edges within the cluster, sorted
   std::vector<ImageId> shared{};     ///< images that other clusters have too, sorted

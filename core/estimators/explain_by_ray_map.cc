@@ -20,17 +20,16 @@ constexpr double kConfidence = 0.9999;
 constexpr int kTrialsFactor = 4;  // minimal samples are noisy: more than a clean sample's worth
 constexpr int kMaxRefits = 3;
 
-using FitRayMap = std::optional<Matrix3d> (*)(std::span<const Vector3d>, std::span<const Vector3d>);
-
-/// RANSAC over maps M of bearings; residual: the chord between p_b and M p_a / |M p_a|.
-template <size_t kSize, FitRayMap kFit>
+/// RANSAC over maps M of bearings, fitted by `fit(bearings_a, bearings_b)`; residual: the chord
+/// between p_b and M p_a / |M p_a|.
+template <size_t kSize, typename Fit>
 class RayMapEstimator {
  public:
   static constexpr size_t kSampleSize = kSize;
   using Model = Matrix3d;
 
-  RayMapEstimator(const BearingPairs& pairs, double max_error_rad)
-      : pairs_(pairs), max_squared_chord_(2.0 - 2.0 * std::cos(max_error_rad)) {}
+  RayMapEstimator(const BearingPairs& pairs, double max_error_rad, const Fit& fit)
+      : pairs_(pairs), fit_(fit), max_squared_chord_(2.0 - 2.0 * std::cos(max_error_rad)) {}
 
   [[nodiscard]] size_t Size() const { return pairs_.Size(); }
 
@@ -41,7 +40,7 @@ class RayMapEstimator {
       a[k] = pairs_.A(sample[k]);
       b[k] = pairs_.B(sample[k]);
     }
-    if (const std::optional<Matrix3d> M = kFit(a, b)) models.push_back(*M);
+    if (const std::optional<Matrix3d> M = fit_(a, b)) models.push_back(*M);
   }
 
   [[nodiscard]] std::optional<RansacScore> Score(const Matrix3d& M,
@@ -63,7 +62,7 @@ class RayMapEstimator {
   [[nodiscard]] Matrix3d Refine(Matrix3d M) const {
     for (int refit = 0; refit < kMaxRefits; ++refit) {
       const SelectedBearings selected = SelectPairs(pairs_, Inliers(M));
-      const std::optional<Matrix3d> fitted = kFit(selected.a, selected.b);
+      const std::optional<Matrix3d> fitted = fit_(selected.a, selected.b);
       if (!fitted) break;
       M = *fitted;
     }
@@ -89,15 +88,17 @@ class RayMapEstimator {
   }
 
   const BearingPairs& pairs_;
+  const Fit& fit_;
   double max_squared_chord_;
 };
 
-template <size_t kSize, FitRayMap kFit>
+template <size_t kSize, typename Fit>
 absl::StatusOr<RayMap> Explain(const BearingPairs& pairs,
+                               const Fit& fit,
                                double max_error_rad,
                                double min_share,
                                const StageContext& context) {
-  const RayMapEstimator<kSize, kFit> estimator(pairs, max_error_rad);
+  const RayMapEstimator<kSize, Fit> estimator(pairs, max_error_rad, fit);
   constexpr int kUnlimited = 1000;
   const RansacOptions options = {
       .confidence = kConfidence,
@@ -114,14 +115,25 @@ absl::StatusOr<RayMap> ExplainByRotation(const BearingPairs& pairs,
                                          double max_error_rad,
                                          double min_share,
                                          const StageContext& context) {
-  return Explain<2, FitRayRotation>(pairs, max_error_rad, min_share, context);
+  return Explain<2>(pairs, FitRayRotation, max_error_rad, min_share, context);
 }
 
 absl::StatusOr<RayMap> ExplainByHomography(const BearingPairs& pairs,
                                            double max_error_rad,
                                            double min_share,
                                            const StageContext& context) {
-  return Explain<4, FitRayHomography>(pairs, max_error_rad, min_share, context);
+  return Explain<4>(pairs, FitRayHomography, max_error_rad, min_share, context);
+}
+
+absl::StatusOr<RayMap> ExplainByPlane(const BearingPairs& pairs,
+                                      const Rigid3& b_from_a,
+                                      double max_error_rad,
+                                      double min_share,
+                                      const StageContext& context) {
+  const auto fit = [&](std::span<const Vector3d> a, std::span<const Vector3d> b) {
+    return FitRayPlane(b_from_a, a, b);
+  };
+  return Explain<3>(pairs, fit, max_error_rad, min_share, context);
 }
 
 }  // namespace orbweave

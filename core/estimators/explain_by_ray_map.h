@@ -8,6 +8,7 @@
 
 #include "core/base/stage_context.h"
 #include "core/estimators/bearing_pairs.h"
+#include "core/geometry/rigid3.h"
 
 namespace orbweave {
 
@@ -30,5 +31,14 @@ struct RayMap {
                                                          double max_error_rad,
                                                          double min_share,
                                                          const StageContext& context);
+
+/// The same for points on one plane where the pose is known (FitRayPlane): three pairs make a
+/// sample, so that a plane of two fifths of them is found in two fifths of the trials that
+/// a homography takes.
+[[nodiscard]] absl::StatusOr<RayMap> ExplainByPlane(const BearingPairs& pairs,
+                                                    const Rigid3& b_from_a,
+                                                    double max_error_rad,
+                                                    double min_share,
+                                                    const StageContext& context);
 
 }  // namespace orbweave

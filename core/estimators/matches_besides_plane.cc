@@ -60,8 +60,9 @@ absl::StatusOr<std::optional<std::vector<FeatureMatch>>> MatchesBesidesPlane(
       NearInliers(bearings_a, bearings_b, geometry, max_error_rad);
   if (static_cast<double>(near.size()) < fewest) return std::nullopt;
   const BearingPairs pairs = ArrangePairs(bearings_a, bearings_b, near, context.seed);
-  ORBWEAVE_ASSIGN_OR_RETURN(const RayMap plane,
-                            ExplainByHomography(pairs, max_error_rad, kCarries, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(
+      const RayMap plane,
+      ExplainByPlane(pairs, geometry.b_from_a, max_error_rad, kCarries, context));
   if (static_cast<double>(plane.inliers.size()) < fewest) return std::nullopt;
   Cover in_a;
   Cover in_b;

@@ -18,8 +18,8 @@ namespace orbweave {
 /// plane or more, so that sills and frames before a facade go with it. A facade whose windows
 /// repeat fits a whole window further on as well as where it is, and often better, since each
 /// window is then seen from the same side; only what is elsewhere can tell. nullopt: no plane holds
-/// two fifths of the inliers. The plane is the homography (ExplainByHomography) that most inliers
-/// with parallax agree with. Cancelled when asked to stop.
+/// two fifths of the inliers. The plane is the one (ExplainByPlane) that most inliers with
+/// parallax agree with. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<std::optional<std::vector<FeatureMatch>>> MatchesBesidesPlane(
     std::span<const Eigen::Vector3d> bearings_a,
     std::span<const Eigen::Vector3d> bearings_b,

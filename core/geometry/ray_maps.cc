@@ -92,4 +92,28 @@ std::optional<Matrix3d> FitRayHomography(std::span<const Vector3d> bearings_a,
   return H;
 }
 
+std::optional<Matrix3d> FitRayPlane(const Rigid3& b_from_a,
+                                    std::span<const Vector3d> bearings_a,
+                                    std::span<const Vector3d> bearings_b) {
+  ORBWEAVE_CHECK(bearings_a.size() == bearings_b.size());
+  constexpr double kFlat = 1e-12;  // determinant over the cube of the trace
+  if (bearings_a.size() < 3) return std::nullopt;
+  const Matrix3d R = b_from_a.rotation.toRotationMatrix();
+  const Vector3d& t = b_from_a.translation;
+  Matrix3d AtA = Matrix3d::Zero();
+  Vector3d Aty = Vector3d::Zero();
+  for (size_t i = 0; i < bearings_a.size(); ++i) {
+    const Vector3d along = bearings_b[i].cross(t);
+    const Vector3d still = bearings_b[i].cross(R * bearings_a[i]);
+    AtA += along.squaredNorm() * bearings_a[i] * bearings_a[i].transpose();
+    Aty -= along.dot(still) * bearings_a[i];
+  }
+  const double trace = AtA.trace();
+  if (!(AtA.determinant() > kFlat * trace * trace * trace)) return std::nullopt;
+  const Vector3d n = AtA.inverse() * Aty;
+  const auto is_in_front = [&](const Vector3d& bearing) { return n.dot(bearing) > 0.0; };
+  if (bearings_a.size() == 3 && !std::ranges::all_of(bearings_a, is_in_front)) return std::nullopt;
+  return R + t * n.transpose();
+}
+
 }  // namespace orbweave

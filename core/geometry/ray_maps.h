@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "core/geometry/rigid3.h"
+
 namespace orbweave {
 
 /// The rotation matrix R that maximises sum p_b . R p_a over pairs of unit bearings (Wahba's
@@ -21,5 +23,14 @@ namespace orbweave {
 /// opposite side.
 [[nodiscard]] std::optional<Eigen::Matrix3d> FitRayHomography(
     std::span<const Eigen::Vector3d> bearings_a, std::span<const Eigen::Vector3d> bearings_b);
+
+/// The ray homography R + t n^T of a plane n . X = 1, in the frame of a, seen under a known pose
+/// b_from_a = (R, t) (Faugeras, Lustman 1988): n by least squares of
+/// p_b x (R p_a + t (n . p_a)) = 0. nullopt for fewer than three pairs, when these do not determine
+/// the plane, and for three of which it lies behind some.
+[[nodiscard]] std::optional<Eigen::Matrix3d> FitRayPlane(
+    const Rigid3& b_from_a,
+    std::span<const Eigen::Vector3d> bearings_a,
+    std::span<const Eigen::Vector3d> bearings_b);
 
 }  // namespace orbweave

@@ -65,6 +65,27 @@ TEST(ExplainByHomography, HoldsForAPlaneAndFailsForAScene) {
   }
 }
 
+TEST(ExplainByPlane, FindsAFacadeOfTwoFifthsAndNoneInAScene) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    TwoViewWorld world = MakeTwoViewWorld(seed, 200);
+    const auto explain = [&] {
+      return ExplainByPlane(Arrange(world), world.b_from_a, kMaxErrorRad, 0.4, {.seed = seed});
+    };
+    const auto scene = explain();
+    ASSERT_TRUE(scene.ok());
+    EXPECT_LT(scene->inliers.size(), 80U) << seed;
+    Random random(seed);
+    for (size_t i = 0; i < 90; ++i) {
+      const Vector3d X(2.0 * world.points_in_a[i].x(), 2.0 * world.points_in_a[i].y(), 4.0);
+      world.bearings_a[i] = WithNoise(random, X.normalized(), kSigmaRad);
+      world.bearings_b[i] = WithNoise(random, testing::BearingOf(world.b_from_a, X), kSigmaRad);
+    }
+    const auto plane = explain();
+    ASSERT_TRUE(plane.ok());
+    EXPECT_GE(plane->inliers.size(), 85U) << seed;
+  }
+}
+
 TEST(ExplainByRotation, ExplainsNothingWithoutData) {
   const auto map = ExplainByRotation({}, kMaxErrorRad, 0.9, {});
   ASSERT_TRUE(map.ok());

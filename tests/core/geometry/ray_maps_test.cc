@@ -98,5 +98,51 @@ TEST(FitRayHomography, RefusesFewAndCollinearBearings) {
   EXPECT_FALSE(FitRayHomography(four, four).has_value());
 }
 
+/// Three points and more of a plane, seen under a random pose.
+TEST(FitRayPlane, RecoversThePlane) {
+  Random random(3);
+  for (const size_t count : {3, 4, 40}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      const Rigid3 b_from_a{RandomRotation(random), RandomDirection(random)};
+      const Vector3d n = random.Uniform(0.1, 0.5) * RandomDirection(random);
+      std::vector<Vector3d> a;
+      std::vector<Vector3d> b;
+      while (a.size() < count) {
+        const Vector3d bearing = RandomDirection(random);
+        if (bearing.dot(n.normalized()) < 0.2) continue;
+        a.push_back(bearing);
+        b.push_back(BearingOf(b_from_a, bearing / bearing.dot(n)));
+      }
+      const auto found = FitRayPlane(b_from_a, a, b);
+      ASSERT_TRUE(found.has_value());
+      const Matrix3d truth =
+          b_from_a.rotation.toRotationMatrix() + b_from_a.translation * n.transpose();
+      EXPECT_LT((*found - truth).norm(), 1e-6) << count;
+    }
+  }
+}
+
+TEST(FitRayPlane, RefusesWhatDeterminesNoneOrLiesBehind) {
+  Random random(4);
+  const Rigid3 b_from_a{RandomRotation(random), Vector3d(0.5, 0.2, 0.0)};
+  const std::vector<Vector3d> in_line = {
+      Vector3d(1.0, 0.0, 4.0), Vector3d(2.0, 0.0, 5.0), Vector3d(3.0, 0.0, 6.0)};
+  const std::vector<Vector3d> in_plane = {
+      Vector3d(1.0, 0.0, 4.0), Vector3d(2.0, 1.0, 4.0), Vector3d(-3.0, 2.0, 4.0)};
+  const auto fit = [&](const std::vector<Vector3d>& points, double side) {
+    std::vector<Vector3d> a;
+    std::vector<Vector3d> b;
+    for (const Vector3d& point : points) {
+      a.push_back(side * point.normalized());
+      b.push_back(BearingOf(b_from_a, point));
+    }
+    return FitRayPlane(b_from_a, a, b);
+  };
+  EXPECT_TRUE(fit(in_plane, 1.0).has_value());
+  EXPECT_FALSE(fit(in_line, 1.0).has_value());
+  EXPECT_FALSE(fit(in_plane, -1.0).has_value());
+  EXPECT_FALSE(fit({in_plane[0], in_plane[1]}, 1.0).has_value());
+}
+
 }  // namespace
 }  // namespace orbweave
