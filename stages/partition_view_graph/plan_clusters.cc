@@ -31,8 +31,7 @@ std::vector<uint32_t> RanksOf(const ClusterRecipe& recipe, const PlacesInDrives&
   for (size_t i = 1; i < order.size(); ++i) {
     if (recipe.drives[order[i]] != recipe.drives[order[i - 1]]) continue;
     const ImagePair step{recipe.images[order[i - 1]].image, recipe.images[order[i]].image};
-    ranks[order[i]] =
-        ranks[order[i - 1]] + std::min(*places.CapturesBetween(step), kOutOfSight);
+    ranks[order[i]] = ranks[order[i - 1]] + std::min(*places.CapturesBetween(step), kOutOfSight);
   }
   return ranks;
 }

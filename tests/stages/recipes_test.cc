@@ -81,7 +81,8 @@ TEST(PlanClusters, ImagesOfOtherClustersLieBetweenThoseOfADrive) {
     ImageManifest manifest;
     for (uint32_t i = 0; i < num_images; ++i) manifest.images.push_back({.id = ImageId(i)});
     return PlanClusters(
-        partition, {.num_images = num_images}, manifest, SomeDigests(num_images), {})[0].ranks;
+               partition, {.num_images = num_images}, manifest, SomeDigests(num_images), {})[0]
+        .ranks;
   };
   EXPECT_EQ(ranks(7), (std::vector<uint32_t>{0, 1, 6}));
   partition.clusters[0].images.back() = ImageId(40);

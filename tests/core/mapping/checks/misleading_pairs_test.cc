@@ -114,8 +114,7 @@ TEST(MisleadingPairs, AreThoseThatLeadOtherwiseThanTwoExplainedOnesByWayOfAThird
 struct Corner : Walk {
   Corner() {
     auto& poses = street.world.cams_from_world;
-    poses[4] =
-        Rigid3::FromCentre(poses[4].rotation, poses[3].Centre() + Vector3d(0.0, 3.0, 0.0));
+    poses[4] = Rigid3::FromCentre(poses[4].rotation, poses[3].Centre() + Vector3d(0.0, 3.0, 0.0));
     for (const auto& [a, b] : {std::pair(2U, 4U), std::pair(3U, 4U)})
       PairOf(a, b).b_from_a = poses[b] * poses[a].Inverse();
   }
@@ -125,8 +124,7 @@ struct Corner : Walk {
     const Rigid3 truth = poses[4] * poses[2].Inverse();
     const Vector3d axis = poses[2].rotation * Vector3d::UnitZ();
     b_from_a = Rigid3::FromCentre(
-        truth.rotation,
-        Eigen::AngleAxisd(degrees * 3.14159265 / 180.0, axis) * truth.Centre());
+        truth.rotation, Eigen::AngleAxisd(degrees * 3.14159265 / 180.0, axis) * truth.Centre());
     return IsMisleading(2, 4, {Pair(2, 3), Pair(3, 4)});
   }
   void GivePositions(double sigma_m) {
