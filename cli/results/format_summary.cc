@@ -3,6 +3,7 @@
 #include "cli/results/format_summary.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,18 @@ namespace {
 constexpr size_t kNamesShown = 3;
 constexpr size_t kLinesShown = 12;  ///< of a kind; report.html has all
 
+/// Positions that models other than the first contradict; empty: none.
+std::string OtherModelsContradict(const JobReport& report) {
+  std::vector<std::string> names;
+  for (size_t model = 1; model < report.each_model.size(); ++model)
+    std::ranges::copy(report.each_model[model].gnss.outliers, std::back_inserter(names));
+  if (names.empty()) return "";
+  return absl::StrCat("; of the other models ",
+                      names.size(),
+                      " contradicted: ",
+                      PrintableText(FirstNames(names, kNamesShown)));
+}
+
 std::string GnssLine(const JobReport& report) {
   const ReportGnss& gnss = report.gnss;
   if (!gnss.used) return gnss.reason.empty() ? "none" : "not used: " + PrintableText(gnss.reason);
@@ -34,7 +47,7 @@ std::string GnssLine(const JobReport& report) {
                     " contradicted: ",
                     PrintableText(FirstNames(gnss.outliers, kNamesShown)));
   }
-  if (report.models > 1) line += " (model 0)";
+  if (report.models > 1) absl::StrAppend(&line, " (model 0)", OtherModelsContradict(report));
   if (gnss.deformation_m == 0.0) return line;
   return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.deformation_m);
 }

@@ -40,6 +40,18 @@ TEST(FormatSummary, NamesTheFirstPositionsThatTheModelContradicts) {
   EXPECT_THAT(FormatSummary(report, "model"), Not(HasSubstr("contradicted")));
 }
 
+TEST(FormatSummary, NamesThemOfAllModels) {
+  JobReport report = MadeUpReport(40, 3);
+  report.models = 3;
+  report.each_model.resize(3);
+  EXPECT_THAT(FormatSummary(report, "model"), HasSubstr("IMG_0060.jpg (model 0)\n"));
+  report.each_model[0].gnss.outliers = report.gnss.outliers;
+  report.each_model[1].gnss.outliers = {"a.jpg"};
+  report.each_model[2].gnss.outliers = {"b.jpg"};
+  EXPECT_THAT(FormatSummary(report, "model"),
+              HasSubstr(" (model 0); of the other models 2 contradicted: a.jpg, b.jpg\n"));
+}
+
 TEST(FormatSummary, SaysWhyGnssIsNotUsed) {
   JobReport report = MadeUpReport(40, 3);
   report.gnss = {.reason = "no image has a GNSS position"};
