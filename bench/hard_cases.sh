@@ -11,13 +11,11 @@ orbweave=${1:-build/release/cli/orbweave}
 panoramas=${2:-60}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-
-# A number or word of report.json's outermost object.
-field() { sed -n "s/^ \"$1\": \([^,]*\),*$/\1/p" "$folder/out/report.json" | head -1; }
+source "$(dirname "$0")/report.sh"
 
 # What the report says beyond numbers: GNSS not used, GNSS outliers, warnings, verdict and its first reason.
 remarks() {
-  local file=$folder/out/report.json gnss used reason outliers warnings seams verdict
+  local file=$folder/out/report.json gnss used reason outliers warnings seams
   gnss=$(sed -n '/^ "gnss": {/,/^ }/p' "$file")
   used=$(sed -n 's/^  "used": \([a-z]*\),*$/\1/p' <<<"$gnss")
   reason=$(sed -n 's/^  "reason": "\(.*\)",*$/\1/p' <<<"$gnss")
@@ -29,10 +27,9 @@ remarks() {
   [ "$seams" = 0 ] || echo -n "seams switched off: $seams; "
   [ "${#warnings}" -le 110 ] || warnings="${warnings:0:107} ..."
   [ -z "$warnings" ] || echo -n "$warnings; "
-  verdict=$(sed -n '/^ "verdict": {/,/^ }/p' "$file")
-  reason=$(sed -n '/"reasons": \[$/,/\]/s/^   "\(.*\)",*$/\1/p' <<<"$verdict" | head -1)
+  reason=$(sed -n '/"reasons": \[$/,/\]/s/^   "\(.*\)",*$/\1/p' <<<"$(verdict)" | head -1)
   [ "${#reason}" -le 110 ] || reason="${reason:0:107} ..."
-  echo -n "$(sed -n 's/^  "level": "\(.*\)",*$/\1/p' <<<"$verdict")${reason:+: $reason}; "
+  echo -n "$(level)${reason:+: $reason}; "
 }
 
 # error REGEX: the number before it in what evaluate printed.

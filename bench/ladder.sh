@@ -20,9 +20,7 @@ synth=${ORBWEAVE_SYNTH:-$orbweave}
 read -r -a more <<<"${ORBWEAVE_RUN:-}"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-
-# A number of report.json's outermost object.
-field() { sed -n "s/^ \"$1\": \([^,]*\),*$/\1/p" "$folder/out/report.json" | head -1; }
+source "$(dirname "$0")/report.sh"
 
 # climb SPACING OPTIONS...: reconstructs one street; sets found ("24 of 24, 0.01 m") and is true
 # when all is right.

@@ -17,10 +17,7 @@ read -r -a more <<<"${ORBWEAVE_RUN:-}"
 read -r -a scene <<<"${ORBWEAVE_SYNTH:-}"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-
-# A number of report.json's outermost object.
-field() { sed -n "s/^ \"$1\": \([^,]*\),*$/\1/p" "$folder/out/report.json" | head -1; }
-level() { sed -n '/^ "verdict": {/,/^ }/s/^  "level": "\(.*\)",*$/\1/p' "$folder/out/report.json"; }
+source "$(dirname "$0")/report.sh"
 
 # reconstruct OPTIONS...: "24 in 1 | 0.01 / 0.02 | 0 | `good`", or why there is none.
 reconstruct() {

@@ -11,9 +11,7 @@ orbweave=${1:-build/release/cli/orbweave}
 panoramas=${2:-200}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-
-# A number of report.json's outermost object.
-field() { sed -n "s/^ \"$1\": \([^,]*\),*$/\1/p" "$folder/out/report.json" | head -1; }
+source "$(dirname "$0")/report.sh"
 
 # How many seams have this verdict.
 verdicts() { grep -c "\"verdict\": \"$1\"" "$folder/out/report.json" || true; }

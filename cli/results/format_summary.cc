@@ -21,16 +21,19 @@ namespace {
 constexpr size_t kNamesShown = 3;
 constexpr size_t kLinesShown = 12;  ///< of a kind; report.html has all
 
-/// Positions that models other than the first contradict; empty: none.
-std::string OtherModelsContradict(const JobReport& report) {
+/// "; " and `whose`, how many positions are contradicted, and the first of them; empty: none.
+std::string ContradictedText(const char* whose, const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  return absl::StrCat(
+      "; ", whose, names.size(), " contradicted: ", PrintableText(FirstNames(names, kNamesShown)));
+}
+
+/// Positions that models other than the first contradict.
+std::vector<std::string> OutliersOfOtherModels(const JobReport& report) {
   std::vector<std::string> names;
   for (size_t model = 1; model < report.each_model.size(); ++model)
     std::ranges::copy(report.each_model[model].gnss.outliers, std::back_inserter(names));
-  if (names.empty()) return "";
-  return absl::StrCat("; of the other models ",
-                      names.size(),
-                      " contradicted: ",
-                      PrintableText(FirstNames(names, kNamesShown)));
+  return names;
 }
 
 std::string GnssLine(const JobReport& report) {
@@ -40,14 +43,12 @@ std::string GnssLine(const JobReport& report) {
                                      gnss.num_inliers,
                                      gnss.num_priors,
                                      gnss.residual_rms_inliers_m);
-  if (!gnss.outliers.empty()) {
+  line += ContradictedText("", gnss.outliers);
+  if (report.models > 1) {
     absl::StrAppend(&line,
-                    "; ",
-                    gnss.outliers.size(),
-                    " contradicted: ",
-                    PrintableText(FirstNames(gnss.outliers, kNamesShown)));
+                    " (model 0)",
+                    ContradictedText("of the other models ", OutliersOfOtherModels(report)));
   }
-  if (report.models > 1) absl::StrAppend(&line, " (model 0)", OtherModelsContradict(report));
   if (gnss.deformation_m == 0.0) return line;
   return line + absl::StrFormat("; the model was bent to them by up to %.1f m", gnss.deformation_m);
 }

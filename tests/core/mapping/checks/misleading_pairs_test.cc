@@ -140,7 +140,7 @@ struct Corner : Walk {
 /// what may be wrong.
 TEST(MisleadingPairs, LengthsOfTheWaysDoNotMatter) {
   Corner corner;
-  for (const double degrees : {-50.0, -40.0, 0.0, 40.0, 50.0})
+  for (const double degrees : {-50.0, -40.0, -35.0, 0.0, 35.0, 40.0, 50.0})
     EXPECT_EQ(corner.IsMisleadingBy(degrees), std::abs(degrees) > 49.0) << degrees;
 }
 
