@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "core/estimators/match_evidence.h"
 #include "core/estimators/matches_besides_plane.h"
 #include "core/estimators/resolve_cheirality.h"
+#include "core/estimators/sky_drift.h"
 #include "core/estimators/split_by_height.h"
 #include "core/estimators/split_by_motion.h"
 #include "core/estimators/two_view_inliers.h"
@@ -36,9 +36,10 @@ constexpr double kCarrierSpread = 0.25;   // the carrier covers no more of the s
 // is by chance elsewhere: a scene has one place in eight, and five at least, in either half.
 constexpr double kEitherHalf = 0.125;
 constexpr uint32_t kFewestPlaces = 5;
-constexpr double kMostlySky = 0.5;     // of the inliers: the sky outvotes the scene
-constexpr double kLowFeatures = 0.1;   // of all features: a common scene has matches there
-constexpr double kStanding = 0.9;      // of what is far and high: no clouds, then
+constexpr double kMostlySky = 0.5;    // of the inliers: the sky outvotes the scene
+constexpr double kLowFeatures = 0.1;  // of all features: a common scene has matches there
+constexpr double kStanding = 0.9;     // of what is far and high: no clouds, then
+constexpr int kSkyRounds = 3;
 constexpr double kFarBaselines = 5.0;  // houses lie within five steps of 5 m across a street
 // Clouds drift by half a degree a second: in the ten that neighbours are apart at most.
 constexpr double kMaxDrift_rad = 0.087;
@@ -278,16 +279,38 @@ struct PairView {
     return inliers;
   }
 
-  /// Whether what is high and far stands still: of all `putative` matches that are, as towers are,
-  /// nearly all agree with the pose, while clouds drift off most epipolar planes.
+  /// Whether what is high and far stands still, as towers do: of all `putative` matches that are,
+  /// nearly all agree with the pose of the scene, while clouds drift off most epipolar planes; and
+  /// they have not turned by what is less than the error that agreeing allows.
   [[nodiscard]] bool StandsStill(std::span<const FeatureMatch> putative,
-                                 const TwoViewGeometry& scene) const {
-    std::vector<FeatureMatch> far;
-    std::ranges::copy_if(putative, std::back_inserter(far), [&](const FeatureMatch& match) {
+                                 const TwoViewGeometry& scene,
+                                 const BearingPairs& of_scene) const {
+    std::vector<FeatureMatch> matches;
+    std::ranges::copy_if(putative, std::back_inserter(matches), [&](const FeatureMatch& match) {
       return MayBeSky(match, scene);
     });
-    return static_cast<double>(Agreeing(Arranged(far), scene).size()) >=
-           kStanding * static_cast<double>(far.size());
+    const BearingPairs far = Arranged(matches);
+    return static_cast<double>(Agreeing(far, scene).size()) >=
+               kStanding * static_cast<double>(far.Size()) &&
+           !MeasureSkyDrift(far, of_scene, scene.b_from_a, max_error_rad).IsClear();
+  }
+
+  /// What may not be sky of those that agree with a pose.
+  [[nodiscard]] std::vector<uint32_t> Low(const BearingPairs& pairs, const Rigid3& b_from_a) const {
+    return WithoutSky(pairs, InliersOf(pairs, b_from_a, max_error_rad), b_from_a, max_error_rad);
+  }
+
+  /// The pose of inliers that may not be sky, and those of that pose, in turns until no more come:
+  /// the sky has drawn both along, so that fewer agree at first.
+  [[nodiscard]] ResolvedPose BelowSkyOf(const BearingPairs& pairs, const Rigid3& b_from_a) const {
+    ResolvedPose below{b_from_a, Low(pairs, b_from_a)};
+    for (int round = 0; round < kSkyRounds && !below.inliers.empty(); ++round) {
+      const Rigid3 pose = RefinePose(pairs, below.inliers, below.b_from_a, max_error_rad);
+      std::vector<uint32_t> inliers = Low(pairs, pose);
+      if (round > 0 && inliers.size() <= below.inliers.size()) break;
+      below = {pose, std::move(inliers)};
+    }
+    return below;
   }
 
   /// Without what is far and high, which draws the pose along when it drifts. `putative`: of which
@@ -296,20 +319,18 @@ struct PairView {
                                         std::span<const FeatureMatch> putative) const {
     if (geometry.kind == TwoViewKind::kNone || geometry.kind == TwoViewKind::kPureRotation)
       return geometry;
-    const std::vector<FeatureMatch> matches = geometry.inliers;
-    const BearingPairs pairs = Arranged(matches);
-    std::vector<uint32_t> inliers(pairs.Size());
-    std::iota(inliers.begin(), inliers.end(), 0U);
-    const std::vector<uint32_t> kept = WithoutSky(pairs, inliers, geometry.b_from_a, max_error_rad);
-    const auto most = (1.0 - kNotedShare) * static_cast<double>(matches.size());
-    if (kept.size() < static_cast<size_t>(options.min_inliers) ||
-        static_cast<double>(kept.size()) > most) {
+    const BearingPairs pairs = Arranged(putative);
+    const ResolvedPose below = BelowSkyOf(pairs, geometry.b_from_a);
+    const auto most = (1.0 - kNotedShare) * static_cast<double>(geometry.inliers.size());
+    if (below.inliers.size() < static_cast<size_t>(options.min_inliers) ||
+        static_cast<double>(below.inliers.size()) > most) {
       return geometry;
     }
+    const BearingPairs inliers = Subset(pairs, below.inliers);
     TwoViewGeometry scene = geometry;
-    scene.b_from_a = RefinePose(pairs, kept, geometry.b_from_a, max_error_rad);
-    if (StandsStill(putative, scene)) return geometry;
-    SetInliers(Subset(pairs, kept), matches, scene);
+    scene.b_from_a = below.b_from_a;
+    if (StandsStill(putative, scene, inliers)) return geometry;
+    SetInliers(inliers, putative, scene);
     return scene;
   }
 };

@@ -13,7 +13,7 @@ namespace orbweave {
 
 /// A run of pairs -> those that have a geometry, with their matches (MatchImagePair).
 struct MatchImagesStage {
-  static constexpr StageFacts kFacts{.name = "match_images", .version = "18", .weight = 25.0};
+  static constexpr StageFacts kFacts{.name = "match_images", .version = "19", .weight = 25.0};
   using Options = OptionSections<MatchOptions, TwoViewOptions>;
 
   Parts<MatchRecipe> run;

@@ -12,7 +12,7 @@ namespace orbweave {
 
 /// MatchImagesStage on matches that are given: descriptors have no say in it.
 struct VerifyMatchesStage {
-  static constexpr StageFacts kFacts{.name = "verify_matches", .version = "10", .weight = 10.0};
+  static constexpr StageFacts kFacts{.name = "verify_matches", .version = "11", .weight = 10.0};
   using Options = OptionSections<TwoViewOptions>;
 
   Parts<MatchRecipe> run;

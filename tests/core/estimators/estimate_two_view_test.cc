@@ -476,7 +476,8 @@ void AddClouds(size_t count, const Vector3d& drift, TwoViewWorld& world) {
 }
 
 TEST(EstimateTwoView, IsNotMisledByCloudsThatMatchMoreThanTheScene) {
-  for (const double drift : {0.0, 0.01, 0.05, 0.08}) {
+  // 0.005 is hardly more than agreeing allows: most of the clouds seem to stand.
+  for (const double drift : {0.0, 0.005, 0.01, 0.05, 0.08}) {
     for (uint64_t seed = 0; seed < 10; ++seed) {
       TwoViewWorld world = MakeStreet(seed, 100);
       AddClouds(300, drift * Vector3d(0.8, 0.0, 0.6), world);
