@@ -29,10 +29,9 @@ std::vector<uint32_t> Low(const BearingPairs& pairs, const Rigid3& b_from_a, dou
   return WithoutSky(pairs, InliersOf(pairs, b_from_a, max_error_rad), b_from_a, max_error_rad);
 }
 
-/// The pose of inliers that may not be sky, and those of that pose, in turns until no more come:
-/// the sky has drawn both along, so that fewer agree at first.
-ResolvedPose PoseBelowSky(const BearingPairs& pairs, const Rigid3& b_from_a, double max_error_rad) {
-  ResolvedPose below{b_from_a, Low(pairs, b_from_a, max_error_rad)};
+/// From inliers that may not be sky and the pose that all had: the pose of these, and those of that
+/// pose, in turns until no more come. The sky has drawn both along, so that fewer agree at first.
+ResolvedPose RefineBelowSky(const BearingPairs& pairs, ResolvedPose below, double max_error_rad) {
   for (int round = 0; round < kRounds && !below.inliers.empty(); ++round) {
     const Rigid3 pose = RefinePose(pairs, below.inliers, below.b_from_a, max_error_rad);
     std::vector<uint32_t> inliers = Low(pairs, pose, max_error_rad);
@@ -86,13 +85,15 @@ TwoViewGeometry LeaveOutSky(const MatchedBearings& bearings,
                             int min_inliers) {
   if (geometry.kind == TwoViewKind::kNone || geometry.kind == TwoViewKind::kPureRotation)
     return geometry;
-  const BearingPairs pairs = bearings.Arranged(putative);
-  const ResolvedPose below = PoseBelowSky(pairs, geometry.b_from_a, bearings.max_error_rad);
+  const double max_error_rad = bearings.max_error_rad;
+  const auto fewest = static_cast<size_t>(min_inliers);
   const auto most = (1.0 - kNotedShare) * static_cast<double>(geometry.inliers.size());
-  if (below.inliers.size() < static_cast<size_t>(min_inliers) ||
-      static_cast<double>(below.inliers.size()) > most) {
+  const BearingPairs pairs = bearings.Arranged(putative);
+  ResolvedPose below{geometry.b_from_a, Low(pairs, geometry.b_from_a, max_error_rad)};
+  if (below.inliers.size() < fewest || static_cast<double>(below.inliers.size()) > most)
     return geometry;
-  }
+  below = RefineBelowSky(pairs, std::move(below), max_error_rad);
+  if (below.inliers.size() < fewest) return geometry;
   const BearingPairs inliers = Subset(pairs, below.inliers);
   TwoViewGeometry scene = geometry;
   scene.b_from_a = below.b_from_a;
