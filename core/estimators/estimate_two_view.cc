@@ -159,22 +159,22 @@ struct PairView {
   }
 
   /// The geometry of the scene where that of all matches is the sky's; none where the sky alone
-  /// matches.
+  /// matches, be it in several ways, as clouds do that look alike.
   [[nodiscard]] absl::StatusOr<TwoViewGeometry> BelowSky(
       std::span<const FeatureMatch> matches) const {
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry all, From(matches));
     if (all.kind == TwoViewKind::kNone) return all;
     const std::vector<FeatureMatch> sky = SkyOf(bearings, all);
-    if (static_cast<double>(sky.size()) < kMostlySky * static_cast<double>(all.inliers.size()))
-      return WithoutMovingSky(all, matches);
+    if (!IsMostly(sky, all)) return WithoutMovingSky(all, matches);
     std::vector<FeatureMatch> rest;
     std::ranges::copy_if(matches, std::back_inserter(rest), [&](const FeatureMatch& match) {
       return !std::ranges::binary_search(sky, match);
     });
     const double evidence_of_all = Log10FalseAlarms(rest, all);
     ORBWEAVE_ASSIGN_OR_RETURN(const TwoViewGeometry scene, From(rest));
-    const bool is_scene =
-        scene.kind != TwoViewKind::kNone && !ShowsTheCarrierAlone(scene, bearings.max_error_rad);
+    const bool is_scene = scene.kind != TwoViewKind::kNone &&
+                          !ShowsTheCarrierAlone(scene, bearings.max_error_rad) &&
+                          !IsMostly(SkyOf(bearings, scene), scene);
     if (is_scene && kAsEvident * scene.log10_false_alarms < evidence_of_all)
       return WithoutMovingSky(bearings.Extended(scene, matches), matches);
     if (evidence_of_all <= options.max_log10_false_alarms || !SeesTheGround() ||
@@ -203,6 +203,12 @@ struct PairView {
   }
 
  private:
+  [[nodiscard]] static bool IsMostly(std::span<const FeatureMatch> sky,
+                                     const TwoViewGeometry& geometry) {
+    return static_cast<double>(sky.size()) >=
+           kMostlySky * static_cast<double>(geometry.inliers.size());
+  }
+
   [[nodiscard]] double Log10FalseAlarms(std::span<const FeatureMatch> matches,
                                         const TwoViewGeometry& geometry) const {
     const BearingPairs pairs = bearings.Arranged(matches);
