@@ -49,7 +49,7 @@ Linearisation<3> LineariseTurn(const Quaterniond& rotation,
 template <int N>
 Matrix3d RotationCovariance(const Linearisation<N>& fit, size_t equations, size_t freedoms) {
   using Matrix = Eigen::Matrix<double, N, N>;
-  const Matrix3d unknown = Matrix3d::Identity() * std::numeric_limits<double>::infinity();
+  const Matrix3d unknown = Matrix3d::Constant(std::numeric_limits<double>::infinity());
   if (equations <= freedoms) return unknown;
   const Eigen::LDLT<Matrix, Eigen::Lower> ldlt(fit.H);
   if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return unknown;
