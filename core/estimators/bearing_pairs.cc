@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/geometry/essential.h"
 
@@ -51,6 +52,12 @@ BearingPairs ArrangePairs(std::span<const Vector3d> bearings_a,
     }
   }
   return pairs;
+}
+
+std::vector<uint32_t> AllOf(const BearingPairs& pairs) {
+  std::vector<uint32_t> all(pairs.Size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
 }
 
 SelectedBearings SelectPairs(const BearingPairs& pairs, std::span<const uint32_t> indices) {

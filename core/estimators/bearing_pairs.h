@@ -35,6 +35,9 @@ struct BearingPairs {
                                         std::span<const FeatureMatch> matches,
                                         uint64_t seed);
 
+/// The indices of all pairs, ascending.
+[[nodiscard]] std::vector<uint32_t> AllOf(const BearingPairs& pairs);
+
 /// Bearings of some pairs, as the solvers take them.
 struct SelectedBearings {
   std::vector<Eigen::Vector3d> a{};

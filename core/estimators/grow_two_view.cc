@@ -3,7 +3,6 @@
 
 #include "core/estimators/grow_two_view.h"
 
-#include <numeric>
 #include <vector>
 
 #include "core/estimators/bearing_pairs.h"
@@ -20,12 +19,6 @@ constexpr double kHardlyAny = 0.1;  // of the inliers: fewer were not taken for 
 
 bool IsHardlyAny(size_t some, size_t all) {
   return static_cast<double>(some) < kHardlyAny * static_cast<double>(all);
-}
-
-std::vector<uint32_t> AllOf(const BearingPairs& pairs) {
-  std::vector<uint32_t> all(pairs.Size());
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
 }
 
 /// Some pairs, and those among them that are sure not to be sky; all where that cannot be told.

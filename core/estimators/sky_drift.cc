@@ -6,8 +6,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <vector>
 
 #include "core/estimators/refine_two_view.h"
 #include "core/geometry/rotation.h"
@@ -59,12 +57,6 @@ Matrix3d RotationCovariance(const Linearisation<N>& fit, size_t equations, size_
   return of_rotation * (fit.cost / static_cast<double>(equations - freedoms));
 }
 
-SelectedBearings AllOf(const BearingPairs& pairs) {
-  std::vector<uint32_t> all(pairs.Size());
-  std::iota(all.begin(), all.end(), 0U);
-  return SelectPairs(pairs, all);
-}
-
 }  // namespace
 
 bool SkyDrift::IsClear() const {
@@ -86,7 +78,7 @@ SkyDrift MeasureSkyDrift(const BearingPairs& far,
     return (RotationFromVector(theta) * rotation).normalized();
   };
   const Quaterniond of_far = MinimiseLevenbergMarquardt<3>(b_from_a.rotation, linearise, turn);
-  const SelectedBearings selected = AllOf(scene);
+  const SelectedBearings selected = SelectPairs(scene, AllOf(scene));
   const Linearisation<5> of_scene =
       LineariseEpipolarResiduals(b_from_a, selected.a, selected.b, loss_scale_rad);
   return {.turn_rad = VectorFromRotation(of_far * b_from_a.rotation.conjugate()),

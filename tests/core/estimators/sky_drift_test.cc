@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "core/estimators/two_view_inliers.h"
 #include "core/geometry/rotation.h"
 #include "tests/support/random_world.h"
@@ -58,9 +56,7 @@ Street MakeStreet(uint64_t seed, size_t facade_points, const Vector3d& drift_rad
     b.push_back(WithNoise(random, turn * ray.normalized(), kSigmaRad));
   }
   street.far = Arrange(a, b);
-  std::vector<uint32_t> all(street.scene.Size());
-  std::iota(all.begin(), all.end(), 0U);
-  street.b_from_a = RefinePose(street.scene, all, street.b_from_a, kMaxErrorRad);
+  street.b_from_a = RefinePose(street.scene, AllOf(street.scene), street.b_from_a, kMaxErrorRad);
   return street;
 }
 

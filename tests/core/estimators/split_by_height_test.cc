@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace orbweave {
 namespace {
@@ -39,10 +38,8 @@ BearingPairs PairsOf(const std::vector<Vector3d>& points) {
 /// Indices of points among those kept.
 std::vector<uint32_t> KeptOf(const std::vector<Vector3d>& points, double max_error_rad) {
   const BearingPairs pairs = PairsOf(points);
-  std::vector<uint32_t> all(points.size());
-  std::iota(all.begin(), all.end(), 0U);
   std::vector<uint32_t> kept;
-  for (const uint32_t i : WithoutSky(pairs, all, kStep, max_error_rad))
+  for (const uint32_t i : WithoutSky(pairs, AllOf(pairs), kStep, max_error_rad))
     kept.push_back(pairs.order[i]);
   std::ranges::sort(kept);
   return kept;
