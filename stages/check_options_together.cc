@@ -13,10 +13,7 @@ namespace {
 /// Whether the view graph of this many images may be divided (PartitionViewGraph).
 bool MayBeDivided(const PartitionOptions& options, const JobShape& job) {
   if (job.num_clusters_by_hand > 0) return job.num_clusters_by_hand > 1;
-  if (options.cluster_size == 0) return false;
-  const auto least = static_cast<size_t>(options.min_cluster_size);
-  return job.num_images > static_cast<size_t>(options.cluster_size) ||
-         (options.min_clusters > 1 && job.num_images >= 2 * least);
+  return NumClusters(job.num_images, options) > 1;
 }
 
 /// Ceres adjusts a whole model in one piece (AdjustSubproblems).

@@ -133,6 +133,24 @@ std::string MatchesText(const PairInspection& inspection) {
   return text;
 }
 
+/// What the best geometry of a pair lacks of what the options ask for.
+std::string ShortfallText(const PairInspection& inspection, const TwoViewOptions& options) {
+  const TwoViewGeometry& geometry = inspection.geometry;
+  const auto inliers = static_cast<double>(geometry.inliers.size());
+  if (inliers < options.min_inliers)
+    return absl::StrCat("two_view.min_inliers=", options.min_inliers, " are asked for");
+  if (geometry.log10_false_alarms > options.max_log10_false_alarms) {
+    return absl::StrFormat(
+        "as many agree by chance in %.2g of a hundred such pairs "
+        "(two_view.max_log10_false_alarms=%g)",
+        100.0 * std::min(1.0, std::pow(10.0, geometry.log10_false_alarms)),
+        options.max_log10_false_alarms);
+  }
+  if (inliers < options.min_inlier_share * static_cast<double>(inspection.putative.size()))
+    return absl::StrFormat("two_view.min_inlier_share=%g is asked for", options.min_inlier_share);
+  return "found by a search that takes whatever there is, not by that of the job";
+}
+
 /// What became of the pair, and why.
 std::string VerdictText(const InspectedJob& job, const PairFacts& facts) {
   const PairInspection& inspection = facts.inspection;
@@ -152,11 +170,11 @@ std::string VerdictText(const InspectedJob& job, const PairFacts& facts) {
                                                                  : ": ") +
              MatchesText(inspection);
     case PairVerdict::kRejected:
-      return text + absl::StrFormat(
-                        "not verified: the best geometry of %u matches has %u inliers, "
-                        "less than the options of section two_view accept",
-                        inspection.putative.size(),
-                        inspection.geometry.inliers.size());
+      return text +
+             absl::StrFormat("not verified: the best geometry of %u matches has %u inliers; %s",
+                             inspection.putative.size(),
+                             inspection.geometry.inliers.size(),
+                             ShortfallText(inspection, job.options().two_view));
     case PairVerdict::kNothing:
       break;
   }

@@ -17,8 +17,9 @@ struct DividedViewGraph {
   Partition partition{};
   std::vector<DroppedEdge> dropped{};
   std::vector<ImagePair> edges{};
-  std::vector<uint8_t> edge_kinds{};  ///< TwoViewKind of each
-  std::vector<uint8_t> edge_rungs{};  ///< MatchRung of each
+  std::vector<uint8_t> edge_kinds{};     ///< TwoViewKind of each
+  std::vector<uint8_t> edge_rungs{};     ///< MatchRung of each
+  std::vector<CrossingPair> crossing{};  ///< those of them that no cluster has (CrossingPairs)
 };
 
 /// The result of one cluster, with its number.

@@ -67,15 +67,6 @@ uint32_t NumClustersBySize(size_t num_images, int cluster_size) {
   return static_cast<uint32_t>(is_near ? even : std::round(wanted));
 }
 
-uint32_t NumClusters(size_t num_images, const PartitionOptions& options) {
-  if (options.cluster_size == 0) return 1;
-  const uint32_t by_size = NumClustersBySize(num_images, options.cluster_size);
-  const auto sufficient =
-      static_cast<uint32_t>(num_images) / static_cast<uint32_t>(options.min_cluster_size);
-  const uint32_t by_count = std::min(static_cast<uint32_t>(options.min_clusters), sufficient);
-  return std::max({by_size, by_count, 1U});
-}
-
 // The smallest part that is left standing: half of what was aimed at.
 uint32_t MinPartSize(const PartitionOptions& options) {
   return static_cast<uint32_t>(std::min(options.cluster_size, options.min_cluster_size)) / 2;
@@ -199,6 +190,15 @@ Partition JoinAcrossWeakSeams(const ViewGraph& graph,
 }
 
 }  // namespace
+
+uint32_t NumClusters(size_t num_images, const PartitionOptions& options) {
+  if (options.cluster_size == 0) return 1;
+  const uint32_t by_size = NumClustersBySize(num_images, options.cluster_size);
+  const auto sufficient =
+      static_cast<uint32_t>(num_images) / static_cast<uint32_t>(options.min_cluster_size);
+  const uint32_t by_count = std::min(static_cast<uint32_t>(options.min_clusters), sufficient);
+  return std::max({by_size, by_count, 1U});
+}
 
 absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
                                              const PartitionOptions& options) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,12 +54,14 @@ struct PartitionOptions {
   }
 };
 
-/// Divides each connected component of the view graph into clusters and lets neighbours overlap.
+/// How many clusters a component of n images becomes: max(n / cluster_size, min(min_clusters, n /
+/// min_cluster_size)), whoever will compute them. n / cluster_size is rounded to an even number
+/// where clusters stay within a fifth of cluster_size (of an odd number of equal tasks, the last
+/// keeps every second worker waiting), else to the nearest.
+[[nodiscard]] uint32_t NumClusters(size_t num_images, const PartitionOptions& options);
+
+/// Divides each connected component of the view graph into NumClusters and lets neighbours overlap.
 ///
-/// A component of n images becomes max(n / cluster_size, min(min_clusters, n / min_cluster_size))
-/// clusters: the number depends on the images alone, never on who will compute them. n /
-/// cluster_size is rounded to an even number where clusters stay within a fifth of cluster_size (of
-/// an odd number of equal tasks, the last keeps every second worker waiting), else to the nearest.
 /// METIS k-way with edge weight = inliers x spread (EdgeWeights) cuts it into parts of
 /// about equal cost (ImageCosts); the interior of every cluster is connected. At every seam images
 /// are then shared, those with the strongest edges to the other side first and alternating between

@@ -126,14 +126,13 @@ std::vector<std::string> SplitFields(std::string_view line, char separator) {
   return fields;
 }
 
-std::vector<std::string_view> SplitWords(std::string_view line) {
-  constexpr std::string_view kSeparators = " \t,\r";
+std::vector<std::string_view> SplitWords(std::string_view line, std::string_view separators) {
   std::vector<std::string_view> words;
-  size_t begin = line.find_first_not_of(kSeparators);
+  size_t begin = line.find_first_not_of(separators);
   while (begin != std::string_view::npos) {
-    const size_t end = line.find_first_of(kSeparators, begin);
+    const size_t end = line.find_first_of(separators, begin);
     words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSeparators, end);
+    begin = line.find_first_not_of(separators, end);
   }
   return words;
 }

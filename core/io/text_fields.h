@@ -20,8 +20,9 @@ namespace orbweave {
 /// Fields between single separators, trimmed; a field in double quotes may hold the separator, and
 /// "" for a quote. The apostrophe that CsvField puts before formulas is taken off.
 [[nodiscard]] std::vector<std::string> SplitFields(std::string_view line, char separator);
-/// Words between runs of blanks, tabs and commas.
-[[nodiscard]] std::vector<std::string_view> SplitWords(std::string_view line);
+/// Words between runs of `separators`.
+[[nodiscard]] std::vector<std::string_view> SplitWords(std::string_view line,
+                                                       std::string_view separators = " \t,\r");
 /// The number that is the whole of `text`; nullopt for anything else. NaN and infinity are numbers.
 [[nodiscard]] std::optional<double> NumberFromText(std::string_view text);
 /// Seconds since 1970 of "2016:11:13 11:16:31[.5][+02:00|Z]" (EXIF; also '-' in the date and 'T'

@@ -81,11 +81,17 @@ void SortLargestFirst(std::vector<Reconstruction>& submodels) {
 /// held them together.
 absl::StatusOr<std::vector<MappingState>> CutAll(std::vector<MappingState> states,
                                                  const MappingOptions& options,
-                                                 const StageContext& context) {
+                                                 const StageContext& context,
+                                                 RegistrationLog& log) {
   std::vector<MappingState> cut;
   for (MappingState& state : states) {
     std::vector<MappingState> pieces = CutAtHinges(std::move(state), options);
     for (MappingState& piece : pieces) {
+      const bool is_model =
+          piece.Registered().size() >= static_cast<size_t>(options.min_component_images);
+      if (pieces.size() > 1 && !is_model) {
+        for (const ImageSlot image : piece.Registered()) log[image].cut_off = true;
+      }
       if (pieces.size() > 1 && piece.Registered().size() >= kFewestImages)
         ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(piece, options, context));
       cut.push_back(std::move(piece));
@@ -97,9 +103,12 @@ absl::StatusOr<std::vector<MappingState>> CutAll(std::vector<MappingState> state
 /// Without images on a scale of their own, which may be a submodel by themselves.
 absl::Status DropOffScale(MappingState& state,
                           const MappingOptions& options,
-                          const StageContext& context) {
-  while (!DropOffScaleImages(state).empty())
+                          const StageContext& context,
+                          RegistrationLog& log) {
+  for (auto off = DropOffScaleImages(state); !off.empty(); off = DropOffScaleImages(state)) {
+    for (const ImageSlot image : off) log[image].off_scale = true;
     ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state, options, context));
+  }
   return absl::OkStatus();
 }
 
@@ -124,7 +133,7 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
     if (!submodel.state || submodel.state->Registered().empty()) break;
     const std::vector<ImageSlot>& registered = submodel.state->Registered();
     if (ScheduleOf(options).relaxes_registration) {
-      ORBWEAVE_RETURN_IF_ERROR(DropOffScale(*submodel.state, options, context));
+      ORBWEAVE_RETURN_IF_ERROR(DropOffScale(*submodel.state, options, context, log));
       ORBWEAVE_RETURN_IF_ERROR(MendUneven(*submodel.state, options, context).status());
     }
     for (const ImageSlot image : registered) available[image] = 0;
@@ -136,16 +145,16 @@ absl::StatusOr<std::vector<MappingState>> MapSubmodels(const ClusterProblem& pro
     states.push_back(*std::move(submodel.state));
   }
   if (!ScheduleOf(options).relaxes_registration) return states;
-  ORBWEAVE_ASSIGN_OR_RETURN(states, CutAll(std::move(states), options, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(states, CutAll(std::move(states), options, context, log));
   const size_t grown = states.size();
   ORBWEAVE_ASSIGN_OR_RETURN(
       states, JoinByBridges(std::move(states), problem, graph, options, log, context));
   result.num_joined = static_cast<int>(grown - std::min(grown, states.size()));
   if (result.num_joined > 0) {
-    ORBWEAVE_ASSIGN_OR_RETURN(states, CutAll(std::move(states), options, context));
+    ORBWEAVE_ASSIGN_OR_RETURN(states, CutAll(std::move(states), options, context, log));
   }
   for (MappingState& state : states)
-    ORBWEAVE_RETURN_IF_ERROR(DropOffScale(state, options, context));
+    ORBWEAVE_RETURN_IF_ERROR(DropOffScale(state, options, context, log));
   return states;
 }
 
@@ -245,6 +254,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       continue;
     }
     for (const ImageSlot image : state.Registered()) {
+      if (log[image].cut_off) continue;
       reasons[image] = "its component of " + std::to_string(size) + " images is smaller than " +
                        std::to_string(options.min_component_images);
     }

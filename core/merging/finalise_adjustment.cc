@@ -21,6 +21,7 @@
 #include "core/merging/checks/check_drive_motion.h"
 #include "core/merging/checks/check_even_steps.h"
 #include "core/merging/checks/check_gnss.h"
+#include "core/merging/checks/check_headings.h"
 #include "core/merging/checks/check_leans.h"
 #include "core/merging/checks/check_missed_points.h"
 #include "core/merging/checks/check_sequence_steps.h"
@@ -38,22 +39,6 @@ Reconstruction PosesOf(std::span<const SubproblemSummary> summaries) {
     poses.images.insert(summary.owned_images.begin(), summary.owned_images.end());
   }
   return poses;
-}
-
-/// An image that lost all its observations is where its neighbours and GNSS put it.
-void LoosenUnobserved(std::span<const SubproblemSummary> summaries,
-                      const ImageManifest& manifest,
-                      Reconstruction& poses,
-                      GlobalAdjustReport& report) {
-  std::map<ImageId, uint32_t> observations;
-  for (const SubproblemSummary& summary : summaries) {
-    for (const auto& [id, count] : summary.observations_of_image) observations[id] += count;
-  }
-  for (auto& [id, image] : poses.images) {
-    if (image.loose || observations[id] > 0) continue;
-    image.loose = true;
-    report.unobserved_images.push_back(manifest.At(id).name);
-  }
 }
 
 void MeasureResiduals(std::span<const SubproblemSummary> summaries, GlobalAdjustReport& report) {
@@ -199,7 +184,6 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   world.report.uncertainty = std::move(assessed.report);
   std::ranges::copy(CheckGnss(problem, biases_m, georeference, manifest, points_about),
                     std::back_inserter(world.report.checks));
-  LoosenUnobserved(summaries, manifest, poses, world.report);
   std::map<ImageId, std::string> misplaced;
   if (georeference.enu_from_world) {
     const GnssReport gnss = JudgeGnss(problem, biases_m, manifest, poses.images);
@@ -237,6 +221,8 @@ absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
   world.report.checks.push_back(CheckMissedPoints(seen_between, images, manifest));
   world.report.checks.push_back(CheckLeans(images, manifest));
   std::ranges::move(CheckAttitudes(images, manifest), std::back_inserter(world.report.checks));
+  if (std::optional<CrossCheck> headings = CheckHeadings(images, manifest, is_in_metres))
+    world.report.checks.push_back(*std::move(headings));
   return world;
 }
 

@@ -20,7 +20,7 @@ namespace orbweave {
 
 /// An adjusted world without its tracks.
 struct FinalisedWorld {
-  std::map<ImageId, RegisteredImage> images{};  ///< loose where nobody observes them any more
+  std::map<ImageId, RegisteredImage> images{};
   Sim3 model_from_world{};  ///< identity where georeferenced; else into ChooseLocalFrame
   std::vector<SeamCertificate> seams{};  ///< in units of the model
   GlobalAdjustReport report{};
@@ -37,13 +37,12 @@ struct AdjustedWorld {
       support_without{};
 };
 
-/// What only the whole world tells: which images nobody observes any more (they become loose),
-/// which ones their own observations do not place (JudgeSupport; they are no more in the world, for
-/// AttachLooseImages to put where GNSS says), nor once those that do not are left out, as what two
-/// see alone is no support where one of them goes, which ones stand neither where GNSS has them nor
-/// where others look (ImagesThatMissPoints; left out alike), how GNSS fits the others (JudgeGnss),
-/// residuals, the uncertainty of poses, how `seams` (of the partition) fit, cross checks, and the
-/// frame of the model. Errors are those of `support_without`.
+/// What only the whole world tells: which images their own observations do not place (JudgeSupport;
+/// they are no more in the world, for AttachLooseImages to put where GNSS says), nor once those
+/// that do not are left out, as what two see alone is no support where one of them goes, which ones
+/// stand neither where GNSS has them nor where others look (ImagesThatMissPoints; left out alike),
+/// how GNSS fits the others (JudgeGnss), residuals, the uncertainty of poses, how `seams` (of the
+/// partition) fit, cross checks, and the frame of the model. Errors are those of `support_without`.
 [[nodiscard]] absl::StatusOr<FinalisedWorld> FinaliseAdjustment(AdjustedWorld adjusted,
                                                                 const std::vector<Seam>& seams,
                                                                 const Georeference& georeference,

@@ -104,8 +104,6 @@ struct GlobalAdjustReport {
   uint64_t num_observations = 0;
   uint32_t removed_observations = 0;
   uint32_t removed_tracks = 0;
-  std::vector<std::string>
-      unobserved_images{};  ///< names of images left without observations; now loose
   std::vector<Exclusion>
       weak_images{};  ///< taken out for want of support (JudgeSupport) or as misplaced, and why
   double residual_px_mean = 0.0;  ///< angle x W / 2pi

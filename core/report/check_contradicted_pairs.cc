@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/report/model_of_images.h"
+#include "core/report/pairs_of_job.h"
 
 namespace orbweave {
 namespace {
@@ -65,11 +66,8 @@ std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results,
   };
   std::set<ImagePair> judged;
   std::ranges::copy_if(results.view_graph.edges, std::inserter(judged, judged.end()), is_judged);
-  std::set<ImagePair> contradicted;
-  for (const ClusterSummary& cluster : results.clusters) {
-    std::ranges::copy_if(
-        cluster.contradicted_pairs, std::inserter(contradicted, contradicted.end()), is_judged);
-  }
+  std::set<ImagePair> contradicted = JudgePairsOfJob(results).contradicted;
+  std::erase_if(contradicted, [&](const ImagePair& pair) { return !is_judged(pair); });
   judged.insert(contradicted.begin(), contradicted.end());
   if (judged.empty()) return std::nullopt;
   CrossCheck check{

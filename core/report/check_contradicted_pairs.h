@@ -11,7 +11,7 @@
 namespace orbweave {
 
 /// "pairs_contradicted": of the verified pairs whose two images are registered in the same model,
-/// the share that a cluster's reconstruction contradicts (ClusterSummary::contradicted_pairs).
+/// the share that contradicts it (JudgePairsOfJob).
 /// Places that look alike make such pairs one by one, a model that is folded or torn where it is
 /// so: doubtful above one in twenty where an image has two or more and they are half of its pairs,
 /// bad above one in two. Pairs of images that GNSS tells apart (BorneOutByGnss) are no witnesses,

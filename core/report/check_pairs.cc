@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
+#include "core/report/pairs_of_job.h"
 #include "core/scene/places_in_drives.h"
 
 namespace orbweave {
@@ -39,29 +41,6 @@ struct Across {
   }
 };
 
-/// Sets of judged pairs. A pair of two clusters that one of them contradicts is contradicted.
-struct Judged {
-  std::set<ImagePair> explained{};
-  std::set<ImagePair> contradicted{};
-};
-
-Judged JudgedPairsOf(const JobResults& results) {
-  Judged judged;
-  for (const ClusterSummary& cluster : results.clusters) {
-    judged.explained.insert(cluster.explained_pairs.begin(), cluster.explained_pairs.end());
-    judged.contradicted.insert(cluster.contradicted_pairs.begin(),
-                               cluster.contradicted_pairs.end());
-  }
-  const auto is_unknown = [&](const ImagePair& pair) {
-    return pair.b.value >= results.manifest.images.size();
-  };
-  std::erase_if(judged.contradicted, is_unknown);
-  std::erase_if(judged.explained, [&](const ImagePair& pair) {
-    return is_unknown(pair) || judged.contradicted.contains(pair);
-  });
-  return judged;
-}
-
 /// The image and those before or after it in its drive, `kFurther` at most.
 std::vector<ImageId> OnwardFrom(const PlacesInDrives& places, ImageId image, bool after) {
   std::vector<ImageId> images = {image};
@@ -75,7 +54,7 @@ std::vector<ImageId> OnwardFrom(const PlacesInDrives& places, ImageId image, boo
 }
 
 /// What the pairs say that lead across both images of one, itself among them.
-Across PairsAcross(const Judged& judged, const PlacesInDrives& places, const ImagePair& pair) {
+Across PairsAcross(const PairsOfJob& judged, const PlacesInDrives& places, const ImagePair& pair) {
   const bool is_late = places.PlaceOf(pair.b) < places.PlaceOf(pair.a);
   const ImageId first = is_late ? pair.b : pair.a;
   const ImageId last = is_late ? pair.a : pair.b;
@@ -145,15 +124,20 @@ std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
 
 CrossCheck CheckPairs(const JobResults& results, const BorneOutByGnss& gnss) {
   const PlacesInDrives places(results.manifest);
-  const Judged judged = JudgedPairsOf(results);
+  const PairsOfJob judged = JudgePairsOfJob(results);
   const auto follow = [&](const ImagePair& pair) { return FollowOneAnother(places, pair); };
   const auto explained = static_cast<size_t>(std::ranges::count_if(judged.explained, follow));
   std::vector<ImagePair> torn;
   std::set<ImagePair> far;
+  size_t outvoted = 0;
   for (const ImagePair& pair : judged.contradicted) {
-    if (follow(pair) && !PairsAcross(judged, places, pair).BearOut()) {
+    const bool follows = follow(pair);
+    if (follows && !PairsAcross(judged, places, pair).BearOut()) {
       torn.push_back(pair);
-    } else if (!gnss.AreApart(pair)) {
+      continue;
+    }
+    outvoted += follows ? 1 : 0;
+    if (!gnss.AreApart(pair)) {
       far.insert(pair);
     }
   }
@@ -197,13 +181,16 @@ CrossCheck CheckPairs(const JobResults& results, const BorneOutByGnss& gnss) {
     check.sentence = text;
     return check;
   }
-  std::snprintf(text,
-                sizeof text,
-                "the model explains all %zu verified pairs between images that follow one another; "
-                "%zu pairs of others contradict it, one by one: places that look alike",
-                all,
-                judged.contradicted.size());
-  check.sentence = text;
+  check.sentence = absl::StrCat(
+      "the model explains all ",
+      all,
+      " verified pairs between images that follow one another",
+      outvoted > 0
+          ? absl::StrCat(", but for ", outvoted, " that those across the same place outvote")
+          : "",
+      "; ",
+      judged.contradicted.size() - outvoted,
+      " pairs of others contradict it, one by one: places that look alike");
   return check;
 }
 

@@ -3,7 +3,6 @@
 #include "core/report/list_missing_images.h"
 
 #include <map>
-#include <set>
 
 #include "absl/strings/str_cat.h"
 #include "core/io/page/group_messages.h"
@@ -56,14 +55,6 @@ std::vector<std::string> ReasonsOfImages(const JobResults& results) {
   for (const ImageRecord& image : results.manifest.images) {
     const auto found = weak.find(image.name);
     if (found != weak.end()) reasons[image.id.value] = found->second;
-  }
-  for (const AdjustedModel& model : results.models) {
-    const std::set<std::string> unobserved(model.report.unobserved_images.begin(),
-                                           model.report.unobserved_images.end());
-    for (const auto& [id, image] : model.images) {
-      if (unobserved.contains(results.manifest.At(id).name))
-        reasons[id.value] = "it has no observations of its own left";
-    }
   }
   for (size_t i = 0; i < results.image_problems.size(); ++i) {
     if (!results.image_problems[i].empty()) reasons[i] = results.image_problems[i];

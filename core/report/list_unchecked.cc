@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include "absl/strings/str_cat.h"
 
@@ -24,6 +26,24 @@ size_t CountWithoutTimes(const JobResults& results, const JobReport& report) {
         return IsSupported(report.images[image.id.value]) &&
                !std::isfinite(image.capture_time_s.value_or(NAN));
       }));
+}
+
+/// What checks say that nothing told; one sentence for all of a name.
+std::vector<std::string> UntoldChecks(const std::vector<CrossCheck>& checks) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::string>> sentences;
+  for (const CrossCheck& check : checks) {
+    if (check.is_told) continue;
+    if (!sentences.contains(check.name)) names.push_back(check.name);
+    sentences[check.name].push_back(check.sentence);
+  }
+  std::vector<std::string> untold;
+  for (const std::string& name : names) {
+    const std::vector<std::string>& alike = sentences.at(name);
+    untold.push_back(alike.front());
+    if (alike.size() > 1) absl::StrAppend(&untold.back(), "; ", alike.size() - 1, " more like it");
+  }
+  return untold;
 }
 
 }  // namespace
@@ -47,6 +67,7 @@ std::vector<std::string> ListUnchecked(const JobResults& results, const JobRepor
                                      CountOf(without_times, report.registered),
                                      ": they have no capture times"));
   }
+  std::ranges::move(UntoldChecks(report.checks), std::back_inserter(unchecked));
   return unchecked;
 }
 

@@ -37,6 +37,7 @@ struct CrossCheck {
   CheckLevel level = CheckLevel::kGood;
   std::string sentence{};  ///< for people; where not good: what may be wrong and what to do
   CheckBound bound = CheckBound::kAtMost;  ///< the kind of limit
+  bool is_told = true;  ///< false: nothing in the job tells (Verdict::unchecked); then good
 
   /// True where no limit is known.
   [[nodiscard]] bool IsWithinLimit() const {

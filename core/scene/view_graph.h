@@ -29,6 +29,12 @@ struct ViewGraph {
   std::vector<ViewEdge> edges{};
 };
 
+/// A pair whose images no cluster has both of.
+struct CrossingPair {
+  ImagePair pair{};
+  Rigid3 b_from_a{};  ///< |translation| = 1
+};
+
 /// What spoke against an edge.
 enum class DropCause : uint8_t {
   kGeometry = 0,  ///< it has none, or another edge of the pair is better

@@ -36,7 +36,6 @@ void ToProto(const GlobalAdjustReport& report, v1::AdjustmentReport* proto) {
   proto->set_num_observations(report.num_observations);
   proto->set_removed_observations(report.removed_observations);
   proto->set_removed_tracks(report.removed_tracks);
-  for (const std::string& name : report.unobserved_images) proto->add_unobserved_images(name);
   proto->set_residual_px_mean(report.residual_px_mean);
   proto->set_residual_px_rms(report.residual_px_rms);
   proto->set_pattern_px(report.pattern_px);
@@ -51,8 +50,6 @@ absl::Status FromProto(const v1::AdjustmentReport& proto, GlobalAdjustReport& re
   report.num_observations = proto.num_observations();
   report.removed_observations = proto.removed_observations();
   report.removed_tracks = proto.removed_tracks();
-  report.unobserved_images.assign(proto.unobserved_images().begin(),
-                                  proto.unobserved_images().end());
   report.residual_px_mean = proto.residual_px_mean();
   report.residual_px_rms = proto.residual_px_rms();
   report.pattern_px = proto.pattern_px();

@@ -263,6 +263,7 @@ void ToProto(const CrossCheck& check, v1::CrossCheck* proto) {
   proto->set_level(static_cast<uint32_t>(check.level));
   proto->set_sentence(check.sentence);
   proto->set_at_least(check.bound == CheckBound::kAtLeast);
+  proto->set_is_untold(!check.is_told);
 }
 
 absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
@@ -276,7 +277,8 @@ absl::StatusOr<CrossCheck> FromProto(const v1::CrossCheck& proto) {
                     .unit = proto.unit(),
                     .level = static_cast<CheckLevel>(proto.level()),
                     .sentence = proto.sentence(),
-                    .bound = proto.at_least() ? CheckBound::kAtLeast : CheckBound::kAtMost};
+                    .bound = proto.at_least() ? CheckBound::kAtLeast : CheckBound::kAtMost,
+                    .is_told = !proto.is_untold()};
 }
 
 void ToProto(const TrialCost& trial, v1::TrialCost* proto) {

@@ -31,6 +31,7 @@ absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& ta
   ORBWEAVE_RETURN_IF_ERROR(CheckPartition(divided.partition, manifest));
   const GlobalAdjustOptions& options = task.options<GlobalAdjustOptions>();
   FinalisedModel model;
+  std::vector<DriveErrors> drive_errors;  // of the first world that is georeferenced
   for (uint32_t world = 0; world < worlds.size(); ++world) {
     AdjustedWorld adjusted{.report = std::move(progress.worlds[world].report)};
     std::vector<Digest>& subproblems = model.subproblems.emplace_back();
@@ -57,14 +58,17 @@ absl::Status ConcludeAdjustmentStage::Run(StageTask<ConcludeAdjustmentStage>& ta
                                                  worlds[world].georeference,
                                                  manifest,
                                                  options));
-    model.worlds.push_back(std::move(finalised));
-    if (model.worlds.back().images.empty()) {  // nothing in it is placed by its own observations
-      std::ranges::move(model.worlds.back().report.weak_images, std::back_inserter(model.left_out));
-      model.worlds.pop_back();
+    if (finalised.images.empty()) {  // nothing in it is placed by its own observations
+      std::ranges::move(finalised.report.weak_images, std::back_inserter(model.left_out));
       model.subproblems.pop_back();
+      continue;
     }
+    const auto is_georeferenced = [](const FinalisedWorld& of) { return of.report.gnss.used; };
+    if (finalised.report.gnss.used && std::ranges::none_of(model.worlds, is_georeferenced))
+      drive_errors = worlds[world].georeference.drive_errors;
+    model.worlds.push_back(std::move(finalised));
   }
-  if (options.attach_loose) AttachLooseImages(manifest, model.worlds);
+  if (options.attach_loose) AttachLooseImages(manifest, drive_errors, model.worlds);
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::model, model).status());
   task.Report(nlohmann::json{{"worlds", model.worlds.size()}}.dump());
   return absl::OkStatus();

@@ -8,6 +8,7 @@
 
 #include "core/artifacts/check_bounds.h"
 #include "core/graph/choose_edges.h"
+#include "core/graph/crossing_pairs.h"
 #include "core/graph/partition_view_graph.h"
 #include "core/scene/view_edge_of.h"
 #include "stages/codecs.h"
@@ -91,6 +92,7 @@ absl::Status PartitionViewGraphStage::Run(StageTask<PartitionViewGraphStage>& ta
     divided.edge_kinds.push_back(static_cast<uint8_t>(edge.kind));
     divided.edge_rungs.push_back(static_cast<uint8_t>(edge.rung));
   }
+  divided.crossing = CrossingPairs(chosen.graph, divided.partition);
   ORBWEAVE_RETURN_IF_ERROR(task.Leave(&Outputs::divided, divided).status());
   ORBWEAVE_RETURN_IF_ERROR(task.LeaveAll(
       &Outputs::clusters,

@@ -45,7 +45,6 @@ GlobalAdjustReport SmallReport() {
   report.gnss = {.used = true, .reason = "r", .outliers = {"a.jpg"}};
   report.uncertainty = {.known = true, .held_image = "b.jpg"};
   report.adjustments.push_back({.iterations = 3, .converged = true, .biases_m = {{1, 2, 3}}});
-  report.unobserved_images = {"c.jpg"};
   report.weak_images = {{"d.jpg", "its 8 observations lie in one corner"}};
   report.checks = {{"gnss_clock", 0.8, 0.2, "s", CheckLevel::kDoubtful, "the clock is late"}};
   return report;

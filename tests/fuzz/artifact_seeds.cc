@@ -77,7 +77,8 @@ void AddViewGraph(Seeds& seeds) {
   DividedViewGraph divided{.dropped = {{{ImageId(0), ImageId(7)}, "loop"}},
                            .edges = {{ImageId(0), ImageId(1)}},
                            .edge_kinds = {1},
-                           .edge_rungs = {1}};
+                           .edge_rungs = {1},
+                           .crossing = {{{ImageId(0), ImageId(1)}, pose}}};
   divided.partition.clusters = {{.images = {ImageId(0), ImageId(1)}, .interior = {ImageId(0)}},
                                 {.images = {ImageId(1), ImageId(7)}, .interior = {ImageId(7)}}};
   divided.partition.seams = {{.cluster_a = 0, .cluster_b = 1, .shared = {ImageId(1)}}};

@@ -471,6 +471,9 @@ TEST(PartitionCodec, RefusesWhatIsNotBetweenItsClusters) {
   spoilt.edge_kinds = {1};
   spoilt.edge_rungs = {1};
   EXPECT_FALSE(is_taken(spoilt)) << "a pair out of order";
+  spoilt = divided;
+  spoilt.crossing = {{.pair = {ImageId(0), ImageId(2)}}};
+  EXPECT_FALSE(is_taken(spoilt)) << "no edge";
 }
 
 TEST(RecipesCodec, RefuseImagesOutOfOrderAndPairsOfOthers) {

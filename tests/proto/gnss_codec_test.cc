@@ -26,7 +26,7 @@ std::vector<JoinedWorld> WorldWithErrors(double left_m) {
   world.georeference.gnss_inflation = 12.5;
   world.georeference.checks = {
       {"gnss_datum", 47.0, 12.0, "m", CheckLevel::kDoubtful, "another datum"},
-      {"share", 0.9, 0.7, "share", CheckLevel::kGood, "enough", CheckBound::kAtLeast}};
+      {"share", 0.9, 0.7, "share", CheckLevel::kGood, "enough", CheckBound::kAtLeast, false}};
   return {world};
 }
 
@@ -50,6 +50,8 @@ TEST(JoinedWorldsCodec, CarriesWhatDrivesHaveWrong) {
   EXPECT_EQ(georeference.checks[0].level, CheckLevel::kDoubtful);
   EXPECT_EQ(georeference.checks[0].bound, CheckBound::kAtMost);
   EXPECT_EQ(georeference.checks[1].bound, CheckBound::kAtLeast);
+  EXPECT_TRUE(georeference.checks[0].is_told);
+  EXPECT_FALSE(georeference.checks[1].is_told);
 }
 
 TEST(JoinedWorldsCodec, RefusesErrorsThatAreNoNumbers) {

@@ -363,6 +363,7 @@ TEST(RealGnss, AShiftAlongAStreetOfOneWayIsSaidToBeUnknown) {
   const CrossCheck* check = outcome.Find("gnss_clock");
   ASSERT_NE(check, nullptr);
   EXPECT_NE(check->sentence.find("cannot be told"), std::string::npos) << check->sentence;
+  EXPECT_FALSE(check->is_told) << "and stands in the verdict as unchecked";
 }
 
 TEST(RealGnss, TwoDrivesOverDifferentDatumsAreDoubtful) {

@@ -110,24 +110,41 @@ std::string TooManyCells(const std::vector<std::string>& cells, size_t columns) 
 /// Whether `text` is a number but for its decimal comma: "-122,32".
 bool HasDecimalComma(std::string_view text) {
   const size_t comma = text.find(',');
-  if (comma == std::string_view::npos) return false;
+  if (comma == std::string_view::npos || comma + 1 == text.size()) return false;
   std::string with_point(text);
   with_point[comma] = '.';
   return NumberFromText(with_point).has_value();
+}
+
+absl::Status DecimalCommaError(std::string_view source, int line, std::string_view number) {
+  return absl::InvalidArgumentError(absl::StrCat(std::string(source),
+                                                 " line ",
+                                                 line,
+                                                 ": the number '",
+                                                 std::string(number),
+                                                 "' has a decimal comma; write the table with "
+                                                 "decimal points"));
 }
 
 /// An error that shows the first number with a decimal comma.
 absl::Status CheckNoDecimalCommas(const std::vector<GnssCells>& rows, std::string_view source) {
   for (const GnssCells& row : rows) {
     for (size_t column = 0; column < kNumGnssColumns; ++column) {
-      if (column == kName || column == kDrive || !HasDecimalComma(row.cells[column])) continue;
-      return absl::InvalidArgumentError(absl::StrCat(std::string(source),
-                                                     " line ",
-                                                     row.line,
-                                                     ": the number '",
-                                                     row.cells[column],
-                                                     "' has a decimal comma; write the table with "
-                                                     "decimal points"));
+      if (column != kName && column != kDrive && HasDecimalComma(row.cells[column]))
+        return DecimalCommaError(source, row.line, row.cells[column]);
+    }
+  }
+  return absl::OkStatus();
+}
+
+/// The same for lines of words between blanks and commas, where such a number is two words.
+absl::Status CheckNoDecimalCommas(const std::vector<std::string_view>& lines,
+                                  size_t header_line,
+                                  std::string_view source) {
+  for (size_t i = header_line + 1; i < lines.size(); ++i) {
+    if (lines[i].starts_with('#')) continue;
+    for (const std::string_view word : SplitWords(lines[i], " \t")) {
+      if (HasDecimalComma(word)) return DecimalCommaError(source, static_cast<int>(i) + 1, word);
     }
   }
   return absl::OkStatus();
@@ -150,6 +167,7 @@ absl::StatusOr<std::vector<GnssCells>> ReadCsv(const std::vector<std::string_vie
                      std::string(lines[header_line].substr(0, 120)),
                      "'"));
   }
+  if (separator == ' ') ORBWEAVE_RETURN_IF_ERROR(CheckNoDecimalCommas(lines, header_line, source));
   std::vector<GnssCells> rows;
   for (size_t i = header_line + 1; i < lines.size(); ++i) {
     if (TrimmedText(lines[i]).empty() || lines[i].starts_with('#')) continue;
@@ -208,6 +226,7 @@ absl::StatusOr<std::vector<GnssCells>> ReadPosTxt(const std::vector<std::string_
                      header_line + 1,
                      ": the format line must name N, X, Y and Z, as in '#F=N X Y Z'"));
   }
+  ORBWEAVE_RETURN_IF_ERROR(CheckNoDecimalCommas(lines, header_line, source));
   std::vector<GnssCells> rows;
   for (size_t i = header_line + 1; i < lines.size(); ++i) {
     const std::vector<std::string_view> words = SplitWords(lines[i]);

@@ -181,6 +181,7 @@ std::string ReportHtml(const JobReport& report) {
           GnssHtml(report),
           Uncertainty(report),
           Charts(report),
+          PairsHtml(report),
           ClustersHtml(report),
           Seams(report),
           Adjustment(report),

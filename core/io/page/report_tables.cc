@@ -3,6 +3,8 @@
 #include "core/io/page/report_tables.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/io/first_names.h"
@@ -16,6 +18,16 @@ namespace {
 constexpr size_t kMaxRows = 200;
 constexpr size_t kMaxNames = 12;    ///< of images left out for the same reason
 constexpr size_t kMaxWarnings = 8;  ///< shown at once
+
+/// In the order in which they are tried.
+constexpr std::array<std::pair<MatchRung, const char*>, kNumMatchRungs> kRungs = {
+    {{MatchRung::kGiven, "given to the job"},
+     {MatchRung::kLargest, "by the features of the largest scales alone"},
+     {MatchRung::kDescriptors, "by all features"},
+     {MatchRung::kUpright, "by samples of cameras that stand upright"},
+     {MatchRung::kGuided, "with matches that a first pose predicts"},
+     {MatchRung::kFacades, "with walls seen in their true shape"},
+     {MatchRung::kPropagated, "under the rotation that two other pairs predict"}}};
 
 }  // namespace
 
@@ -48,6 +60,23 @@ std::string ClustersHtml(const JobReport& report) {
       "<th>registered</th><th>parts</th><th class=\"minor\">points</th><th>rms "
       "px</th></tr></thead><tbody>" +
           rows + "</tbody></table>");
+}
+
+std::string PairsHtml(const JobReport& report) {
+  std::string rows;
+  for (const auto& [rung, text] : kRungs) {
+    const size_t pairs = report.pairs_of_rung[static_cast<size_t>(rung)];
+    if (pairs > 0)
+      absl::StrAppend(
+          &rows, "<tr><td>", CountText(pairs), "</td><td class=\"text\">", text, "</td></tr>");
+  }
+  if (rows.empty()) return "";
+  return Section("Verified pairs",
+                 "By what was tried last for each: the next is tried where the one before is not "
+                 "enough.",
+                 "<table><thead><tr><th class=\"slim\">pairs</th><th class=\"text\">won</th></tr>"
+                 "</thead><tbody>" +
+                     rows + "</tbody></table>");
 }
 
 std::string ReasonsTable(const std::vector<Exclusion>& images) {

@@ -13,6 +13,8 @@ namespace orbweave {
 /// has all; empty when there is nothing to list. Warnings and reasons of one kind are one row with
 /// their count.
 [[nodiscard]] std::string ClustersHtml(const JobReport& report);
+/// By the rung of the ladder that won them.
+[[nodiscard]] std::string PairsHtml(const JobReport& report);
 [[nodiscard]] std::string LeftOutHtml(const JobReport& report);
 /// Images by the reason why they are left out.
 [[nodiscard]] std::string ReasonsTable(const std::vector<Exclusion>& images);

@@ -131,7 +131,9 @@ class Growth {
     record.obstacle = attempt.registered ? RegistrationObstacle::kNone : attempt.obstacle;
     record.visible_at_failure = attempt.registered ? 0 : attempt.num_visible;
     record.best_visible = std::max(record.best_visible, attempt.num_visible);
-    if (attempt.num_inliers < record.best_inliers) return;
+    if (attempt.registered) record.cut_off = record.off_scale = false;
+    const bool sees_enough = attempt.num_visible >= static_cast<uint32_t>(Limits().min_inliers);
+    if (!sees_enough || attempt.num_inliers < record.best_inliers) return;
     record.best_inliers = attempt.num_inliers;
     record.needed_inliers = NeededInliers(Limits(), attempt.num_visible);
   }

@@ -150,6 +150,8 @@ absl::StatusOr<RegistrationAttempt> RegisterImage(MappingState& state,
         (is_held || !pairs_know_better) && accept(proposed->cam_from_world, needed);
     if (!attempt.registered && limits.propose_from_pairs && is_held)
       attempt.registered = place(proposed->cam_from_world);
+    if (!is_held && attempt.obstacle == RegistrationObstacle::kNone)
+      attempt.obstacle = RegistrationObstacle::kUnheld;
   }
   return attempt;
 }

@@ -24,6 +24,7 @@ enum class RegistrationObstacle {
   kNone,
   kPairs,   ///< strong pairs contradict where points put it, and do not hold it by themselves
   kLength,  ///< its points do not tell how far it is from the others (IsLengthTold)
+  kUnheld,  ///< pairs say in which direction it lies from others, not how far (IsHeldByPairs)
 };
 
 struct RegistrationAttempt {

@@ -16,6 +16,12 @@ void ResetAttempts(RegistrationLog& log) {
 
 std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) {
   if (record.dropped) return "lost its points again in the adjustment";
+  if (record.off_scale) return "stood on a scale of its own in its model, as a wrong pair makes it";
+  if (record.cut_off) {
+    return "was cut off: what joins it to its model contradicts it, or does not tell how large one "
+           "is "
+           "beside the other";
+  }
   if (record.contradicted) {
     return std::to_string(record.best_inliers) +
            " points put it where its GNSS position and those around it say that it is not: a "
@@ -33,6 +39,8 @@ std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) 
     return std::to_string(record.best_inliers) + " of " + std::to_string(record.needed_inliers) +
            " needed points agree";
   }
+  if (record.obstacle == RegistrationObstacle::kUnheld)
+    return "its pairs say in which direction it lies from the others, but not how far";
   if (record.best_visible >= needed_visible && needed_visible > 0) {
     return "sees " + std::to_string(record.best_visible) +
            " reconstructed points of models that did not last, or that hold it nowhere";

@@ -18,7 +18,9 @@ struct RegistrationRecord {
   uint32_t best_visible = 0;        ///< most points it ever saw
   int num_reconsidered = 0;         ///< times that it was registered anew (ReconsiderImages)
   bool dropped = false;             ///< was registered, then lost its points
-  bool contradicted = false;        ///< GNSS had the last word (RegistrationAttempt::waits)
+  bool off_scale = false;           ///< was registered, on a scale of its own (DropOffScaleImages)
+  bool cut_off = false;       ///< was registered, in a piece of less than a model (CutAtHinges)
+  bool contradicted = false;  ///< GNSS had the last word (RegistrationAttempt::waits)
   RegistrationObstacle obstacle = RegistrationObstacle::kNone;  ///< of the last attempt
 };
 

@@ -180,6 +180,8 @@ void AddSupport(std::span<const PatchSupport> patches,
 SupportVerdict JudgeSupport(std::span<const PatchSupport> patches) {
   SupportVerdict verdict;
   const PatchSupport whole = SumOf(patches);
+  if (whole.observations == 0)
+    return {.is_weak = true, .reason = "it has no observations of points that other images hold"};
   const double redundancy = whole.redundancy - kUnknowns;
   if (redundancy >= 1.0) verdict.scatter = std::max(whole.sum_of_squares / redundancy, 1e-4);
   const Vector6 units = UnitsOf(whole.hessian);

@@ -82,6 +82,8 @@ CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) 
     check.sentence = "a shift of GNSS along the way of drive " + std::to_string(drive.drive) +
                      " cannot be told from an offset of all its positions" + sigma +
                      ": sigmas do not hold it";
+    check.value = 0.0;  // chance
+    check.is_told = false;
   }
   return check;
 }

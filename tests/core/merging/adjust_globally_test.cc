@@ -201,7 +201,7 @@ TEST(AdjustGlobally, KeepsTracksSortedAndLeavesLooseImagesOut) {
     for (const Observation& seen : tracks[i].observations) EXPECT_NE(seen.ref.image, ImageId(4));
   }
   EXPECT_EQ(adjusted.reconstruction.images.size(), 20U);
-  EXPECT_TRUE(adjusted.report.unobserved_images.empty());
+  EXPECT_TRUE(adjusted.report.weak_images.empty());
 }
 
 TEST(AdjustGlobally, NamesImagesThatLoseAllObservations) {
@@ -215,9 +215,11 @@ TEST(AdjustGlobally, NamesImagesThatLoseAllObservations) {
   }
   start.SortTracks();
   const GloballyAdjusted adjusted = Adjust(start, corridor.manifest);
-  EXPECT_THAT(adjusted.report.unobserved_images, ElementsAre(corridor.manifest.images[5].name));
-  EXPECT_TRUE(adjusted.reconstruction.images.at(ImageId(5)).loose);
-  EXPECT_FALSE(adjusted.reconstruction.images.at(ImageId(5)).uncertainty.has_value());
+  ASSERT_EQ(adjusted.report.weak_images.size(), 1U);
+  EXPECT_EQ(adjusted.report.weak_images[0].name, corridor.manifest.images[5].name);
+  EXPECT_EQ(adjusted.report.weak_images[0].reason,
+            "it has no observations of points that other images hold");
+  EXPECT_FALSE(adjusted.reconstruction.images.contains(ImageId(5)));
   EXPECT_TRUE(adjusted.reconstruction.images.at(ImageId(6)).uncertainty.has_value());
 }
 

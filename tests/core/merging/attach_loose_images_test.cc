@@ -40,7 +40,7 @@ TEST(AttachLooseImages, PutsMissingImagesAtTheirPositionsTurnedAsTheirNeighbours
   const ImageManifest manifest = ImagesOfStreet(12);
   std::vector<FinalisedWorld> worlds = {World(2, 5, true)};
   for (uint32_t i = 9; i < 11; ++i) worlds[0].images.merge(World(i, i + 1, true).images);
-  AttachLooseImages(manifest, worlds);
+  AttachLooseImages(manifest, {}, worlds);
   ASSERT_EQ(worlds[0].images.size(), 12U);
   for (const auto& [id, image] : worlds[0].images) {
     const bool was_there = (id.value >= 2 && id.value < 5) || id.value == 9 || id.value == 10;
@@ -60,7 +60,7 @@ TEST(AttachLooseImages, StandsLevelWithItsHeadingWhereNobodyOfTheDriveIsObserved
   manifest.images[2].drive = 1;
   manifest.images[2].prior.heading_deg = 90.0;
   std::vector<FinalisedWorld> worlds = {World(0, 2, true)};
-  AttachLooseImages(manifest, worlds);
+  AttachLooseImages(manifest, {}, worlds);
   const Rigid3& camera = worlds[0].images.at(ImageId(2)).cam_from_world;
   EXPECT_LT((camera.rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitZ()).norm(), 1e-12)
       << "it looks to the east";
@@ -68,10 +68,26 @@ TEST(AttachLooseImages, StandsLevelWithItsHeadingWhereNobodyOfTheDriveIsObserved
       << "up is against y";
 }
 
+TEST(AttachLooseImages, TakesOffWhatTheirDriveHasWrong) {
+  ImageManifest manifest = ImagesOfStreet(6);
+  for (const uint32_t i : {3U, 4U, 5U}) manifest.images[i].drive = 1;
+  std::vector<FinalisedWorld> worlds = {World(0, 2, true)};
+  worlds[0].images.merge(World(3, 5, true).images);
+  const std::vector<DriveErrors> errors = {{.drive = 1, .offset_m = {0.0, 0.0, 47.0}}};
+  AttachLooseImages(manifest, errors, worlds);
+  const auto error_m = [&](uint32_t i) {
+    return (worlds[0].images.at(ImageId(i)).cam_from_world.Centre() -
+            *manifest.images[i].prior.position_in_enu)
+        .eval();
+  };
+  EXPECT_LT(error_m(2).norm(), 1e-9) << "its drive is right";
+  EXPECT_LT((error_m(5) + Eigen::Vector3d(0.0, 0.0, 47.0)).norm(), 1e-9);
+}
+
 TEST(AttachLooseImages, TakesImagesOfAWorldThatIsNotGeoreferencedButNotOfOneThatIs) {
   const ImageManifest manifest = ImagesOfStreet(9);
   std::vector<FinalisedWorld> worlds = {World(0, 4, true), World(4, 7, true), World(7, 9, false)};
-  AttachLooseImages(manifest, worlds);
+  AttachLooseImages(manifest, {}, worlds);
   EXPECT_EQ(worlds[0].images.size(), 6U);
   EXPECT_TRUE(worlds[0].images.at(ImageId(8)).loose);
   EXPECT_EQ(worlds[1].images.size(), 3U);
@@ -82,13 +98,13 @@ TEST(AttachLooseImages, LeavesOutImagesWithoutPositionAndWorldsWithoutGnss) {
   ImageManifest manifest = ImagesOfStreet(4);
   manifest.images[3].prior.position_in_enu.reset();
   std::vector<FinalisedWorld> worlds = {World(0, 3, true)};
-  AttachLooseImages(manifest, worlds);
+  AttachLooseImages(manifest, {}, worlds);
   EXPECT_EQ(worlds[0].images.size(), 3U);
   std::vector<FinalisedWorld> free = {World(0, 2, false)};
-  AttachLooseImages(manifest, free);
+  AttachLooseImages(manifest, {}, free);
   EXPECT_EQ(free[0].images.size(), 2U);
   std::vector<FinalisedWorld> none;
-  AttachLooseImages(manifest, none);
+  AttachLooseImages(manifest, {}, none);
   EXPECT_TRUE(none.empty());
 }
 

@@ -164,6 +164,13 @@ TEST(JudgeModel, SaysWhatNothingCouldCheck) {
               ElementsAre(HasSubstr("whether a vehicle can have made the steps: they have no")));
   for (ImageRecord& image : on_earth.manifest.images) image.capture_time_s = 2.0 * image.id.value;
   EXPECT_THAT(Reported(on_earth).verdict.unchecked, IsEmpty());
+  on_earth.models[0].report.checks = {
+      {.name = "gnss_clock", .sentence = "a shift is taken off"},
+      {.name = "gnss_clock", .sentence = "a shift of drive 1 cannot be told", .is_told = false},
+      {.name = "gnss_clock", .sentence = "a shift of drive 2 cannot be told", .is_told = false}};
+  EXPECT_THAT(Reported(on_earth).verdict.unchecked,
+              ElementsAre("a shift of drive 1 cannot be told; 1 more like it"));
+  on_earth.models[0].report.checks.clear();
   on_earth.manifest.images[7].capture_time_s.reset();
   EXPECT_THAT(Reported(on_earth).verdict.unchecked,
               ElementsAre(HasSubstr("of 1 of 36 registered panoramas: they have no")));

@@ -27,7 +27,7 @@ JobResults SixImages() {
       {.interior = {ImageId(4), ImageId(5)}}};
   AdjustedModel& model = results.models.emplace_back();
   for (uint32_t i = 0; i < 6; ++i) model.images[ImageId(i)].loose = i > 2;
-  model.report.unobserved_images = {"3.jpg"};
+  model.report.weak_images = {{"3.jpg", "its observations do not fix its pose"}};
   results.clusters = {{.cluster = 1, .not_registered = {{ImageId(4), "too few points"}}}};
   return results;
 }
@@ -39,7 +39,7 @@ TEST(BuildJobReport, NamesLooseImagesWithTheirReasonsAndDoesNotCountThem) {
   for (const Exclusion& image : report.not_registered)
     missing.push_back(image.name + ": " + image.reason);
   EXPECT_THAT(missing,
-              ElementsAre(HasSubstr("3.jpg: it has no observations of its own left; it is placed"),
+              ElementsAre(HasSubstr("3.jpg: its observations do not fix its pose; it is placed"),
                           HasSubstr("4.jpg: too few points; it is placed loosely"),
                           HasSubstr("5.jpg: no verified matches")));
   EXPECT_EQ(report.images[4].reason, "too few points");
@@ -65,15 +65,14 @@ TEST(BuildJobReport, SaysWhatBecameOfImagesWhoseModelIsGone) {
 
 TEST(BuildJobReport, WarnsOnceOfAllLooseImagesWithTheReasonOfMost) {
   JobResults results = SixImages();
-  EXPECT_THAT(
-      BuildJobReport(results).warnings,
-      ElementsAre("3 images are placed loosely, not registered; for example 3.jpg: it has no "
-                  "observations of its own left"));
+  EXPECT_THAT(BuildJobReport(results).warnings,
+              ElementsAre("3 images are placed loosely, not registered; for example 3.jpg: its "
+                          "observations do not fix its pose"));
   results.clusters = {{.cluster = 0, .not_registered = {{ImageId(3), "it has 102 observations"}}},
                       {.cluster = 1,
                        .not_registered = {{ImageId(4), "too few points"},
                                           {ImageId(5), "it has 315 observations"}}}};
-  results.models[0].report.unobserved_images.clear();
+  results.models[0].report.weak_images.clear();
   EXPECT_THAT(
       BuildJobReport(results).warnings,
       ElementsAre("3 images are placed loosely, not registered; for example 2 images, such as "

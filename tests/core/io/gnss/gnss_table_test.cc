@@ -203,11 +203,23 @@ TEST(ParseGnssTable, LeavesOutCellsThatCannotBeAndCountsThem) {
 TEST(ParseGnssTable, RefusesDecimalCommas) {
   for (const char* text : {"name;latitude;longitude\na.jpg;47,61;-122,32\n",
                            "name,latitude,longitude\na.jpg,\"47,61\",\"-122,32\"\n",
-                           "name;latitude;longitude;accuracy\na.jpg;47.61;-122.32;0,05\n"}) {
+                           "name;latitude;longitude;accuracy\na.jpg;47.61;-122.32;0,05\n",
+                           "name x y z\na.jpg 12,5 7,25 3,0\n",
+                           "name latitude longitude\na.jpg 47,61 -122,32\n",
+                           "#F=N X Y Z\na.jpg 12,5 7,25 3,0\n"}) {
     const absl::Status status = ParseGnssTable(text, "g.csv").status();
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << text;
     EXPECT_THAT(status.message(), HasSubstr("g.csv line 2: the number '")) << text;
     EXPECT_THAT(status.message(), HasSubstr("has a decimal comma")) << text;
+  }
+}
+
+TEST(ParseGnssTable, TakesCommasAndBlanksBetweenWords) {
+  for (const char* text : {"#F=N X Y Z\na.jpg, 1200, 725.5, 3\n", "#F=N X Y Z\na.jpg,1200,725.5,3\n"}) {
+    const auto table = ParseGnssTable(text, "POS.txt");
+    ASSERT_TRUE(table.ok()) << table.status();
+    ASSERT_EQ(table->rows.size(), 1U);
+    EXPECT_EQ(table->rows[0].position_in_local, Eigen::Vector3d(1200.0, 725.5, 3.0)) << text;
   }
 }
 

@@ -125,6 +125,20 @@ TEST(ReportHtml, IsOnePageThatFetchesNothing) {
   EXPECT_LT(html.size(), 80000U);
 }
 
+TEST(ReportHtml, TellsWhichRungOfTheLadderWonHowManyPairs) {
+  JobReport report = MadeUpReport(40, 3);
+  report.pairs_of_rung = {};
+  EXPECT_THAT(ReportHtml(report), Not(HasSubstr("Verified pairs")));
+  report.pairs_of_rung[static_cast<size_t>(MatchRung::kLargest)] = 1200;
+  report.pairs_of_rung[static_cast<size_t>(MatchRung::kPropagated)] = 3;
+  const std::string html = ReportHtml(report);
+  const size_t largest = html.find(CountText(1200) + "</td><td class=\"text\">by the features");
+  const size_t propagated = html.find("<td>3</td><td class=\"text\">under the rotation");
+  EXPECT_LT(largest, propagated);
+  EXPECT_NE(propagated, std::string::npos);
+  EXPECT_THAT(html, Not(HasSubstr("given to the job")));
+}
+
 TEST(ReportHtml, HasTheResidualInTheImageBesideTheAngle) {
   EXPECT_THAT(ReportHtml(MadeUpReport(40, 3)),
               HasSubstr("mean residual (rms 0.913; in the image 0.847)"));

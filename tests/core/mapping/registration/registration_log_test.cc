@@ -47,6 +47,23 @@ TEST(ReasonOf, SaysThatPointsDidNotTellHowFarItIs) {
   EXPECT_EQ(log[0].obstacle, RegistrationObstacle::kNone) << "it is to be tried anew";
 }
 
+TEST(ReasonOf, SaysThatPairsDidNotTellHowFarItIs) {
+  EXPECT_EQ(ReasonOf({.num_attempts = 1, .obstacle = RegistrationObstacle::kUnheld}, 20),
+            "its pairs say in which direction it lies from the others, but not how far");
+  EXPECT_EQ(
+      ReasonOf(
+          {.best_inliers = 12, .needed_inliers = 20, .obstacle = RegistrationObstacle::kUnheld},
+          20),
+      "12 of 20 needed points agree");
+}
+
+TEST(ReasonOf, SaysThatTheImageWasTakenOutOfAModel) {
+  EXPECT_NE(ReasonOf({.best_visible = 300, .cut_off = true}, 20).find("was cut off"),
+            std::string::npos);
+  EXPECT_NE(ReasonOf({.best_visible = 300, .off_scale = true}, 20).find("scale of its own"),
+            std::string::npos);
+}
+
 TEST(ReasonOf, SaysThatNothingStarted) {
   EXPECT_EQ(ReasonOf({}, 20), "no pair of its images could start a reconstruction");
 }

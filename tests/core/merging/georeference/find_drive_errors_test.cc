@@ -84,6 +84,7 @@ TEST(FindDriveErrors, SaysThatAStraightStreetHidesAShift) {
   EXPECT_TRUE(found.drives.empty());
   ASSERT_EQ(found.checks.size(), 1U);
   EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
+  EXPECT_FALSE(found.checks[0].is_told);
   EXPECT_EQ(found.checks[0].sentence.find("(sigma"), std::string::npos)
       << "of nothing: " << found.checks[0].sentence;
 }
@@ -98,6 +99,7 @@ TEST(FindDriveErrors, SaysThatACircleHidesAShift) {
   EXPECT_TRUE(found.drives.empty());
   ASSERT_EQ(found.checks.size(), 1U);
   EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
+  EXPECT_FALSE(found.checks[0].is_told);
 }
 
 // A drive whose speed is between 2 and 14 m/s, a panorama every half second.
