@@ -104,9 +104,12 @@ CrossCheck CheckResidualPattern(const ResidualPattern& pattern, double rms_px) {
                    .limit = std::max(kNoticeable_px, kShareOfNoise * rms_px),
                    .unit = "px"};
   check.sentence = "no residual repeats at the same place of every panorama";
-  if (check.value < kNoticeable_px) return check;
-  check.sentence = SentenceOf(over_azimuth_px, over_latitude_px);
-  if (!check.IsWithinLimit()) check.level = CheckLevel::kDoubtful;
+  if (!check.IsWithinLimit()) {
+    check.level = CheckLevel::kDoubtful;
+    check.sentence = SentenceOf(over_azimuth_px, over_latitude_px);
+  } else if (check.value >= kNoticeable_px) {
+    check.sentence = "what repeats at the same place of every panorama is small beside the noise";
+  }
   return check;
 }
 

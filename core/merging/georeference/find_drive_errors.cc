@@ -34,8 +34,8 @@ constexpr double kSameDatum_m = 12.0;
 constexpr double kMadToSigma = 1.4826;
 // From here on an undetermined shift along the street is worth a word.
 constexpr double kTellingShift_m = 2.0;
-// No sigma of GNSS: nothing tells the shift.
-constexpr double kNoShift_m = 1000.0;
+// No sigma of GNSS, which is never ten seconds late at 10 m/s: nothing tells the shift.
+constexpr double kNoShift_m = 100.0;
 
 std::string Fixed(double value, const std::string& unit) {
   char text[40];
