@@ -18,9 +18,8 @@ std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) 
   if (record.dropped) return "lost its points again in the adjustment";
   if (record.off_scale) return "stood on a scale of its own in its model, as a wrong pair makes it";
   if (record.cut_off) {
-    return "was cut off: what joins it to its model contradicts it, or does not tell how large one "
-           "is "
-           "beside the other";
+    return "was cut off: what joins it to its model contradicts it, or does not tell how large "
+           "either is beside the other";
   }
   if (record.contradicted) {
     return std::to_string(record.best_inliers) +
