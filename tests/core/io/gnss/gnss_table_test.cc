@@ -215,7 +215,8 @@ TEST(ParseGnssTable, RefusesDecimalCommas) {
 }
 
 TEST(ParseGnssTable, TakesCommasAndBlanksBetweenWords) {
-  for (const char* text : {"#F=N X Y Z\na.jpg, 1200, 725.5, 3\n", "#F=N X Y Z\na.jpg,1200,725.5,3\n"}) {
+  for (const char* text :
+       {"#F=N X Y Z\na.jpg, 1200, 725.5, 3\n", "#F=N X Y Z\na.jpg,1200,725.5,3\n"}) {
     const auto table = ParseGnssTable(text, "POS.txt");
     ASSERT_TRUE(table.ok()) << table.status();
     ASSERT_EQ(table->rows.size(), 1U);
