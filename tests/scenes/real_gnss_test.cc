@@ -357,6 +357,37 @@ TEST(RealGnss, AnAntennaBesideTheCameraIsTakenOff) {
   }
 }
 
+TEST(RealGnss, PartsThatGnssAloneJoinsStandInOneFrame) {
+  for (const int seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    const Corridor street = CorridorOf({.panoramas = 120,
+                                        .shape = CorridorShape::kBends,
+                                        .tunnel_panoramas = 12,
+                                        .tunnel_features = 10,
+                                        .seed = seed});
+    const Orientated result = Orientate(street);
+    ASSERT_EQ(result.worlds.size(), 2U) << "nothing else joins what is before and behind it";
+    double squares = 0.0;
+    double images = 0.0;
+    for (const testing::GloballyAdjusted& world : result.worlds) {
+      EXPECT_TRUE(world.report.gnss.used) << world.report.gnss.reason;
+      EXPECT_GT(world.reconstruction.images.size(), 40U);
+      for (const auto& [id, image] : world.reconstruction.images) {
+        const Eigen::Vector3d error =
+            image.cam_from_world.Centre() - street.cams_from_world[id.value].Centre();
+        EXPECT_LT(error.head<2>().norm(), 4.0) << "in the frame of the job, not in one of its own";
+        ASSERT_TRUE(image.uncertainty.has_value());
+        squares += error.cwiseAbs2()
+                       .cwiseQuotient(image.uncertainty->position_covariance.diagonal())
+                       .sum() /
+                   3.0;
+        images += 1.0;
+      }
+    }
+    EXPECT_LT(squares / images, 3.0);
+  }
+}
+
 TEST(RealGnss, AShiftAlongAStreetOfOneWayIsSaidToBeUnknown) {
   const Outcome outcome =
       OutcomeOf({.panoramas = 60, .shape = CorridorShape::kStraight, .gnss_delay_s = 0.8});
