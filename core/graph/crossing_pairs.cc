@@ -3,15 +3,13 @@
 #include "core/graph/crossing_pairs.h"
 
 #include <algorithm>
-#include <cstdint>
+
+#include "core/graph/shared_images.h"
 
 namespace orbweave {
 
 std::vector<CrossingPair> CrossingPairs(const ViewGraph& graph, const Partition& partition) {
-  std::vector<std::vector<uint32_t>> clusters_of_image(graph.num_images);
-  for (uint32_t c = 0; c < partition.clusters.size(); ++c) {
-    for (const ImageId id : partition.clusters[c].images) clusters_of_image[id.value].push_back(c);
-  }
+  const auto clusters_of_image = ClustersOfImages(partition.clusters, graph.num_images);
   std::vector<CrossingPair> crossing;
   for (const ViewEdge& edge : graph.edges) {
     const auto& of_a = clusters_of_image[edge.pair.a.value];

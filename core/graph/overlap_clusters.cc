@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "core/graph/shared_images.h"
 #include "core/graph/view_graph_weights.h"
 
 namespace orbweave {
@@ -50,13 +51,10 @@ std::vector<Cluster> MakeClusters(const std::vector<Images>& interiors,
 
 // Every two clusters with an image in common, whichever seam brought it there.
 std::vector<Seam> FindSharedImages(uint32_t num_images, const std::vector<Cluster>& clusters) {
-  std::vector<std::vector<uint32_t>> clusters_of(num_images);
-  for (uint32_t c = 0; c < clusters.size(); ++c) {
-    for (const ImageId image : clusters[c].images) clusters_of[image.value].push_back(c);
-  }
+  const auto clusters_of_image = ClustersOfImages(clusters, num_images);
   std::map<std::pair<uint32_t, uint32_t>, std::vector<ImageId>> shared;
   for (uint32_t image = 0; image < num_images; ++image) {
-    const std::vector<uint32_t>& holders = clusters_of[image];
+    const std::vector<uint32_t>& holders = clusters_of_image[image];
     for (size_t i = 0; i < holders.size(); ++i) {
       for (size_t j = i + 1; j < holders.size(); ++j) {
         shared[{holders[i], holders[j]}].emplace_back(image);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/report/model_of_images.h"
-#include "core/report/pairs_of_job.h"
 
 namespace orbweave {
 namespace {
@@ -59,6 +58,7 @@ std::optional<std::pair<ImageId, PairsOfImage>> MostContested(
 }  // namespace
 
 std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results,
+                                                 const PairsOfJob& of_job,
                                                  const BorneOutByGnss& gnss) {
   const std::vector<int> model_of_image = ModelOfImages(results);
   const auto is_judged = [&](const ImagePair& pair) {
@@ -66,7 +66,7 @@ std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results,
   };
   std::set<ImagePair> judged;
   std::ranges::copy_if(results.view_graph.edges, std::inserter(judged, judged.end()), is_judged);
-  std::set<ImagePair> contradicted = JudgePairsOfJob(results).contradicted;
+  std::set<ImagePair> contradicted = of_job.contradicted;
   std::erase_if(contradicted, [&](const ImagePair& pair) { return !is_judged(pair); });
   judged.insert(contradicted.begin(), contradicted.end());
   if (judged.empty()) return std::nullopt;

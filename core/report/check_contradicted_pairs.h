@@ -6,6 +6,7 @@
 
 #include "core/report/borne_out_by_gnss.h"
 #include "core/report/job_results.h"
+#include "core/report/pairs_of_job.h"
 #include "core/scene/cross_check.h"
 
 namespace orbweave {
@@ -17,6 +18,7 @@ namespace orbweave {
 /// bad above one in two. Pairs of images that GNSS tells apart (BorneOutByGnss) are no witnesses,
 /// for or against. Absent where no model has another one.
 [[nodiscard]] std::optional<CrossCheck> CheckContradictedPairs(const JobResults& results,
+                                                               const PairsOfJob& of_job,
                                                                const BorneOutByGnss& gnss);
 
 }  // namespace orbweave

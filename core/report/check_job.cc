@@ -33,9 +33,10 @@ void AddIfAny(std::optional<CrossCheck> check, Checks& checks) {
 
 void AddChecksOfClusters(const JobResults& results,
                          const JobReport& report,
+                         const PairsOfJob& judged,
                          const BorneOutByGnss& gnss,
                          Checks& checks) {
-  checks.push_back(CheckPairs(results, gnss));
+  checks.push_back(CheckPairs(results, judged, gnss));
   checks.push_back(CheckLengths(results));
   checks.push_back(CheckToldSteps(results));
   checks.push_back(CheckHinges(results));
@@ -75,12 +76,13 @@ void AddChecksOfWhole(const JobResults& results, const JobReport& report, Checks
 
 std::vector<CrossCheck> CheckJob(const JobResults& results, const JobReport& report) {
   const BorneOutByGnss gnss(results);
+  const PairsOfJob judged = JudgePairsOfJob(results);
   Checks checks;
-  AddChecksOfClusters(results, report, gnss, checks);
+  AddChecksOfClusters(results, report, judged, gnss, checks);
   for (size_t number = 0; number < results.models.size(); ++number)
     AddChecksOfModel(results, report, number, checks);
   if (std::ranges::find(checks, "pairs_contradicted", &CrossCheck::name) == checks.end())
-    AddIfAny(CheckContradictedPairs(results, gnss), checks);
+    AddIfAny(CheckContradictedPairs(results, judged, gnss), checks);
   AddChecksOfWhole(results, report, checks);
   return checks;
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/report/pairs_of_job.h"
 #include "core/scene/places_in_drives.h"
 
 namespace orbweave {
@@ -122,9 +121,10 @@ std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
 
 }  // namespace
 
-CrossCheck CheckPairs(const JobResults& results, const BorneOutByGnss& gnss) {
+CrossCheck CheckPairs(const JobResults& results,
+                      const PairsOfJob& judged,
+                      const BorneOutByGnss& gnss) {
   const PlacesInDrives places(results.manifest);
-  const PairsOfJob judged = JudgePairsOfJob(results);
   const auto follow = [&](const ImagePair& pair) { return FollowOneAnother(places, pair); };
   const auto explained = static_cast<size_t>(std::ranges::count_if(judged.explained, follow));
   std::vector<ImagePair> torn;

@@ -4,6 +4,7 @@
 
 #include "core/report/borne_out_by_gnss.h"
 #include "core/report/job_results.h"
+#include "core/report/pairs_of_job.h"
 #include "core/scene/cross_check.h"
 
 namespace orbweave {
@@ -19,6 +20,8 @@ namespace orbweave {
 /// (a+1, b+-1), (a+2, b+-2). Those are a second passage that the model missed or a row of
 /// look-alikes, which pairs alone cannot tell: doubtful, but for those that GNSS tells apart
 /// (BorneOutByGnss).
-[[nodiscard]] CrossCheck CheckPairs(const JobResults& results, const BorneOutByGnss& gnss);
+[[nodiscard]] CrossCheck CheckPairs(const JobResults& results,
+                                    const PairsOfJob& judged,
+                                    const BorneOutByGnss& gnss);
 
 }  // namespace orbweave

@@ -43,7 +43,7 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
                                         const ImageManifest& manifest,
                                         const std::vector<Digest>& features,
                                         const std::map<ImagePair, Digest>& blob_of_pair) {
-  std::vector<std::vector<uint32_t>> clusters_of_image(graph.num_images);
+  const auto clusters_of_image = ClustersOfImages(partition.clusters, graph.num_images);
   std::vector<ClusterRecipe> recipes(partition.clusters.size());
   const std::vector<PositionByMotion> positions = PositionsByMotion(manifest);
   for (uint32_t c = 0; c < recipes.size(); ++c) {
@@ -59,7 +59,6 @@ std::vector<ClusterRecipe> PlanClusters(const Partition& partition,
                                     .vertical_sigma_m = prior.vertical_sigma_m,
                                     .is_of_drive = positions[id.value].is_of_drive});
       }
-      clusters_of_image[id.value].push_back(c);
     }
   }
   const PlacesInDrives places(manifest);

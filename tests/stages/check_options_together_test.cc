@@ -44,6 +44,8 @@ TEST(CheckOptionsTogether, RefusesCeresWhereTheGraphMayBeDivided) {
               HasSubstr("partition.cluster_size=0"));
   EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.cluster_size=0"}, street), "");
   EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=1"}, street), "");
+  EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=1"}, {.num_images = 149}),
+            "");  // stays one cluster
   EXPECT_NE(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=1"}, {.num_images = 150}),
             "");
   EXPECT_EQ(ProblemOf({"bundle.solver=ceres", "partition.min_clusters=3"}, {.num_images = 31}),

@@ -377,7 +377,7 @@ TEST(JudgeModel, SaysWhyMostImagesAreLeftOut) {
 }
 
 std::optional<CrossCheck> PairsChecked(const JobResults& results) {
-  return CheckContradictedPairs(results, BorneOutByGnss(results));
+  return CheckContradictedPairs(results, JudgePairsOfJob(results), BorneOutByGnss(results));
 }
 
 TEST(CheckContradictedPairs, CountsPairsWithinOneModelAlone) {

@@ -27,7 +27,7 @@ JobResults Drive() {
 }
 
 CrossCheck Checked(const JobResults& results) {
-  return CheckPairs(results, BorneOutByGnss(results));
+  return CheckPairs(results, JudgePairsOfJob(results), BorneOutByGnss(results));
 }
 
 void Contradict(uint32_t a, uint32_t b, JobResults& results) {
