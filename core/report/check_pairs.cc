@@ -11,25 +11,43 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/report/steps_apart.h"
 #include "core/scene/places_in_drives.h"
 
 namespace orbweave {
 namespace {
 
-constexpr uint32_t kNeighbours = 2;  // places apart in a drive
+constexpr uint32_t kNeighbours = 2;    // places apart in a drive
+constexpr double kBeside_steps = 3.0;  // panoramas see of each other's place, as in BorneOutByGnss
 constexpr size_t kRun = 3;
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
-constexpr int kFurther = 3;  // places on either side of a pair, from which pairs lead across it
+constexpr uint32_t kFurther =
+    3;  // places on either side of a pair, from which pairs lead across it
 constexpr size_t kFewestAcross = 2;
 constexpr size_t kMajority = 2;
 
-bool FollowOneAnother(const PlacesInDrives& places, const ImagePair& pair) {
-  if (!places.AreOfOneStretch(pair)) return false;
-  const std::optional<uint32_t> steps = places.StepsBetween(pair);
-  return steps && *steps <= kNeighbours;
-}
+/// Of which images pairs are right, if they are not wrong in themselves.
+class Neighbours {
+ public:
+  explicit Neighbours(const JobResults& results) : places_(results.manifest), apart_(results) {}
 
-/// Pairs across a place of a drive.
+  [[nodiscard]] const PlacesInDrives& Places() const { return places_; }
+  /// One after the other in their drive, or of two stretches, or passages, and beside each other in
+  /// the model.
+  [[nodiscard]] bool Are(const ImagePair& pair) const {
+    const bool are_of_one_stretch = places_.AreOfOneStretch(pair);
+    const std::optional<uint32_t> places = places_.StepsBetween(pair);
+    if (are_of_one_stretch && *places <= kFurther) return *places <= kNeighbours;
+    const std::optional<double> steps = apart_.Between(pair);
+    return steps && *steps <= kBeside_steps;
+  }
+
+ private:
+  PlacesInDrives places_;
+  StepsApart apart_;
+};
+
+/// Pairs across a place of a drive, or from one stretch to another.
 struct Across {
   size_t explained = 0;
   size_t contradicted = 0;
@@ -40,33 +58,51 @@ struct Across {
   }
 };
 
-/// The image and those before or after it in its drive, `kFurther` at most.
+/// The image and those of its stretch before or after it in its drive, `kFurther` at most.
 std::vector<ImageId> OnwardFrom(const PlacesInDrives& places, ImageId image, bool after) {
   std::vector<ImageId> images = {image};
-  for (int i = 0; i < kFurther; ++i) {
+  for (uint32_t i = 0; i < kFurther; ++i) {
     const std::optional<ImageId> next =
         after ? places.After(images.back()) : places.Before(images.back());
-    if (!next) break;
+    if (!next || !places.AreOfOneStretch(MakePair(image, *next))) break;
     images.push_back(*next);
   }
   return images;
 }
 
-/// What the pairs say that lead across both images of one, itself among them.
+std::vector<ImageId> Around(const PlacesInDrives& places, ImageId image) {
+  std::vector<ImageId> images = OnwardFrom(places, image, false);
+  const std::vector<ImageId> after = OnwardFrom(places, image, true);
+  images.insert(images.end(), after.begin() + 1, after.end());
+  return images;
+}
+
+/// What the pairs say between these images and those.
+Across PairsBetween(const PairsOfJob& judged,
+                    const std::vector<ImageId>& these,
+                    const std::vector<ImageId>& those) {
+  std::set<ImagePair> pairs;
+  for (const ImageId a : these) {
+    for (const ImageId b : those) {
+      if (a != b) pairs.insert(MakePair(a, b));
+    }
+  }
+  Across across;
+  for (const ImagePair& pair : pairs) {
+    across.explained += judged.explained.contains(pair) ? 1 : 0;
+    across.contradicted += judged.contradicted.contains(pair) ? 1 : 0;
+  }
+  return across;
+}
+
+/// What those say that lead across both images of a pair, itself among them.
 Across PairsAcross(const PairsOfJob& judged, const PlacesInDrives& places, const ImagePair& pair) {
+  if (!places.AreOfOneStretch(pair) || *places.StepsBetween(pair) > kFurther)
+    return PairsBetween(judged, Around(places, pair.a), Around(places, pair.b));
   const bool is_late = places.PlaceOf(pair.b) < places.PlaceOf(pair.a);
   const ImageId first = is_late ? pair.b : pair.a;
   const ImageId last = is_late ? pair.a : pair.b;
-  Across across;
-  for (const ImageId a : OnwardFrom(places, first, false)) {
-    for (const ImageId b : OnwardFrom(places, last, true)) {
-      const ImagePair other = MakePair(a, b);
-      if (!places.AreOfOneStretch(other)) continue;
-      across.explained += judged.explained.contains(other) ? 1 : 0;
-      across.contradicted += judged.contradicted.contains(other) ? 1 : 0;
-    }
-  }
-  return across;
+  return PairsBetween(judged, OnwardFrom(places, first, false), OnwardFrom(places, last, true));
 }
 
 /// Pairs in rows: those of the images after theirs, or of the one after and the one before.
@@ -124,19 +160,21 @@ std::string NamesOf(const ImageManifest& manifest, const ImagePair& pair) {
 CrossCheck CheckPairs(const JobResults& results,
                       const PairsOfJob& judged,
                       const BorneOutByGnss& gnss) {
-  const PlacesInDrives places(results.manifest);
-  const auto follow = [&](const ImagePair& pair) { return FollowOneAnother(places, pair); };
-  const auto explained = static_cast<size_t>(std::ranges::count_if(judged.explained, follow));
+  const Neighbours neighbours(results);
+  const PlacesInDrives& places = neighbours.Places();
+  const auto are_neighbours = [&](const ImagePair& pair) { return neighbours.Are(pair); };
+  const auto explained =
+      static_cast<size_t>(std::ranges::count_if(judged.explained, are_neighbours));
   std::vector<ImagePair> torn;
   std::set<ImagePair> far;
   size_t outvoted = 0;
   for (const ImagePair& pair : judged.contradicted) {
-    const bool follows = follow(pair);
-    if (follows && !PairsAcross(judged, places, pair).BearOut()) {
+    const bool is_of_neighbours = neighbours.Are(pair);
+    if (is_of_neighbours && !PairsAcross(judged, places, pair).BearOut()) {
       torn.push_back(pair);
       continue;
     }
-    outvoted += follows ? 1 : 0;
+    outvoted += is_of_neighbours ? 1 : 0;
     if (!gnss.AreApart(pair)) {
       far.insert(pair);
     }
@@ -154,7 +192,7 @@ CrossCheck CheckPairs(const JobResults& results,
     check.level = is_bad ? CheckLevel::kBad : CheckLevel::kDoubtful;
     std::snprintf(text,
                   sizeof text,
-                  "%zu of %zu verified pairs between images that follow one another contradict the "
+                  "%zu of %zu verified pairs between neighbouring images contradict the "
                   "model, first %s: it is torn or folded onto itself there; compare the two "
                   "pictures, and take panoramas closer together or leave out what misleads",
                   torn.size(),
@@ -184,7 +222,7 @@ CrossCheck CheckPairs(const JobResults& results,
   check.sentence = absl::StrCat(
       "the model explains all ",
       all,
-      " verified pairs between images that follow one another",
+      " verified pairs between neighbouring images",
       outvoted > 0
           ? absl::StrCat(", but for ", outvoted, " that those across the same place outvote")
           : "",

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <vector>
 
-#include "core/base/quantile.h"
 #include "core/geometry/rotation.h"
 #include "core/report/model_of_images.h"
+#include "core/report/steps_apart.h"
 
 namespace orbweave {
 namespace {
@@ -24,39 +25,25 @@ constexpr double kNear_steps = 0.5;
 
 using Images = std::map<ImageId, RegisteredImage>;
 
-/// The median distance of images whose numbers follow one another.
-double StepOf(const Images& images) {
-  std::vector<double> steps;
-  const RegisteredImage* before = nullptr;
-  for (const auto& [id, image] : images) {
-    if (image.loose) continue;
-    if (before != nullptr) {
-      steps.push_back((image.cam_from_world.Centre() - before->cam_from_world.Centre()).norm());
-    }
-    before = &image;
-  }
-  return steps.empty() ? 0.0 : Quantile(std::move(steps), 0.5);
-}
-
 /// By how much a model turns or leads otherwise than a pair of two of its images, whichever is
 /// more.
-double DifferenceOf(const CrossingPair& pair, const Images& images, double step) {
+double DifferenceOf(const CrossingPair& pair, const Images& images, double steps_apart) {
   const Rigid3 b_from_a =
       images.at(pair.pair.b).cam_from_world * images.at(pair.pair.a).cam_from_world.Inverse();
   const double turn_rad = RotationAngle(b_from_a.rotation * pair.b_from_a.rotation.conjugate());
   const Eigen::Vector3d b_in_a = b_from_a.Centre();
-  if (b_in_a.norm() < kNear_steps * step || pair.b_from_a.translation.isZero()) return turn_rad;
+  if (steps_apart < kNear_steps || pair.b_from_a.translation.isZero()) return turn_rad;
   return std::max(turn_rad, AngleBetween(b_in_a, pair.b_from_a.Centre()));
 }
 
 void JudgeCrossingPairs(const JobResults& results, PairsOfJob& judged) {
   const std::vector<int> model_of_image = ModelOfImages(results);
-  std::vector<double> steps;
-  for (const AdjustedModel& model : results.models) steps.push_back(StepOf(model.images));
+  const StepsApart apart(results);
   for (const CrossingPair& pair : results.view_graph.crossing) {
-    if (!AreOfOneModel(model_of_image, pair.pair)) continue;
+    const std::optional<double> steps = apart.Between(pair.pair);
+    if (!steps) continue;
     const auto model = static_cast<size_t>(model_of_image[pair.pair.a.value]);
-    const double off_rad = DifferenceOf(pair, results.models[model].images, steps[model]);
+    const double off_rad = DifferenceOf(pair, results.models[model].images, *steps);
     if (off_rad < kExplained_rad) judged.explained.insert(pair.pair);
     if (off_rad > kContradicted_rad) judged.contradicted.insert(pair.pair);
   }

@@ -19,8 +19,7 @@ struct PairsOfJob {
 /// are held against the finished model that has both: how its poses turn and lead from the one to
 /// the other. By more than 20 degrees off in either, a pair is contradicted, by less than 10 in
 /// both explained, between them neither. Direction is not asked where the images are nearer than
-/// half a step, which is the median distance of images whose numbers follow one another in that
-/// model.
+/// half a step (StepsApart).
 [[nodiscard]] PairsOfJob JudgePairsOfJob(const JobResults& results);
 
 }  // namespace orbweave

@@ -12,6 +12,7 @@
 #include "core/mapping/checks/borne_out_images.h"
 #include "core/mapping/checks/check_against_pairs.h"
 #include "core/mapping/checks/position_misfit.h"
+#include "core/mapping/checks/torn_pairs.h"
 #include "core/mapping/checks/uneven_images.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
@@ -32,26 +33,35 @@ constexpr double kMisfitOfFault = 1.5;
 constexpr double kMisfitOfEvidence = 20.0;
 /// As much as a position that is wrong (PositionMisfit::Beside).
 constexpr double kMisfitOfUneven = 9.0;
+/// As much as those of both its images. GNSS alone liked a block that had not closed better than a
+/// right one by 19: positions that are off together bend with it.
+constexpr double kMisfitOfTorn = 18.0;
 /// Rays contradict a right model in so many places more than one with a piece a house off.
 constexpr size_t kFaultsOfUneven = 3;
+constexpr size_t kFaultsOfTorn = 3;
 
-/// What rays say of a model, and the even steps of its drives.
+/// What rays and pairs say of a model, and the even steps of its drives.
 struct RayOpinion {
   size_t faults = 0;      ///< places where they contradict its lengths (FindLengthFaults)
   size_t uneven = 0;      ///< FindUnevenRuns
+  size_t torn = 0;        ///< FindTornPairs
   double evidence = 0.0;  ///< EvidenceFor
 
-  [[nodiscard]] size_t Contradictions() const { return faults + kFaultsOfUneven * uneven; }
+  [[nodiscard]] size_t Contradictions() const {
+    return faults + kFaultsOfUneven * uneven + kFaultsOfTorn * torn;
+  }
   /// As a squared misfit.
   [[nodiscard]] double Misfit() const {
     return kMisfitOfFault * static_cast<double>(faults) +
-           kMisfitOfUneven * static_cast<double>(uneven) - kMisfitOfEvidence * std::log(evidence);
+           kMisfitOfUneven * static_cast<double>(uneven) +
+           kMisfitOfTorn * static_cast<double>(torn) - kMisfitOfEvidence * std::log(evidence);
   }
 };
 
 RayOpinion RaysOf(const MappingState& state, const MappingOptions& options) {
   return {FindLengthFaults(state, options).size(),
           FindUnevenRuns(state).size(),
+          FindTornPairs(state, options).size(),
           EvidenceFor(state, options)};
 }
 

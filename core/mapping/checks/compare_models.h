@@ -29,8 +29,9 @@ namespace orbweave {
 [[nodiscard]] double EvidenceFor(const MappingState& state, const MappingOptions& options);
 
 /// Whether more speaks for the one than for the other of the same images: fewer places where rays
-/// contradict its lengths (FindLengthFaults), or as many and more evidence (EvidenceFor), which has
-/// liked a model with a piece of it 16 m off better than one with a step 3 m too long.
+/// contradict its lengths (FindLengthFaults), of which each pair that it is torn at (FindTornPairs)
+/// counts as three, or as many and more evidence (EvidenceFor), which has liked a model with a
+/// piece of it 16 m off better than one with a step 3 m too long.
 [[nodiscard]] bool SpeaksMoreFor(const MappingState& one,
                                  const MappingState& other,
                                  const MappingOptions& options);
@@ -45,9 +46,10 @@ namespace orbweave {
 /// twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, and
 /// positions and rays together like it better: the squared misfit of its positions
 /// (PositionMisfit), with 1.5 more for every place where rays contradict its lengths
-/// (FindLengthFaults) and 9 for every image off the even steps (FindUnevenRuns), less twenty times
-/// the logarithm of EvidenceFor; and not clearly less speaks for it (four fifths of EvidenceFor),
-/// so that two positions that are wrong decide nothing. Of more images it bears out as large a
+/// (FindLengthFaults), 9 for every image off the even steps (FindUnevenRuns) and 18 for every pair
+/// that it is torn at (FindTornPairs), less twenty times the logarithm of EvidenceFor; and not
+/// clearly less speaks for it (four fifths of EvidenceFor), so that two positions that are wrong
+/// decide nothing. Of more images it bears out as large a
 /// share of it, to a twentieth, and these are not much further from their positions: on average a
 /// squared misfit of at most 1.5 times one more than those of the other. Where houses repeat rays
 /// may like a wrong model better: of one rendered street they contradict it in 2 places where it is

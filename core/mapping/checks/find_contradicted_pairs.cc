@@ -123,7 +123,7 @@ bool IsAgainst(const PairEvidence& evidence, int min_matches) {
          (!IsBeyondChance(evidence) || IsShort(evidence, kExplainedShare));
 }
 
-enum class Judgement : uint8_t { kNone, kExplained, kContradicted };
+enum class Judgement : uint8_t { kNone, kExplained, kContradicted, kAskew };
 
 Judgement JudgePair(const MappingState& state,
                     const LinkedPair& pair,
@@ -132,8 +132,7 @@ Judgement JudgePair(const MappingState& state,
   const int min_matches = kMinInliersFactor * options.min_inliers;
   const bool is_general = state.Problem().pairs[pair.index].kind == TwoViewKind::kGeneral;
   const PairEvidence planes = EvidenceOfPlanes(state, pair, tolerance_px);
-  if (Speaks(planes, min_matches) && IsShort(planes, kShareInPlanes))
-    return Judgement::kContradicted;
+  if (Speaks(planes, min_matches) && IsShort(planes, kShareInPlanes)) return Judgement::kAskew;
   const PairEvidence points = EvidenceOfPoints(state, pair, tolerance_px);
   if (IsExplained(points)) return Judgement::kExplained;
   const bool is_against =
@@ -148,20 +147,25 @@ JudgedPairs JudgePairs(const MappingState& state, const MappingOptions& options)
   const std::vector<LinkedPair>& pairs = state.Graph().pairs;
   JudgedPairs judged;
   std::vector<uint8_t> is_explained(pairs.size(), 0);
-  std::vector<uint32_t> contradicted;
+  std::vector<std::pair<uint32_t, Judgement>> against;
   for (uint32_t p = 0; p < pairs.size(); ++p) {
     const LinkedPair& pair = pairs[p];
     if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b)) continue;
     const Judgement judgement = JudgePair(state, pair, options);
-    if (judgement == Judgement::kContradicted) contradicted.push_back(p);
-    if (judgement != Judgement::kExplained) continue;
+    if (judgement == Judgement::kNone) continue;
+    if (judgement != Judgement::kExplained) {
+      against.emplace_back(p, judgement);
+      continue;
+    }
     is_explained[p] = 1;
     judged.explained.push_back(state.Problem().pairs[pair.index].pair);
   }
   const MisleadingPairs misleading(state, std::move(is_explained));
-  for (const uint32_t p : contradicted) {
-    if (!misleading.IsMisleading(p))
-      judged.contradicted.push_back(state.Problem().pairs[pairs[p].index].pair);
+  for (const auto& [p, judgement] : against) {
+    if (misleading.IsMisleading(p)) continue;
+    const ImagePair& pair = state.Problem().pairs[pairs[p].index].pair;
+    judged.contradicted.push_back(pair);
+    if (judgement == Judgement::kAskew) judged.askew.push_back(pair);
   }
   return judged;
 }

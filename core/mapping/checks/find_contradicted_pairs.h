@@ -13,6 +13,9 @@ namespace orbweave {
 struct JudgedPairs {
   std::vector<ImagePair> explained{};
   std::vector<ImagePair> contradicted{};
+  /// Of those the ones whose own matches do not lie in the planes of the model's pose: they lead
+  /// elsewhere than the model, or turn otherwise.
+  std::vector<ImagePair> askew{};
 };
 
 /// Holds verified pairs against the model that was made of them. Evidence are the matches whose two

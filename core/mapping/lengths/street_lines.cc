@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -18,6 +20,7 @@
 #include "core/mapping/registration/pair_witness.h"
 #include "core/scene/left_off.h"
 #include "core/scene/order_along_way.h"
+#include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
@@ -173,6 +176,44 @@ std::vector<StreetLine> FindRuns(const MappingState& state, double tolerance_px)
   return runs;
 }
 
+/// How many places on from one image of a street another one is, as far as a drive tells: captures
+/// that are missing between them (ranks) count where the way is as long as that, in usual steps.
+class PlacesOn {
+ public:
+  explicit PlacesOn(const MappingState& state) : state_(state) {
+    const std::vector<ImageSlot> images = ByDrives(state);
+    std::vector<double> steps;
+    for (const std::span<const ImageSlot> drive : DrivesAmong(state, std::span(images))) {
+      if (!std::ranges::is_sorted(drive, {}, [&](ImageSlot image) { return RankOf(image); }))
+        continue;
+      by_rank_.insert(state.Problem().images[drive.front()].drive);
+      for (size_t i = 0; i + 1 < drive.size(); ++i) steps.push_back(Way(drive[i], drive[i + 1]));
+    }
+    usual_step_ = UsualStep(std::move(steps));
+  }
+
+  /// 1 where nothing tells.
+  [[nodiscard]] size_t Between(ImageSlot a, ImageSlot b) const {
+    const auto& images = state_.Problem().images;
+    if (images[a].drive != images[b].drive || !by_rank_.contains(images[a].drive)) return 1;
+    const auto [first, last] = std::minmax({RankOf(a), RankOf(b)});
+    const double steps = std::min<double>(last - first, std::round(Way(a, b) / usual_step_));
+    return static_cast<size_t>(std::max(1.0, steps));
+  }
+
+ private:
+  [[nodiscard]] uint32_t RankOf(ImageSlot image) const {
+    return state_.Problem().images[image].rank_in_drive;
+  }
+  [[nodiscard]] double Way(ImageSlot a, ImageSlot b) const {
+    return (state_.Centre(b) - state_.Centre(a)).norm();
+  }
+
+  const MappingState& state_;
+  std::set<uint32_t> by_rank_{};  ///< drives
+  double usual_step_ = 0.0;
+};
+
 /// One end of a run.
 struct End {
   size_t run = 0;
@@ -196,11 +237,19 @@ class PairsBetween {
     size_t from_last = 0;
   };
 
+  /// `one` and `other`: the runs.
+  PairsBetween(const StreetLine& one, const StreetLine& other, const PlacesOn& places) {
+    for (Option& option : options_) {
+      option.between = places.Between(option.one_is_last ? one.back() : one.front(),
+                                      option.other_is_last ? other.back() : other.front());
+    }
+  }
+
   void Add(const Place& one, const Place& other, size_t matches) {
     ++pairs_;
     matches_ += matches;
     for (Option& option : options_) {
-      const size_t span = (option.one_is_last ? one.from_last : one.from_first) + 1 +
+      const size_t span = (option.one_is_last ? one.from_last : one.from_first) + option.between +
                           (option.other_is_last ? other.from_last : other.from_first);
       option.about += span <= kMaxSpan ? 1 : 0;
       option.spans += span * matches;
@@ -219,8 +268,9 @@ class PairsBetween {
   struct Option {
     bool one_is_last = false;
     bool other_is_last = false;
-    size_t about = 0;  ///< pairs within kMaxSpan places
-    size_t spans = 0;  ///< places between the images of all matches
+    size_t between = 1;  ///< places from the one end to the other
+    size_t about = 0;    ///< pairs within kMaxSpan places
+    size_t spans = 0;    ///< places between the images of all matches
   };
   std::array<Option, 4> options_ = {{{true, false}, {false, false}, {true, true}, {false, true}}};
   size_t pairs_ = 0;
@@ -240,6 +290,7 @@ std::vector<Meeting> FindMeetings(const MappingState& state,
       place[runs[run][i]] = {i, runs[run].size() - 1 - i};
     }
   }
+  const PlacesOn places(state);
   std::map<std::pair<size_t, size_t>, PairsBetween> between;
   ForEachPair(state, [&](const LinkedPair& pair) {
     if (run_of[pair.a] == run_of[pair.b]) return;
@@ -247,8 +298,10 @@ std::vector<Meeting> FindMeetings(const MappingState& state,
     const bool in_order = run_of[pair.a] < run_of[pair.b];
     const ImageSlot one = in_order ? pair.a : pair.b;
     const ImageSlot other = in_order ? pair.b : pair.a;
-    between[{run_of[one], run_of[other]}].Add(
-        place[one], place[other], state.Problem().pairs[pair.index].inliers.size());
+    const std::pair two(run_of[one], run_of[other]);
+    between.try_emplace(two, runs[two.first], runs[two.second], places)
+        .first->second.Add(
+            place[one], place[other], state.Problem().pairs[pair.index].inliers.size());
   });
   std::vector<Meeting> meetings;
   for (const auto& [two, pairs] : between) {

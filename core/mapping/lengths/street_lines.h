@@ -25,7 +25,8 @@ using StreetLine = std::vector<ImageSlot>;
 /// stretches are of different days is one line, and so are images whose ids are in no order as far
 /// as pairs tell. Runs meet at those two ends that have the images of pairs between them the
 /// closest together, if nine in ten of these pairs lie about them (within 2 kReachAlongLine places
-/// of the line that they make). Where one end meets several, those join first that have most
+/// of the line that they make, with captures of one drive that are missing between the ends, where
+/// the way is as long as that). Where one end meets several, those join first that have most
 /// matches. Two drives along the whole of a street are two lines. Pairs of which less than half of
 /// the matches lie within `tolerance_px` of where the model has them (AgreementOfMatches) join
 /// nothing: they may be of places that look alike.

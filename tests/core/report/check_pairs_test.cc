@@ -129,5 +129,63 @@ TEST(CheckPairs, AnotherDriveIsNoNeighbour) {
   EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
 }
 
+/// A street of which the second half is of another day, in a model that has images 50 and on so
+/// many steps further along than they are.
+JobResults TwoDays(double jump_steps) {
+  JobResults results = Drive();
+  AdjustedModel& model = results.models.emplace_back();
+  for (ImageRecord& image : results.manifest.images) {
+    const bool is_second = image.id.value >= 50;
+    image.drive = is_second ? 1 : 0;
+    const double at = image.id.value + (is_second ? jump_steps : 0.0);
+    model.images[image.id].cam_from_world =
+        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), Eigen::Vector3d(4.0 * at, 0.0, 0.0));
+  }
+  std::erase(results.clusters[0].explained_pairs, ImagePair{ImageId(49), ImageId(50)});
+  return results;
+}
+
+TEST(CheckPairs, WhatStandsBesideAnImageIsItsNeighbourWhateverItsDrive) {
+  JobResults results = TwoDays(1.0);
+  Contradict(49, 50, results);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kDoubtful);
+  EXPECT_THAT(Checked(results).sentence, HasSubstr("first 49.jpg and 50.jpg"));
+  Contradict(48, 50, results);
+  Contradict(49, 51, results);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kBad);
+}
+
+TEST(CheckPairs, PairsOfTwoDaysAreOutvotedByThoseAroundThem) {
+  JobResults results = TwoDays(0.0);
+  Contradict(49, 51, results);
+  for (const auto& [a, b] : {std::pair(49U, 50U), std::pair(48U, 50U), std::pair(48U, 51U)})
+    results.clusters[0].explained_pairs.push_back({ImageId(a), ImageId(b)});
+  EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
+  EXPECT_THAT(Checked(results).sentence, HasSubstr("but for 1 that"));
+}
+
+TEST(CheckPairs, WhatTheModelHasApartMayLookAlike) {
+  JobResults results = TwoDays(6.0);
+  Contradict(49, 50, results);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
+}
+
+/// A street that is driven there and back, in one drive: the ways back are not where the ways there
+/// are.
+TEST(CheckPairs, TwoPassagesBesideEachOtherAreNeighbours) {
+  JobResults results = TwoDays(0.0);
+  for (auto& [id, image] : results.models[0].images) {
+    results.manifest.images[id.value].drive = 0;
+    const bool is_back = id.value >= 50;
+    const double along = is_back ? 99.0 - id.value : id.value;
+    image.cam_from_world = Rigid3::FromCentre(Eigen::Quaterniond::Identity(),
+                                              Eigen::Vector3d(4.0 * along, is_back, 0.0));
+  }
+  Contradict(20, 79, results);
+  EXPECT_EQ(Checked(results).level, CheckLevel::kDoubtful);
+  results.clusters[0].contradicted_pairs = {{ImageId(20), ImageId(60)}};
+  EXPECT_EQ(Checked(results).level, CheckLevel::kGood);
+}
+
 }  // namespace
 }  // namespace orbweave

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mapping/checks/check_against_pairs.h"
+#include "core/mapping/checks/position_misfit.h"
 #include "tests/core/mapping/gnss_walk.h"
 
 namespace orbweave {
@@ -68,6 +69,30 @@ TEST(IsLikedByGnss, NotForWrongPositions) {
   const MappingState fooled = Slid(walk, 6, 8, 5.0);
   EXPECT_FALSE(IsLikedByGnss(fooled, right, {}));
   EXPECT_TRUE(IsBetterModel(right, fooled, {}));
+}
+
+/// Positions whose errors all have the same side of a street elsewhere bend with a model that is
+/// torn there.
+TEST(IsLikedByGnss, NotWhereAModelIsTorn) {
+  GnssWalk walk;
+  const Eigen::Vector3d aside(0.0, 1.5, 0.0);
+  for (uint32_t image = 7; image < GnssWalk::kImages; ++image)
+    *walk.Prior(image).position_in_enu += aside;
+  const MappingState right = TornAt(walk, GnssWalk::kImages, 0.0);
+  MappingState torn = right;
+  for (ImageSlot image = 7; image < GnssWalk::kImages; ++image) {
+    const Rigid3& truth = walk.Fixture().world.cams_from_world[image];
+    torn.SetPose(
+        image,
+        TransformCamera(
+            walk.model_from_world,
+            Rigid3::FromCentre(truth.rotation, truth.Centre() + 1.5 * Eigen::Vector3d::UnitZ())));
+  }
+  EXPECT_LT(PositionMisfit(torn, 8.0).Beside(PositionMisfit(right, 8.0)),
+            PositionMisfit(right, 8.0).Beside(PositionMisfit(torn, 8.0)));
+  EXPECT_FALSE(IsLikedByGnss(torn, right, {}));
+  EXPECT_TRUE(IsBetterModel(right, torn, {}));
+  EXPECT_FALSE(IsBetterModel(torn, right, {}));
 }
 
 TEST(IsLikedByGnss, WhereMoreImagesAreBorneOutAsWell) {

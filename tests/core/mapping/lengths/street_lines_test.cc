@@ -77,6 +77,37 @@ TEST(FindStreetLines, EndWhereMoreCapturesAreMissingThanImagesSeeAcross) {
   EXPECT_EQ(lines().size(), 1U);
 }
 
+/// Captures 5 to 10 of a street are of another day, and not in the model; what is before and behind
+/// them looks alike, in the direction of the street.
+TEST(FindStreetLines, DoNotSkipWhatIsMissingByPairsOfPlacesThatLookAlike) {
+  std::vector<Eigen::Vector3d> centres = StraightWalk(kImages, 4.0);
+  for (size_t i = 5; i < centres.size(); ++i) centres[i].x() += 24.0;
+  StreetFixture street({.centres = centres, .points_per_metre = 8, .reach_m = 30.0, .window = 3});
+  for (uint32_t i = 0; i < kImages; ++i)
+    street.world.problem.images[i].rank_in_drive = i < 5 ? i : i + 6;
+  std::erase_if(street.world.problem.pairs, [](const TwoViewGeometry& pair) {
+    return pair.pair.a.value < 5 && pair.pair.b.value >= 5;
+  });
+  const auto lines = [&] {
+    street.graph = BuildCorrespondenceGraph(street.world.problem).value();
+    return FindStreetLines(street.StateWith(FirstImages(kImages)), kTolerance_px).size();
+  };
+  ASSERT_EQ(lines(), 2U);
+  TwoViewGeometry alike{.pair = {ImageId(2), ImageId(5)}, .kind = TwoViewKind::kGeneral};
+  const ClusterImage& a = street.world.problem.images[2];
+  ClusterImage& b = street.world.problem.images[5];
+  for (FeatureIndex f = 0; f < 50; ++f) {
+    const Eigen::Vector3d step(-4.0, 0.0, 0.0);
+    b.bearings[f] = (12.0 * a.bearings[f] + step).normalized();
+    alike.inliers.push_back({f, f});
+  }
+  street.world.problem.pairs.push_back(alike);
+  std::ranges::sort(street.world.problem.pairs, {}, &TwoViewGeometry::pair);
+  EXPECT_EQ(lines(), 2U);
+  for (uint32_t i = 0; i < kImages; ++i) street.world.problem.images[i].rank_in_drive = i;
+  EXPECT_EQ(lines(), 1U) << "nothing is missing";
+}
+
 TEST(FindStreetLines, StretchesOfTwoDaysAreOneStreet) {
   EXPECT_THAT(LinesOf(Street(), {0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0}),
               ElementsAre(ElementsAreArray(InOrder())));
