@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "core/mapping/adjustment/adjust_global.h"
 #include "core/mapping/checks/compare_models.h"
+#include "core/mapping/checks/torn_pairs.h"
 #include "core/mapping/lengths/matches_in_planes.h"
 #include "core/mapping/model/merge_points.h"
 #include "core/mapping/model/reconstructed_share.h"
@@ -19,21 +21,25 @@
 namespace orbweave {
 namespace {
 
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
 /// As COLMAP allows points that are made anew.
-constexpr double kDrift_rad = 5.0 * std::numbers::pi / 180.0;
+constexpr double kDrift_rad = 5.0 * kDegree_rad;
+/// What a step that is 4 m wrong makes of a wall 8 m away.
+constexpr double kTorn_rad = 30.0 * kDegree_rad;
 constexpr double kMostReconstructed = 0.2;
 constexpr int kMinInliersFactor = 2;
 
-/// A pair whose matches are off by more than points may be, and by less than five degrees.
+/// A pair whose matches are off by more than points may be, and by less than it may have drifted.
 struct DriftedPair {
-  uint32_t pair = 0;        ///< of the graph
-  double tolerance_px = 0;  ///< five degrees
+  uint32_t pair = 0;  ///< of the graph
+  double tolerance_px = 0;
 };
 
 /// By what tolerance its matches are to become points; nullopt where the pair has not drifted
-/// apart.
+/// apart, or by more than `drift_rad`.
 std::optional<double> DriftOf(const MappingState& state,
                               const LinkedPair& pair,
+                              double drift_rad,
                               const MappingOptions& options) {
   const auto fewest = static_cast<size_t>(kMinInliersFactor * options.min_inliers);
   if (!state.IsRegistered(pair.a) || !state.IsRegistered(pair.b) ||
@@ -42,7 +48,7 @@ std::optional<double> DriftOf(const MappingState& state,
   const double planes_px = kMatchTolerance * options.max_error_px;
   const std::vector<PosedMatch> own = OwnMatches(state, pair, planes_px);
   if (own.size() < fewest) return std::nullopt;
-  const double tolerance_px = kDrift_rad / own.front().pixel_rad;
+  const double tolerance_px = drift_rad / own.front().pixel_rad;
   size_t in_planes = 0;
   size_t about_there = 0;
   for (const PosedMatch& match : own) {
@@ -56,10 +62,14 @@ std::optional<double> DriftOf(const MappingState& state,
 }
 
 std::vector<DriftedPair> FindDrifted(const MappingState& state, const MappingOptions& options) {
+  const std::vector<ImagePair> found = FindTornPairs(state, options);
+  const std::set<ImagePair> torn(found.begin(), found.end());
   std::vector<DriftedPair> drifted;
   const std::vector<LinkedPair>& pairs = state.Graph().pairs;
   for (uint32_t p = 0; p < pairs.size(); ++p) {
-    if (const auto tolerance_px = DriftOf(state, pairs[p], options))
+    const bool is_torn = torn.contains(state.Problem().pairs[pairs[p].index].pair);
+    const double drift_rad = is_torn ? kTorn_rad : kDrift_rad;
+    if (const auto tolerance_px = DriftOf(state, pairs[p], drift_rad, options))
       drifted.push_back({p, *tolerance_px});
   }
   return drifted;

@@ -18,8 +18,9 @@ namespace orbweave {
 /// point (a fifth; Wu, Towards Linear-Time Incremental Structure from Motion, 3DV 2013, section 4),
 /// three fifths of its own matches (OwnMatches) do not lie in the epipolar planes of the model's
 /// pose, and yet lie there and in front of both images to five degrees: places that look alike are
-/// far further off, or lie in the planes. Its matches become points at that tolerance, everything
-/// is adjusted under a loss that is as wide, then as ever (AdjustGrowingModel). All stays as it was
+/// far further off, or lie in the planes. Those of images beside each other (FindTornPairs) are not
+/// places that look alike; they may be 30 degrees off. The matches become points at that tolerance,
+/// everything is adjusted under a loss that is as wide, then as ever (AdjustGrowingModel). All stays as it was
 /// unless more matches agree with the result (CountMatchesInPlanes) and GNSS does not like
 /// it less (IsLikedByGnss).
 ///
