@@ -20,9 +20,9 @@ namespace orbweave {
 /// pose, and yet lie there and in front of both images to five degrees: places that look alike are
 /// far further off, or lie in the planes. Those of images beside each other (FindTornPairs) are not
 /// places that look alike; they may be 30 degrees off. The matches become points at that tolerance,
-/// everything is adjusted under a loss that is as wide, then as ever (AdjustGrowingModel). All stays as it was
-/// unless more matches agree with the result (CountMatchesInPlanes) and GNSS does not like
-/// it less (IsLikedByGnss).
+/// everything is adjusted under a loss that is as wide, then as ever (AdjustGrowingModel). All
+/// stays as it was unless more matches agree with the result (CountMatchesInPlanes) and GNSS does
+/// not like it less (IsLikedByGnss).
 ///
 /// Whether anything was closed. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<bool> CloseDrift(MappingState& state,

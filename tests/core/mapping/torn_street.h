@@ -20,7 +20,9 @@ class TornStreet {
                   .reach_m = 30.0,
                   .window = 4,
                   .outlier_share = 0.1,
-                  .random_rotations = true}) {}
+                  .random_rotations = true}) {
+    for (uint32_t i = 0; i < kImages; ++i) fixture_.world.problem.images[i].rank_in_drive = i;
+  }
 
   [[nodiscard]] StreetFixture& Fixture() { return fixture_; }
   [[nodiscard]] const StreetFixture& Fixture() const { return fixture_; }

@@ -61,7 +61,6 @@ TEST(FindTornPairs, WhateverDrivesTheImagesAreOf) {
 TEST(FindTornPairs, PlacesThatLookAlikeAreNotBesideEachOther) {
   TornStreet street;
   RayStreet& world = street.Fixture().world;
-  for (uint32_t i = 0; i < TornStreet::kImages; ++i) world.problem.images[i].rank_in_drive = i;
   TwoViewGeometry alike{.pair = {ImageId(2), ImageId(13)}, .kind = TwoViewKind::kGeneral};
   alike.b_from_a.translation = Eigen::Vector3d::UnitY();
   // Matches that lie in the planes of its own pose and nowhere in the model's.

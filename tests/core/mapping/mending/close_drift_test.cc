@@ -79,6 +79,19 @@ TEST(CloseDrift, BringsTogetherWhatNoAdjustmentDoes) {
   }
 }
 
+/// Beside each other images look alike because they are: whatever days they are of, and however far
+/// the model has them apart.
+TEST(CloseDrift, BringsTogetherWhatStandsFarAskewBesideIt) {
+  TornStreet street;
+  for (ImageSlot image = kTorn; image < TornStreet::kImages; ++image)
+    street.Fixture().world.problem.images[image].drive = 1;
+  LeaveOnePairAcross(street);
+  MappingState closed = Drifted(street, 14.0 * kDegree);
+  EXPECT_TRUE(Close(closed));
+  EXPECT_LT(TurnOf(street, closed), 0.05 * kDegree);
+  EXPECT_TRUE(JudgePairs(closed, {}).contradicted.empty());
+}
+
 TEST(CloseDrift, LeavesARightModelAsItIs) {
   const TornStreet street;
   MappingState state = Drifted(street, 0.0);
