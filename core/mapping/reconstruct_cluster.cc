@@ -90,7 +90,7 @@ absl::StatusOr<std::vector<MappingState>> CutAll(std::vector<MappingState> state
       const bool is_model =
           piece.Registered().size() >= static_cast<size_t>(options.min_component_images);
       if (pieces.size() > 1 && !is_model) {
-        for (const ImageSlot image : piece.Registered()) log[image].cut_off = true;
+        for (const ImageSlot image : piece.Registered()) log[image].loss = RegistrationLoss::kCut;
       }
       if (pieces.size() > 1 && piece.Registered().size() >= kFewestImages)
         ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(piece, options, context));
@@ -106,7 +106,7 @@ absl::Status DropOffScale(MappingState& state,
                           const StageContext& context,
                           RegistrationLog& log) {
   for (auto off = DropOffScaleImages(state); !off.empty(); off = DropOffScaleImages(state)) {
-    for (const ImageSlot image : off) log[image].off_scale = true;
+    for (const ImageSlot image : off) log[image].loss = RegistrationLoss::kScale;
     ORBWEAVE_RETURN_IF_ERROR(AdjustFinalModel(state, options, context));
   }
   return absl::OkStatus();
@@ -254,7 +254,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
       continue;
     }
     for (const ImageSlot image : state.Registered()) {
-      if (log[image].cut_off) continue;
+      if (log[image].loss == RegistrationLoss::kCut) continue;
       reasons[image] = "its component of " + std::to_string(size) + " images is smaller than " +
                        std::to_string(options.min_component_images);
     }

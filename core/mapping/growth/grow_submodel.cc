@@ -131,7 +131,7 @@ class Growth {
     record.obstacle = attempt.registered ? RegistrationObstacle::kNone : attempt.obstacle;
     record.visible_at_failure = attempt.registered ? 0 : attempt.num_visible;
     record.best_visible = std::max(record.best_visible, attempt.num_visible);
-    if (attempt.registered) record.cut_off = record.off_scale = false;
+    if (attempt.registered) record.loss = RegistrationLoss::kNone;
     const bool sees_enough = attempt.num_visible >= static_cast<uint32_t>(Limits().min_inliers);
     if (!sees_enough || attempt.num_inliers < record.best_inliers) return;
     record.best_inliers = attempt.num_inliers;
@@ -188,8 +188,9 @@ class Growth {
     const auto fewest = static_cast<uint32_t>(std::min(options_.min_inliers, kFewestInliers));
     const std::vector<ImageSlot> registered = state_.Registered();
     for (const ImageSlot image : registered) {
-      log_[image].dropped = state_.NumObservations(image) < fewest;
-      if (log_[image].dropped) state_.Deregister(image);
+      if (state_.NumObservations(image) >= fewest) continue;
+      log_[image].loss = RegistrationLoss::kPoints;
+      state_.Deregister(image);
     }
   }
 

@@ -4,6 +4,24 @@
 #include "core/mapping/registration/registration_log.h"
 
 namespace orbweave {
+namespace {
+
+std::string ReasonOf(RegistrationLoss loss) {
+  switch (loss) {
+    case RegistrationLoss::kNone:
+      return "";
+    case RegistrationLoss::kPoints:
+      return "lost its points again in the adjustment";
+    case RegistrationLoss::kScale:
+      return "stood on a scale of its own in its model, as a wrong pair makes it";
+    case RegistrationLoss::kCut:
+      return "was cut off: what joins it to its model contradicts it, or does not tell how large "
+             "either is beside the other";
+  }
+  return "";
+}
+
+}  // namespace
 
 void ResetAttempts(RegistrationLog& log) {
   for (RegistrationRecord& record : log) {
@@ -15,12 +33,7 @@ void ResetAttempts(RegistrationLog& log) {
 }
 
 std::string ReasonOf(const RegistrationRecord& record, uint32_t needed_visible) {
-  if (record.dropped) return "lost its points again in the adjustment";
-  if (record.off_scale) return "stood on a scale of its own in its model, as a wrong pair makes it";
-  if (record.cut_off) {
-    return "was cut off: what joins it to its model contradicts it, or does not tell how large "
-           "either is beside the other";
-  }
+  if (record.loss != RegistrationLoss::kNone) return ReasonOf(record.loss);
   if (record.contradicted) {
     return std::to_string(record.best_inliers) +
            " points put it where its GNSS position and those around it say that it is not: a "

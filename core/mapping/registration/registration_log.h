@@ -9,6 +9,14 @@
 
 namespace orbweave {
 
+/// How an image that was registered left its model.
+enum class RegistrationLoss {
+  kNone,
+  kPoints,  ///< lost its points in an adjustment
+  kScale,   ///< stood on a scale of its own (DropOffScaleImages)
+  kCut,     ///< in a piece of less than a model (CutAtHinges)
+};
+
 /// What was tried for one image, and what came of it.
 struct RegistrationRecord {
   int num_attempts = 0;
@@ -17,9 +25,7 @@ struct RegistrationRecord {
   uint32_t needed_inliers = 0;      ///< when most agreed
   uint32_t best_visible = 0;        ///< most points it ever saw
   int num_reconsidered = 0;         ///< times that it was registered anew (ReconsiderImages)
-  bool dropped = false;             ///< was registered, then lost its points
-  bool off_scale = false;           ///< was registered, on a scale of its own (DropOffScaleImages)
-  bool cut_off = false;       ///< was registered, in a piece of less than a model (CutAtHinges)
+  RegistrationLoss loss = RegistrationLoss::kNone;
   bool contradicted = false;  ///< GNSS had the last word (RegistrationAttempt::waits)
   RegistrationObstacle obstacle = RegistrationObstacle::kNone;  ///< of the last attempt
 };

@@ -58,9 +58,10 @@ TEST(ReasonOf, SaysThatPairsDidNotTellHowFarItIs) {
 }
 
 TEST(ReasonOf, SaysThatTheImageWasTakenOutOfAModel) {
-  EXPECT_NE(ReasonOf({.best_visible = 300, .cut_off = true}, 20).find("was cut off"),
+  EXPECT_NE(ReasonOf({.best_visible = 300, .loss = RegistrationLoss::kCut}, 20).find("was cut off"),
             std::string::npos);
-  EXPECT_NE(ReasonOf({.best_visible = 300, .off_scale = true}, 20).find("scale of its own"),
+  EXPECT_NE(ReasonOf({.best_visible = 300, .loss = RegistrationLoss::kScale}, 20)
+                .find("scale of its own"),
             std::string::npos);
 }
 
@@ -69,9 +70,12 @@ TEST(ReasonOf, SaysThatNothingStarted) {
 }
 
 TEST(ReasonOf, SaysThatTheImageWasLostAgain) {
-  EXPECT_EQ(
-      ReasonOf({.num_attempts = 1, .best_inliers = 40, .needed_inliers = 20, .dropped = true}, 20),
-      "lost its points again in the adjustment");
+  EXPECT_EQ(ReasonOf({.num_attempts = 1,
+                      .best_inliers = 40,
+                      .needed_inliers = 20,
+                      .loss = RegistrationLoss::kPoints},
+                     20),
+            "lost its points again in the adjustment");
 }
 
 }  // namespace
