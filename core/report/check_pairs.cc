@@ -21,8 +21,8 @@ constexpr uint32_t kNeighbours = 2;    // places apart in a drive
 constexpr double kBeside_steps = 3.0;  // panoramas see of each other's place, as in BorneOutByGnss
 constexpr size_t kRun = 3;
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
-constexpr uint32_t kFurther =
-    3;  // places on either side of a pair, from which pairs lead across it
+// Places on either side of a pair, from which pairs lead across it.
+constexpr uint32_t kFurther = 3;
 constexpr size_t kFewestAcross = 2;
 constexpr size_t kMajority = 2;
 

@@ -33,6 +33,16 @@ constexpr double kSigmasOfGnss = 3.0;
 constexpr double kHardlyParts = 0.25;   // of the angles of either way
 constexpr size_t kTimesTheMatches = 2;  // the pair may have of those of either way
 
+/// Whether three ways one after the other go on, and lead nowhere near a direction, however long
+/// each is: what they make together lies in the cone about their middle that holds them all.
+bool IsBeyond(const Vector3d& direction, const std::array<Vector3d, 3>& ways) {
+  const Vector3d middle = ways[0] + ways[1] + ways[2];
+  double cone_rad = 0.0;
+  for (const Vector3d& way : ways) cone_rad = std::max(cone_rad, AngleBetween(way, middle));
+  return cone_rad <= 0.5 * kOnward_rad &&
+         AngleBetween(direction, middle) > cone_rad + kLeadsOtherwise_rad;
+}
+
 }  // namespace
 
 MisleadingPairs::MisleadingPairs(const MappingState& state, std::vector<uint8_t> is_explained)
@@ -95,16 +105,23 @@ bool MisleadingPairs::LeadsAsModel(uint32_t pair, size_t min_matches) const {
              kLeadsAlike_rad;
 }
 
+template <typename Counts>
+std::map<ImageSlot, uint32_t> MisleadingPairs::PairsOf(ImageSlot image,
+                                                       const Counts& counts) const {
+  std::map<ImageSlot, uint32_t> pairs;
+  for (const uint32_t p : state_.Graph().pairs_of_image[image]) {
+    if (counts(p)) pairs.emplace(state_.Graph().pairs[p].Other(image), p);
+  }
+  return pairs;
+}
+
 template <typename Counts, typename SaysSo>
 bool MisleadingPairs::AnyByWayOfThird(uint32_t pair,
                                       const Counts& counts,
                                       const SaysSo& says_so) const {
   const CorrespondenceGraph& graph = state_.Graph();
   const LinkedPair& link = graph.pairs[pair];
-  std::map<ImageSlot, uint32_t> pairs_to_third;  // from a
-  for (const uint32_t p : graph.pairs_of_image[link.a]) {
-    if (counts(p)) pairs_to_third.emplace(graph.pairs[p].Other(link.a), p);
-  }
+  const std::map<ImageSlot, uint32_t> pairs_to_third = PairsOf(link.a, counts);
   return std::ranges::any_of(graph.pairs_of_image[link.b], [&](uint32_t behind) {
     const auto before = pairs_to_third.find(graph.pairs[behind].Other(link.b));
     if (before == pairs_to_third.end() || !counts(behind)) return false;
@@ -139,6 +156,28 @@ bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
         };
         return AngleToArc(way, leads(least), leads(most)) > kLeadsOtherwise_rad;
       });
+}
+
+bool MisleadingPairs::LeadsOtherwiseThanChain(uint32_t pair) const {
+  const TwoViewGeometry& geometry = GeometryOf(pair);
+  if (!HasBaseline(geometry.kind)) return false;
+  const CorrespondenceGraph& graph = state_.Graph();
+  const auto [first, last] = std::pair(graph.pairs[pair].a, graph.pairs[pair].b);
+  const Vector3d way = WayInWorld(pair, first).normalized();
+  const auto counts = [&](uint32_t p) { return LeadsAsModel(p, geometry.inliers.size()); };
+  const std::map<ImageSlot, uint32_t> to_last = PairsOf(last, counts);
+  for (const auto& [second, from_first] : PairsOf(first, counts)) {
+    for (const uint32_t onward : graph.pairs_of_image[second]) {
+      const ImageSlot third = graph.pairs[onward].Other(second);
+      const auto from_third = to_last.find(third);
+      if (third == first || from_third == to_last.end() || !counts(onward)) continue;
+      const std::array ways = {WayInWorld(from_first, first).normalized(),
+                               WayInWorld(onward, second).normalized(),
+                               WayInWorld(from_third->second, third).normalized()};
+      if (IsBeyond(way, ways)) return true;
+    }
+  }
+  return false;
 }
 
 std::array<double, 2> MisleadingPairs::SharesByGnss(ImageSlot first,

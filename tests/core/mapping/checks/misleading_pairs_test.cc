@@ -163,6 +163,47 @@ TEST(MisleadingPairs, PositionsThatKnowNoLengthsOrContradictTheModelSayNothing) 
   EXPECT_FALSE(off.IsMisleadingBy(20.0));
 }
 
+/// A walk whose pair of images 1 and 4 leads otherwise, turning as it should, and is explained
+/// nowhere but by way of two others.
+struct LongWalk : Walk {
+  static std::vector<ImagePair> Chain() { return {Pair(1, 2), Pair(2, 3), Pair(3, 4)}; }
+  void Turn(double degrees) {
+    const Eigen::AngleAxisd turn(degrees * 3.14159265 / 180.0, Vector3d::UnitY());
+    Rigid3& b_from_a = PairOf(1, 4).b_from_a;
+    const Eigen::Quaterniond& b_from_world = street.world.cams_from_world[4].rotation;
+    b_from_a.translation =
+        b_from_world * (turn * (b_from_world.conjugate() * b_from_a.translation));
+  }
+};
+
+TEST(MisleadingPairs, AreThoseThatLeadOtherwiseThanAChainOfStrongOnes) {
+  LongWalk walk;
+  EXPECT_FALSE(walk.IsMisleading(1, 4, LongWalk::Chain()));
+  walk.Turn(3.0);
+  EXPECT_FALSE(walk.IsMisleading(1, 4, LongWalk::Chain()));
+  walk.Turn(70.0);
+  EXPECT_TRUE(walk.IsMisleading(1, 4, LongWalk::Chain()));
+  EXPECT_FALSE(walk.IsMisleading(1, 4, {Pair(1, 2), Pair(2, 3)}));
+  EXPECT_FALSE(walk.IsMisleading(1, 4, {Pair(1, 2), Pair(3, 4)}));
+}
+
+TEST(MisleadingPairs, NoChainIsStrongerThanItsWeakestPair) {
+  LongWalk walk;
+  walk.Turn(70.0);
+  walk.PairOf(2, 3).inliers.resize(walk.PairOf(1, 4).inliers.size() - 1);
+  EXPECT_FALSE(walk.IsMisleading(1, 4, LongWalk::Chain()));
+}
+
+/// Beside a tear the pairs of the chain do not lead as the model does.
+TEST(MisleadingPairs, NoChainLeadsAcrossATear) {
+  LongWalk walk;
+  for (uint32_t image = 3; image < 8; ++image) {
+    Rigid3& pose = walk.street.world.cams_from_world[image];
+    pose = Rigid3::FromCentre(pose.rotation, pose.Centre() + Vector3d(0.0, 0.0, 4.0));
+  }
+  EXPECT_FALSE(walk.IsMisleading(1, 4, LongWalk::Chain()));
+}
+
 /// A walk whose pair of images 2 and 4 has rays that hardly part, those of others by 20 degrees.
 struct StillWalk : Walk {
   StillWalk() {
