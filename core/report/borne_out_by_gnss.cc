@@ -17,7 +17,6 @@ constexpr size_t kAround = 5;
 constexpr size_t kFewest = 3;
 constexpr double kAgreeing = 0.75;
 constexpr double kSigmas = 3.0;
-constexpr double kUsualSteps = 3.0;
 
 /// Of the positions of a stretch.
 struct Tally {
@@ -70,7 +69,7 @@ void BorneOutByGnss::TakeDrive(const ImageManifest& manifest,
     }
     if (!tally.BearsOut()) continue;
     borne_out[i] = here;
-    borne_out[i]->reach_m = kUsualSteps * usual_step_m + kSigmas * Quantile(sigmas_m, 0.5);
+    borne_out[i]->reach_m = kSeenWithin_steps * usual_step_m + kSigmas * Quantile(sigmas_m, 0.5);
   }
   for (size_t i = 0; i < sequence.size(); ++i) places_[sequence[i].value] = borne_out[i];
 }

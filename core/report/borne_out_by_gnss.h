@@ -11,6 +11,9 @@
 
 namespace orbweave {
 
+/// Panoramas see of each other's place within so many usual steps.
+inline constexpr double kSeenWithin_steps = 3.0;
+
 /// Which panoramas stand where GNSS has the street around them. A model that is folded onto itself,
 /// or left a stretch out, puts some of them elsewhere than their positions; one that has them all
 /// where they should be does not look alike at two places, its images do.
@@ -24,7 +27,7 @@ class BorneOutByGnss {
   explicit BorneOutByGnss(const JobResults& results);
 
   /// Whether both images are borne out, in one model, further apart there than panoramas see of
-  /// each other's place: by three usual steps of their drives (UsualStep) and three sigmas. A
+  /// each other's place: by kSeenWithin_steps of their drives (UsualStep) and three sigmas. A
   /// verified pair of theirs that contradicts the model shows places that look alike.
   [[nodiscard]] bool AreApart(const ImagePair& pair) const;
 

@@ -17,8 +17,7 @@
 namespace orbweave {
 namespace {
 
-constexpr uint32_t kNeighbours = 2;    // places apart in a drive
-constexpr double kBeside_steps = 3.0;  // panoramas see of each other's place, as in BorneOutByGnss
+constexpr uint32_t kNeighbours = 2;  // places apart in a drive
 constexpr size_t kRun = 3;
 constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 // Places on either side of a pair, from which pairs lead across it.
@@ -35,11 +34,13 @@ class Neighbours {
   /// One after the other in their drive, or of two stretches, or passages, and beside each other in
   /// the model.
   [[nodiscard]] bool Are(const ImagePair& pair) const {
-    const bool are_of_one_stretch = places_.AreOfOneStretch(pair);
-    const std::optional<uint32_t> places = places_.StepsBetween(pair);
-    if (are_of_one_stretch && *places <= kFurther) return *places <= kNeighbours;
+    if (AreOnOneWay(pair)) return places_.StepsBetween(pair) <= kNeighbours;
     const std::optional<double> steps = apart_.Between(pair);
-    return steps && *steps <= kBeside_steps;
+    return steps && *steps <= kSeenWithin_steps;
+  }
+  /// Of one stretch and one passage.
+  [[nodiscard]] bool AreOnOneWay(const ImagePair& pair) const {
+    return places_.AreOfOneStretch(pair) && places_.StepsBetween(pair) <= kFurther;
   }
 
  private:
@@ -96,8 +97,9 @@ Across PairsBetween(const PairsOfJob& judged,
 }
 
 /// What those say that lead across both images of a pair, itself among them.
-Across PairsAcross(const PairsOfJob& judged, const PlacesInDrives& places, const ImagePair& pair) {
-  if (!places.AreOfOneStretch(pair) || *places.StepsBetween(pair) > kFurther)
+Across PairsAcross(const PairsOfJob& judged, const Neighbours& neighbours, const ImagePair& pair) {
+  const PlacesInDrives& places = neighbours.Places();
+  if (!neighbours.AreOnOneWay(pair))
     return PairsBetween(judged, Around(places, pair.a), Around(places, pair.b));
   const bool is_late = places.PlaceOf(pair.b) < places.PlaceOf(pair.a);
   const ImageId first = is_late ? pair.b : pair.a;
@@ -161,7 +163,6 @@ CrossCheck CheckPairs(const JobResults& results,
                       const PairsOfJob& judged,
                       const BorneOutByGnss& gnss) {
   const Neighbours neighbours(results);
-  const PlacesInDrives& places = neighbours.Places();
   const auto are_neighbours = [&](const ImagePair& pair) { return neighbours.Are(pair); };
   const auto explained =
       static_cast<size_t>(std::ranges::count_if(judged.explained, are_neighbours));
@@ -169,8 +170,8 @@ CrossCheck CheckPairs(const JobResults& results,
   std::set<ImagePair> far;
   size_t outvoted = 0;
   for (const ImagePair& pair : judged.contradicted) {
-    const bool is_of_neighbours = neighbours.Are(pair);
-    if (is_of_neighbours && !PairsAcross(judged, places, pair).BearOut()) {
+    const bool is_of_neighbours = are_neighbours(pair);
+    if (is_of_neighbours && !PairsAcross(judged, neighbours, pair).BearOut()) {
       torn.push_back(pair);
       continue;
     }
@@ -201,7 +202,7 @@ CrossCheck CheckPairs(const JobResults& results,
     check.sentence = text;
     return check;
   }
-  const size_t run = Rows(far, places).Longest();
+  const size_t run = Rows(far, neighbours.Places()).Longest();
   if (run >= kRun) {
     check.level = CheckLevel::kDoubtful;
     check.value = static_cast<double>(run);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/geometry/rotation.h"
-#include "core/report/model_of_images.h"
 #include "core/report/steps_apart.h"
 
 namespace orbweave {
@@ -37,13 +36,11 @@ double DifferenceOf(const CrossingPair& pair, const Images& images, double steps
 }
 
 void JudgeCrossingPairs(const JobResults& results, PairsOfJob& judged) {
-  const std::vector<int> model_of_image = ModelOfImages(results);
   const StepsApart apart(results);
   for (const CrossingPair& pair : results.view_graph.crossing) {
     const std::optional<double> steps = apart.Between(pair.pair);
     if (!steps) continue;
-    const auto model = static_cast<size_t>(model_of_image[pair.pair.a.value]);
-    const double off_rad = DifferenceOf(pair, results.models[model].images, *steps);
+    const double off_rad = DifferenceOf(pair, apart.ModelOf(pair.pair.a), *steps);
     if (off_rad < kExplained_rad) judged.explained.insert(pair.pair);
     if (off_rad > kContradicted_rad) judged.contradicted.insert(pair.pair);
   }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/report/steps_apart.h"
 
-#include <map>
 #include <utility>
 
 #include "core/report/model_of_images.h"
@@ -37,9 +36,13 @@ StepsApart::StepsApart(const JobResults& results)
 
 std::optional<double> StepsApart::Between(const ImagePair& pair) const {
   if (!AreOfOneModel(model_of_image_, pair)) return std::nullopt;
-  const auto model = static_cast<size_t>(model_of_image_[pair.a.value]);
-  const Images& images = results_.models[model].images;
-  return (CentreOf(images, pair.b) - CentreOf(images, pair.a)).norm() / step_[model];
+  const Images& images = ModelOf(pair.a);
+  const double step = step_[static_cast<size_t>(model_of_image_[pair.a.value])];
+  return (CentreOf(images, pair.b) - CentreOf(images, pair.a)).norm() / step;
+}
+
+const Images& StepsApart::ModelOf(ImageId image) const {
+  return results_.models[static_cast<size_t>(model_of_image_[image.value])].images;
 }
 
 }  // namespace orbweave

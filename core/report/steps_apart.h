@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,8 @@ class StepsApart {
   /// that model whose numbers follow one another. nullopt where no model has both, or where one is
   /// loose.
   [[nodiscard]] std::optional<double> Between(const ImagePair& pair) const;
+  /// The images of the model that has this one, which is one that is asked for above.
+  [[nodiscard]] const std::map<ImageId, RegisteredImage>& ModelOf(ImageId image) const;
 
  private:
   const JobResults& results_;

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "core/geometry/angle_to_arc.h"
 #include "core/geometry/rotation.h"
+#include "core/mapping/model/registered_by_drive.h"
 #include "core/mapping/registration/gnss_steps.h"
 
 namespace orbweave {
@@ -48,12 +48,8 @@ bool IsBeyond(const Vector3d& direction, const std::array<Vector3d, 3>& ways) {
 MisleadingPairs::MisleadingPairs(const MappingState& state, std::vector<uint8_t> is_explained)
     : state_(state),
       is_explained_(std::move(is_explained)),
-      sequence_(state.Registered()),
+      sequence_(RegisteredByDrive(state)),
       place_(state.Graph().NumImages()) {
-  std::ranges::sort(sequence_, {}, [&](ImageSlot slot) {
-    const ClusterImage& image = state.Problem().images[slot];
-    return std::tuple(image.drive, image.rank_in_drive, slot);
-  });
   for (size_t place = 0; place < sequence_.size(); ++place) place_[sequence_[place]] = place;
 }
 

@@ -4,23 +4,20 @@
 #include "core/mapping/checks/torn_pairs.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 #include "core/mapping/checks/find_contradicted_pairs.h"
+#include "core/mapping/lengths/street_lines.h"
+#include "core/mapping/model/registered_by_drive.h"
 #include "core/scene/usual_step.h"
 
 namespace orbweave {
 namespace {
 
-constexpr uint32_t kNeighbours = 3;  // places of a drive, or usual steps
-
 /// Of all drives together.
 double UsualStepIn(const MappingState& state) {
   const auto& images = state.Problem().images;
-  std::vector<ImageSlot> sequence = state.Registered();
-  std::ranges::sort(sequence, {}, [&](ImageSlot slot) {
-    return std::tuple(images[slot].drive, images[slot].rank_in_drive, slot);
-  });
+  const std::vector<ImageSlot> sequence = RegisteredByDrive(state);
   std::vector<double> steps;
   for (size_t i = 1; i < sequence.size(); ++i) {
     if (images[sequence[i - 1]].drive != images[sequence[i]].drive) continue;
@@ -31,7 +28,7 @@ double UsualStepIn(const MappingState& state) {
 
 bool FollowOneAnother(const ClusterImage& a, const ClusterImage& b) {
   const auto [first, last] = std::minmax({a.rank_in_drive, b.rank_in_drive});
-  return a.drive == b.drive && last - first <= kNeighbours;
+  return a.drive == b.drive && last - first <= kReachAlongLine;
 }
 
 }  // namespace
@@ -39,7 +36,7 @@ bool FollowOneAnother(const ClusterImage& a, const ClusterImage& b) {
 std::vector<ImagePair> FindTornPairs(const MappingState& state, const MappingOptions& options) {
   std::vector<ImagePair> torn = JudgePairs(state, options).askew;
   if (torn.empty()) return torn;
-  const double reach = kNeighbours * UsualStepIn(state);
+  const double reach = static_cast<double>(kReachAlongLine) * UsualStepIn(state);
   std::erase_if(torn, [&](const ImagePair& pair) {
     const ImageSlot a = SlotOf(state.Problem(), pair.a).value();
     const ImageSlot b = SlotOf(state.Problem(), pair.b).value();

@@ -3,9 +3,10 @@
 
 #include "core/mapping/checks/uneven_images.h"
 
-#include <algorithm>
 #include <map>
 #include <span>
+
+#include "core/mapping/model/registered_by_drive.h"
 
 namespace orbweave {
 namespace {
@@ -13,9 +14,7 @@ namespace {
 std::map<uint32_t, std::vector<ImageSlot>> ImagesOfDrives(const MappingState& state) {
   const auto& images = state.Problem().images;
   std::map<uint32_t, std::vector<ImageSlot>> drives;
-  for (const ImageSlot slot : state.Registered()) drives[images[slot].drive].push_back(slot);
-  for (auto& [drive, slots] : drives)
-    std::ranges::sort(slots, {}, [&](ImageSlot slot) { return images[slot].rank_in_drive; });
+  for (const ImageSlot slot : RegisteredByDrive(state)) drives[images[slot].drive].push_back(slot);
   return drives;
 }
 

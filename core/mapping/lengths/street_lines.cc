@@ -13,10 +13,10 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/model/registered_by_drive.h"
 #include "core/mapping/registration/pair_witness.h"
 #include "core/scene/left_off.h"
 #include "core/scene/order_along_way.h"
@@ -62,13 +62,9 @@ std::vector<std::span<Slot>> DrivesAmong(const MappingState& state, std::span<Sl
   return drives;
 }
 
-/// Registered images drive by drive.
+/// Registered images drive by drive, each in its order.
 std::vector<ImageSlot> ByDrives(const MappingState& state) {
-  std::vector<ImageSlot> images = state.Registered();
-  const auto& known = state.Problem().images;
-  std::ranges::sort(images, {}, [&](ImageSlot image) {
-    return std::tuple(known[image].drive, known[image].rank_in_drive, known[image].id);
-  });
+  std::vector<ImageSlot> images = RegisteredByDrive(state);
   for (const std::span<ImageSlot> drive : DrivesAmong(state, std::span(images)))
     OrderDrive(state, drive);
   return images;
@@ -124,13 +120,21 @@ class Apartness {
   double tolerance_px_;
 };
 
+uint32_t RankOf(const MappingState& state, ImageSlot image) {
+  return state.Problem().images[image].rank_in_drive;
+}
+
+bool GoesByRank(const MappingState& state, std::span<const ImageSlot> drive) {
+  return std::ranges::is_sorted(drive, {}, [&](ImageSlot image) { return RankOf(state, image); });
+}
+
 /// Behind which images so many captures are missing that the next does not see what they see, in
 /// drives that go by ranks.
 std::vector<uint8_t> GapsBehind(const MappingState& state, const std::vector<ImageSlot>& images) {
-  const auto rank_of = [&](ImageSlot image) { return state.Problem().images[image].rank_in_drive; };
+  const auto rank_of = [&](ImageSlot image) { return RankOf(state, image); };
   std::vector<uint8_t> gaps;
   for (const std::span<const ImageSlot> drive : DrivesAmong(state, std::span(images))) {
-    const bool goes_by_rank = std::ranges::is_sorted(drive, {}, rank_of);
+    const bool goes_by_rank = GoesByRank(state, drive);
     for (size_t i = 0; i + 1 < drive.size(); ++i)
       gaps.push_back(goes_by_rank && rank_of(drive[i + 1]) - rank_of(drive[i]) > kReachAlongLine);
     gaps.push_back(0);
@@ -153,8 +157,9 @@ std::vector<uint8_t> EndsBehind(const MappingState& state,
 }
 
 /// Divided where the drive ends or goes on elsewhere, and where no pair leads on.
-std::vector<StreetLine> FindRuns(const MappingState& state, double tolerance_px) {
-  const std::vector<ImageSlot> images = ByDrives(state);
+std::vector<StreetLine> FindRuns(const MappingState& state,
+                                 const std::vector<ImageSlot>& images,
+                                 double tolerance_px) {
   std::vector<size_t> place(state.Graph().NumImages());
   for (size_t i = 0; i < images.size(); ++i) place[images[i]] = i;
   const auto drive = [&](size_t at) { return state.Problem().images[images[at]].drive; };
@@ -180,12 +185,11 @@ std::vector<StreetLine> FindRuns(const MappingState& state, double tolerance_px)
 /// that are missing between them (ranks) count where the way is as long as that, in usual steps.
 class PlacesOn {
  public:
-  explicit PlacesOn(const MappingState& state) : state_(state) {
-    const std::vector<ImageSlot> images = ByDrives(state);
+  /// `images`: drive by drive.
+  PlacesOn(const MappingState& state, const std::vector<ImageSlot>& images) : state_(state) {
     std::vector<double> steps;
     for (const std::span<const ImageSlot> drive : DrivesAmong(state, std::span(images))) {
-      if (!std::ranges::is_sorted(drive, {}, [&](ImageSlot image) { return RankOf(image); }))
-        continue;
+      if (!GoesByRank(state, drive)) continue;
       by_rank_.insert(state.Problem().images[drive.front()].drive);
       for (size_t i = 0; i + 1 < drive.size(); ++i) steps.push_back(Way(drive[i], drive[i + 1]));
     }
@@ -196,15 +200,12 @@ class PlacesOn {
   [[nodiscard]] size_t Between(ImageSlot a, ImageSlot b) const {
     const auto& images = state_.Problem().images;
     if (images[a].drive != images[b].drive || !by_rank_.contains(images[a].drive)) return 1;
-    const auto [first, last] = std::minmax({RankOf(a), RankOf(b)});
+    const auto [first, last] = std::minmax({RankOf(state_, a), RankOf(state_, b)});
     const double steps = std::min<double>(last - first, std::round(Way(a, b) / usual_step_));
     return static_cast<size_t>(std::max(1.0, steps));
   }
 
  private:
-  [[nodiscard]] uint32_t RankOf(ImageSlot image) const {
-    return state_.Problem().images[image].rank_in_drive;
-  }
   [[nodiscard]] double Way(ImageSlot a, ImageSlot b) const {
     return (state_.Centre(b) - state_.Centre(a)).norm();
   }
@@ -281,6 +282,7 @@ class PairsBetween {
 /// that look alike.
 std::vector<Meeting> FindMeetings(const MappingState& state,
                                   const std::vector<StreetLine>& runs,
+                                  const PlacesOn& places,
                                   double tolerance_px) {
   std::vector<size_t> run_of(state.Graph().NumImages());
   std::vector<PairsBetween::Place> place(run_of.size());
@@ -290,7 +292,6 @@ std::vector<Meeting> FindMeetings(const MappingState& state,
       place[runs[run][i]] = {i, runs[run].size() - 1 - i};
     }
   }
-  const PlacesOn places(state);
   std::map<std::pair<size_t, size_t>, PairsBetween> between;
   ForEachPair(state, [&](const LinkedPair& pair) {
     if (run_of[pair.a] == run_of[pair.b]) return;
@@ -379,9 +380,12 @@ class Joiner {
 }  // namespace
 
 std::vector<StreetLine> FindStreetLines(const MappingState& state, double tolerance_px) {
-  const std::vector<StreetLine> runs = FindRuns(state, tolerance_px);
+  const std::vector<ImageSlot> images = ByDrives(state);
+  const std::vector<StreetLine> runs = FindRuns(state, images, tolerance_px);
+  const PlacesOn places(state, images);
   Joiner joiner(runs);
-  for (const Meeting& meeting : FindMeetings(state, runs, tolerance_px)) joiner.Join(meeting);
+  for (const Meeting& meeting : FindMeetings(state, runs, places, tolerance_px))
+    joiner.Join(meeting);
   return joiner.Take();
 }
 
