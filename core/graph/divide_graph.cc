@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/graph/strong_links.h"
 
 namespace orbweave {
 namespace {
@@ -22,9 +23,6 @@ namespace {
 constexpr double kTotalWeight = 2.0e8;
 // METIS counts costs in whole numbers: so many are an image of cost 1.
 constexpr double kCostUnits = 64.0;
-// A link weaker than this share of the strongest of either image passes others by: to METIS it
-// keeps a part in one piece all the same, to reconstruct across it takes the images between.
-constexpr double kWeak = 0.1;
 
 // The piece in METIS's compressed rows, images numbered by position.
 struct MetisGraph {
@@ -96,18 +94,15 @@ absl::StatusOr<std::vector<idx_t>> RunMetis(MetisGraph graph,
 
 using Chunk = std::vector<uint32_t>;
 
-// Chunks of equal part that strong links hold together, sorted, in order of their first image.
+// Chunks of equal part that strong links hold together, sorted, in order of their first image. To
+// METIS a weak link keeps a part in one piece as well.
 class StrongChunks {
  public:
   StrongChunks(const ConnectedPiece& piece, const std::vector<idx_t>& part)
-      : piece_(piece), part_of_(piece.adjacency.num_images(), -1) {
-    strongest_.resize(part_of_.size(), 0.0);
-    for (size_t i = 0; i < piece.images.size(); ++i) {
-      const uint32_t image = piece.images[i];
-      part_of_[image] = part[i];
-      for (const Adjacency::Link& link : piece.adjacency.Of(image))
-        strongest_[image] = std::max(strongest_[image], piece.edge_weight[link.edge]);
-    }
+      : piece_(piece),
+        part_of_(piece.adjacency.num_images(), -1),
+        strong_(piece.adjacency, piece.edge_weight) {
+    for (size_t i = 0; i < piece.images.size(); ++i) part_of_[piece.images[i]] = part[i];
   }
 
   [[nodiscard]] std::vector<Chunk> Find() const {
@@ -133,14 +128,12 @@ class StrongChunks {
 
  private:
   [[nodiscard]] bool Holds(uint32_t image, const Adjacency::Link& link) const {
-    return part_of_[image] == part_of_[link.image] &&
-           piece_.edge_weight[link.edge] >=
-               kWeak * std::min(strongest_[image], strongest_[link.image]);
+    return part_of_[image] == part_of_[link.image] && strong_.Has(image, link);
   }
 
   const ConnectedPiece& piece_;
   std::vector<idx_t> part_of_;
-  std::vector<double> strongest_;
+  StrongLinks strong_;
 };
 
 // Chunks that become parts, or join others.

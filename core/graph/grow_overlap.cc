@@ -4,8 +4,10 @@
 #include "core/graph/grow_overlap.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <utility>
+
+#include "core/graph/meeting_places.h"
 
 namespace orbweave {
 namespace {
@@ -41,27 +43,35 @@ class Lender {
   std::vector<uint32_t> lent_;
 };
 
-struct SeamLenders {
+// The images to lend where two parts meet.
+struct PlaceLenders {
+  PlaceLenders(const MeetingPlace& place, std::span<const double> edge_weight) {
+    for (const CutEdge& cut : place) {
+      a.AddWeight(cut.in_a, edge_weight[cut.edge]);
+      b.AddWeight(cut.in_b, edge_weight[cut.edge]);
+    }
+  }
+
+  void Lend(size_t target,
+            const Adjacency& adjacency,
+            std::span<const double> edge_weight,
+            std::span<const uint32_t> part_of) {
+    while (a.lent().size() + b.lent().size() < target) {
+      if (a.IsExhausted() && b.IsExhausted()) return;
+      const bool a_lends =
+          b.IsExhausted() || (!a.IsExhausted() && a.lent().size() <= b.lent().size());
+      (a_lends ? a : b).LendOne(adjacency, edge_weight, part_of);
+    }
+  }
+
   Lender a{};
   Lender b{};
 };
 
-using Seams = std::map<std::pair<uint32_t, uint32_t>, SeamLenders>;
-
-Seams FindSeams(const Adjacency& adjacency,
-                std::span<const double> edge_weight,
-                std::span<const uint32_t> part_of) {
-  Seams seams;
-  for (uint32_t image = 0; image < adjacency.num_images(); ++image) {
-    for (const Adjacency::Link& link : adjacency.Of(image)) {
-      if (part_of[image] >= part_of[link.image])
-        continue;  // each cut edge once, from its lower part
-      SeamLenders& seam = seams[{part_of[image], part_of[link.image]}];
-      seam.a.AddWeight(image, edge_weight[link.edge]);
-      seam.b.AddWeight(link.image, edge_weight[link.edge]);
-    }
-  }
-  return seams;
+std::vector<uint32_t> United(const std::vector<uint32_t>& x, const std::vector<uint32_t>& y) {
+  std::vector<uint32_t> images;
+  std::ranges::set_union(x, y, std::back_inserter(images));
+  return images;
 }
 
 }  // namespace
@@ -71,18 +81,14 @@ std::vector<LentImages> GrowOverlap(const Adjacency& adjacency,
                                     std::span<const uint32_t> part_of,
                                     const OverlapTargets& targets) {
   std::vector<LentImages> shared;
-  for (auto& [parts, seam] : FindSeams(adjacency, edge_weight, part_of)) {
-    const size_t target = targets.Of(parts);
-    while (seam.a.lent().size() + seam.b.lent().size() < target) {
-      if (seam.a.IsExhausted() && seam.b.IsExhausted()) break;
-      const bool a_lends = seam.b.IsExhausted() ||
-                           (!seam.a.IsExhausted() && seam.a.lent().size() <= seam.b.lent().size());
-      (a_lends ? seam.a : seam.b).LendOne(adjacency, edge_weight, part_of);
+  for (const auto& [parts, places] : FindMeetingPlaces(adjacency, edge_weight, part_of)) {
+    LentImages& lent = shared.emplace_back(parts.first, parts.second);
+    for (const MeetingPlace& place : places) {
+      PlaceLenders lenders(place, edge_weight);
+      lenders.Lend(targets.Of(parts), adjacency, edge_weight, part_of);
+      lent.lent_to_a = United(lent.lent_to_a, lenders.b.lent());
+      lent.lent_to_b = United(lent.lent_to_b, lenders.a.lent());
     }
-    shared.push_back({.part_a = parts.first,
-                      .part_b = parts.second,
-                      .lent_to_a = seam.b.lent(),
-                      .lent_to_b = seam.a.lent()});
   }
   return shared;
 }

@@ -20,7 +20,7 @@ struct LentImages {
   std::vector<uint32_t> lent_to_b{};  ///< interior of a, sorted
 };
 
-/// How many images two adjacent parts are to share.
+/// How many images two adjacent parts are to share at each place where they meet.
 struct OverlapTargets {
   size_t usual = 0;
   std::map<std::pair<uint32_t, uint32_t>, size_t> of_parts{};  ///< (a < b): where not as usual
@@ -31,12 +31,13 @@ struct OverlapTargets {
   }
 };
 
-/// For every two parts joined by an edge the images to share, sorted by (part_a, part_b). Both
-/// sides lend in turn the image with the largest total edge weight into the other part and the
-/// images lent to it before (ties: smallest image), until as many are shared as `targets` says or
-/// neither side has a connected image left. `part_of`: per image; images without an edge may hold
-/// anything. Seams are independent of each other; a larger target lends the images of a smaller one
-/// and more.
+/// For every two parts joined by an edge the images to share, sorted by (part_a, part_b). At every
+/// place where they meet (FindMeetingPlaces) both sides lend in turn the image with the largest
+/// total edge weight into the other part there and the images lent to it before (ties: smallest
+/// image), until as many are shared as `targets` says or neither side has a connected image left: a
+/// similarity between two parts holds them together where they share images, and bends them where
+/// they meet and share none. `part_of`: per image; images without an edge may hold anything. Places
+/// are independent of each other; a larger target lends the images of a smaller one and more.
 [[nodiscard]] std::vector<LentImages> GrowOverlap(const Adjacency& adjacency,
                                                   std::span<const double> edge_weight,
                                                   std::span<const uint32_t> part_of,

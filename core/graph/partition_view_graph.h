@@ -37,7 +37,10 @@ struct PartitionOptions {
           self.min_cluster_size,
           "panoramas per cluster before overlap that min_clusters leaves at least",
           Range{2, 100000});
-    visit("overlap", self.overlap, "images shared at each seam, at least", Range{2, 1000});
+    visit("overlap",
+          self.overlap,
+          "images shared at every place where clusters meet, at least",
+          Range{2, 1000});
     visit("reviews",
           self.reviews,
           "times that clusters with a seam that does not hold are given more overlap and "
@@ -45,7 +48,7 @@ struct PartitionOptions {
           Range{0, 10});
     visit("max_overlap",
           self.max_overlap,
-          "images shared at a seam after that, at most",
+          "images shared at a place after that, at most",
           Range{2, 10000});
     visit("max_condition",
           self.max_condition,
@@ -63,15 +66,14 @@ struct PartitionOptions {
 /// Divides each connected component of the view graph into NumClusters and lets neighbours overlap.
 ///
 /// METIS k-way with edge weight = inliers x spread (EdgeWeights) cuts it into parts of
-/// about equal cost (ImageCosts); the interior of every cluster is connected. At every seam images
-/// are then shared, those with the strongest edges to the other side first and alternating between
-/// both sides, until `overlap` are shared or no more are connected. Where clusters hang together by
-/// seams alone that should not hold (ForecastSeam), the images shared there are made dear to part
-/// and the division is repeated, up to three times; then such clusters are joined as long as they
-/// have no more than 2.4 times cluster_size images. A cut that is left says why it is weak
-/// (Seam::weakness). Clusters are sorted by their smallest interior image. Images without an edge
-/// are in no cluster. InvalidArgument when an edge names an image that does not exist, Internal
-/// when METIS fails.
+/// about equal cost (ImageCosts); the interior of every cluster is connected. Wherever two clusters
+/// meet images are then shared (GrowOverlap), until `overlap` are or no more are connected. Where
+/// clusters hang together by seams alone that should not hold (ForecastSeam), the images shared
+/// there are made dear to part and the division is repeated, up to three times; then such clusters
+/// are joined as long as they have no more than 2.4 times cluster_size images. A cut that is left
+/// says why it is weak (Seam::weakness). Clusters are sorted by their smallest interior image.
+/// Images without an edge are in no cluster. InvalidArgument when an edge names an image that does
+/// not exist, Internal when METIS fails.
 [[nodiscard]] absl::StatusOr<Partition> PartitionViewGraph(const ViewGraph& graph,
                                                            const PartitionOptions& options);
 
@@ -82,9 +84,9 @@ struct PartitionOptions {
     const std::vector<std::string>& cluster_of_image,
     const PartitionOptions& options);
 
-/// The clusters of `partition` where neighbours named in `requests` share as many images as those
-/// ask for. Interiors stay. So do the images of all other clusters, and which of them are shared,
-/// because what one cluster lends was shared by all who had it before.
+/// The clusters of `partition` where neighbours named in `requests` share as many images, wherever
+/// they meet, as those ask for. Interiors stay. So do the images of all other clusters, and which
+/// of them are shared, because what one cluster lends was shared by all who had it before.
 [[nodiscard]] absl::StatusOr<Partition> WidenOverlaps(const ViewGraph& graph,
                                                       const Partition& partition,
                                                       const std::vector<OverlapRequest>& requests,

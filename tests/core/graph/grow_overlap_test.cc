@@ -52,6 +52,20 @@ TEST(GrowOverlap, GoesOnWithOneSideWhenTheOtherHasNoMore) {
   EXPECT_THAT(shared[0].lent_to_b, ElementsAre(0));
 }
 
+TEST(GrowOverlap, TakesThemWhereverPartsMeet) {
+  const auto shared = Grow(Loop(40, 3), HalfAndHalf(40), 6);
+  ASSERT_EQ(shared.size(), 1U);
+  EXPECT_THAT(shared[0].lent_to_a, ElementsAre(20, 21, 22, 37, 38, 39));
+  EXPECT_THAT(shared[0].lent_to_b, ElementsAre(0, 1, 2, 17, 18, 19));
+}
+
+TEST(GrowOverlap, LendsAnImageOnceThatTwoPlacesAskFor) {
+  const auto shared = Grow(Loop(16, 1), HalfAndHalf(16), 12);
+  ASSERT_EQ(shared.size(), 1U);
+  EXPECT_THAT(shared[0].lent_to_a, ElementsAre(8, 9, 10, 11, 12, 13, 14, 15));
+  EXPECT_THAT(shared[0].lent_to_b, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+}
+
 TEST(GrowOverlap, StopsWhenEverythingIsShared) {
   const auto shared = Grow(Street(4, 1), HalfAndHalf(4), 12);
   ASSERT_EQ(shared.size(), 1U);

@@ -92,6 +92,23 @@ TEST(PartitionViewGraph, LeavesASmallJobInOneCluster) {
   }
 }
 
+// Whatever of a block two clusters have, one cannot be bent between the places where they meet.
+TEST(PartitionViewGraph, HoldsTwoHalvesOfABlockTogetherAtBothEnds) {
+  const ViewGraph loop = Loop(160, 3);
+  const Partition partition = Divided(loop);
+  ASSERT_EQ(partition.clusters.size(), 2U);
+  ExpectLawful(loop, partition, {});
+  const std::vector<ImageId>& shared = partition.seams.at(0).shared;
+  EXPECT_EQ(shared.size(), 24U);
+  for (const ViewEdge& edge : loop.edges) {
+    const bool is_within = std::ranges::any_of(partition.clusters, [&](const Cluster& cluster) {
+      return std::ranges::binary_search(cluster.images, edge.pair.a) &&
+             std::ranges::binary_search(cluster.images, edge.pair.b);
+    });
+    EXPECT_TRUE(is_within) << edge.pair.a.value << " - " << edge.pair.b.value;
+  }
+}
+
 TEST(PartitionViewGraph, DividesALoopOf48IntoThreeClustersInARing) {
   const ViewGraph loop = Loop(48, 10);
   const Partition partition = Divided(loop, {.min_clusters = 3});
@@ -243,7 +260,7 @@ TEST(PartitionByHand, AcceptsAClusterOfUnconnectedPieces) {
   ASSERT_TRUE(partition.ok()) << partition.status();
   ASSERT_EQ(partition->clusters.size(), 2U);
   EXPECT_EQ(partition->clusters[0].interior.size(), 20U);
-  EXPECT_EQ(NumLent(*partition, 0, 1), 4U);
+  EXPECT_EQ(NumLent(*partition, 0, 1), 2U * 4U) << "b lies between, and meets a at two places";
 }
 
 TEST(WidenOverlaps, GrowsTheSeamsThatAskAndNoOtherCluster) {
