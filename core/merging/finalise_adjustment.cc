@@ -93,18 +93,29 @@ SupportVerdicts JudgeSupports(const SupportsOfSubproblems& of_subproblems) {
   return verdicts;
 }
 
-/// Images that two witnesses have elsewhere which have nothing to do with each other: others, that
-/// see from either side what they should see (ImagesThatMissPoints), and their own GNSS position
-/// (JudgeGnss). Hundreds of points that one neighbour alone shares may put an image there, where
-/// houses repeat.
+/// Images that two witnesses have elsewhere which have nothing to do with each other: their own
+/// GNSS position (JudgeGnss), and others that see from either side what they should see
+/// (ImagesThatMissPoints), or the even steps of their drive, at an end of which they stand
+/// (FindShortSteps). Hundreds of points that one neighbour alone shares may put an image there,
+/// where houses repeat.
 std::map<ImageId, std::string> FindMisplaced(const std::vector<SeenBetween>& seen_between,
                                              const GnssReport& gnss,
                                              const std::map<ImageId, RegisteredImage>& images,
                                              const ImageManifest& manifest) {
   std::map<ImageId, std::string> reasons;
+  const auto by_gnss_too = [&](ImageId image) {
+    return std::ranges::find(gnss.outliers, manifest.At(image).name) != gnss.outliers.end();
+  };
+  for (const ShortStep& step : FindShortSteps(images, manifest)) {
+    if (!step.end || !by_gnss_too(*step.end)) continue;
+    reasons[*step.end] = absl::StrFormat(
+        "points put it elsewhere than its GNSS position does, and %.0f %% of a usual step from %s, "
+        "its only neighbour: misplaced",
+        100.0 * step.steps,
+        manifest.At(step.end == step.from ? step.to : step.from).name);
+  }
   for (const SeenBetween& count : ImagesThatMissPoints(seen_between, images)) {
-    const std::string& name = manifest.At(count.image).name;
-    if (std::ranges::find(gnss.outliers, name) == gnss.outliers.end()) continue;
+    if (!by_gnss_too(count.image)) continue;
     reasons[count.image] = absl::StrFormat(
         "points put it elsewhere than its GNSS position does, and it sees %d of %d that others see "
         "from either side of there: misplaced",

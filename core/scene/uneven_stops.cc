@@ -25,6 +25,7 @@ constexpr double kWhole = 0.15;
 constexpr double kQuartiles = 3.0;
 constexpr double kKnownShare = 0.4;
 constexpr double kSamePlace = 0.02;
+constexpr double kRefuted_sigmas = 3.0;
 
 /// A way from one stop to the next.
 struct Step {
@@ -120,7 +121,50 @@ std::optional<UnevenStop> JudgeRun(std::span<const DriveStop> stops,
 
 /// Whether a step is as long as those around.
 bool IsUsual(const Step& step, const Usual& usual) {
-  return step.places >= 1.0 && std::abs(step.Each() - usual.step) <= kEven * usual.step;
+  if (step.places < 1.0 || step.places > kMostPlaces) return false;
+  return std::abs(step.Each() - usual.step) <= kEven * usual.step;
+}
+
+/// What a vanished step has on one side.
+enum class Side { kUsual, kUnusual, kEnd };
+
+/// Of step i; `next`: -1 or 1. Whatever is more than a run's places away is another piece.
+Side SideOf(std::span<const Step> steps, size_t i, int next, const Usual& usual) {
+  if (next < 0 ? i == 0 : i + 1 == steps.size()) return Side::kEnd;
+  const Step& step = steps[next < 0 ? i - 1 : i + 1];
+  if (IsUsual(step, usual)) return Side::kUsual;
+  return step.length > kMostPlaces * usual.step ? Side::kEnd : Side::kUnusual;
+}
+
+/// A step as positions have it.
+struct ByPositions {
+  double length_m = 0.0;
+  double sigma_m = 0.0;
+};
+
+std::optional<ByPositions> AskPositions(const std::function<const PosePrior&(size_t)>& prior_of,
+                                        size_t from) {
+  const PosePrior& a = prior_of(from);
+  const PosePrior& b = prior_of(from + 1);
+  if (!a.position_in_enu || !b.position_in_enu) return std::nullopt;
+  return ByPositions{DistanceBetween(a, b), SigmaBetween(a, b)};
+}
+
+/// The mean length of the steps as usual beside it, as positions have them, per place.
+std::optional<double> LengthBeside(const VanishedStep& vanished,
+                                   std::span<const DriveStop> stops,
+                                   const std::function<const PosePrior&(size_t)>& prior_of) {
+  double sum_m = 0.0;
+  double count = 0.0;
+  for (const size_t stop : {vanished.stop, vanished.stop + 1}) {
+    if (vanished.end == stop) continue;
+    const size_t from = stop == vanished.stop ? stop - 1 : stop;
+    const auto beside = AskPositions(prior_of, from);
+    if (!beside) return std::nullopt;
+    sum_m += beside->length_m / (stops[from + 1].place - stops[from].place);
+    count += 1.0;
+  }
+  return sum_m / count;
 }
 
 bool Overlap(const UnevenStop& one, const UnevenStop& other) {
@@ -171,26 +215,34 @@ bool IsBorneOut(const UnevenStop& uneven,
 std::vector<VanishedStep> FindVanishedSteps(std::span<const DriveStop> stops) {
   const std::vector<Step> steps = StepsOf(stops);
   std::vector<VanishedStep> found;
-  for (size_t i = 1; i + 1 < steps.size(); ++i) {
+  for (size_t i = 0; i < steps.size(); ++i) {
     const std::optional<Usual> usual = UsualAround(steps, i, i + 1);
-    if (!usual || !IsUsual(steps[i - 1], *usual) || !IsUsual(steps[i + 1], *usual)) continue;
+    if (!usual) continue;
     const double share = steps[i].length / usual->step;
     const double most = std::min(kMostVanished_steps, 1.0 - usual->limit);
-    if (share > kSamePlace && share < most) found.push_back({i, usual->step, share});
+    if (share <= kSamePlace || share >= most) continue;
+    const Side before = SideOf(steps, i, -1, *usual);
+    const Side behind = SideOf(steps, i, 1, *usual);
+    VanishedStep vanished{.stop = i, .step = usual->step, .share = share};
+    if (before == Side::kEnd && behind == Side::kUsual) vanished.end = i;
+    if (before == Side::kUsual && behind == Side::kEnd) vanished.end = i + 1;
+    if (vanished.end || (before == Side::kUsual && behind == Side::kUsual))
+      found.push_back(vanished);
   }
   return found;
 }
 
-bool IsBorneOut(const VanishedStep& vanished, const std::array<PosePrior, 4>& around) {
-  if (!std::ranges::all_of(
-          around, [](const PosePrior& prior) { return prior.position_in_enu.has_value(); }))
-    return false;
-  const double beside_m =
-      0.5 * (DistanceBetween(around[0], around[1]) + DistanceBetween(around[2], around[3]));
-  const double length_m = DistanceBetween(around[1], around[2]);
-  const double short_m = vanished.share * beside_m;
-  return SigmaBetween(around[1], around[2]) <= kKnownShare * (beside_m - short_m) &&
-         std::abs(length_m - short_m) < std::abs(length_m - beside_m);
+bool IsDoubted(const VanishedStep& vanished,
+               std::span<const DriveStop> stops,
+               const std::function<const PosePrior&(size_t)>& prior_of) {
+  const size_t from = vanished.stop;
+  const std::optional<ByPositions> own = AskPositions(prior_of, from);
+  const auto beside_m = LengthBeside(vanished, stops, prior_of);
+  if (!own || !beside_m) return !vanished.end;
+  const double short_m = vanished.share * *beside_m;
+  const bool is_as_usual = std::abs(own->length_m - short_m) >= std::abs(own->length_m - *beside_m);
+  if (vanished.end) return is_as_usual && own->length_m - short_m > kRefuted_sigmas * own->sigma_m;
+  return is_as_usual || own->sigma_m > kKnownShare * (*beside_m - short_m);
 }
 
 }  // namespace orbweave

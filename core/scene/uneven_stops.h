@@ -3,9 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,25 +67,32 @@ struct VanishedStep {
   size_t stop = 0;     ///< from this one to the next
   double step = 0.0;   ///< as steps are around
   double share = 0.0;  ///< of such a step
+  /// The one of its stops that hangs at the other alone: the drive begins or ends there, or goes on
+  /// more than three steps away. Nullopt: it lies between two steps as usual.
+  std::optional<size_t> end{};
 };
 
 /// What is longer has not vanished.
 inline constexpr double kMostVanished_steps = 1.0 / 3.0;
 
 /// Steps of a fiftieth to a third of the median step s around, as FindUnevenStops has it, between
-/// two that are as long as that to 30 %. Where houses are as wide as a step is long a panorama sees
-/// the next house where it saw this one: the rays of the pair hardly meet, as of a camera that
-/// stands, thousands of points agree, and all that follows stands one step too near. A camera that
-/// stops slows down before, and is late; one that is carried by hand is not asked, and a frame that
-/// a video has twice is left alone. Of 2,088 steps of 114 models of rendered and real streets, most
-/// of them right, one was such: 12.8 m at 3 % of the others, which 1,912 rays bore out.
+/// two that are as long as that to 30 %, or beside one and the end of a run. Where houses are as
+/// wide as a step is long a panorama sees the next house where it saw this one: the rays of the
+/// pair hardly meet, as of a camera that stands, thousands of points agree, and all that follows
+/// stands one step too near. A camera that stops slows down before, and is late; one that is
+/// carried by hand is not asked, and a frame that a video has twice is left alone. Of 2,088 steps
+/// of 114 models of rendered and real streets, most of them right, one was such between two
+/// others: 12.8 m at 3 % of the others, which 1,912 rays bore out.
 ///
 /// `stops`: ascending by place. Ascending by stop.
 [[nodiscard]] std::vector<VanishedStep> FindVanishedSteps(std::span<const DriveStop> stops);
 
-/// Whether positions have the step as short rather than as long as the two beside it, and know
-/// that: they tell the difference to two fifths. `around`: of the stop before it, its own two, and
-/// the one behind it.
-[[nodiscard]] bool IsBorneOut(const VanishedStep& vanished, const std::array<PosePrior, 4>& around);
+/// Whether the step is wrong, as far as positions tell: unless they have it as short rather than as
+/// long as the steps as usual beside it, and know the difference to two fifths. At an end, where
+/// cameras do start and stop, only where they are longer by three sigmas than the model has it and
+/// rather as long as those beside. `stops`: those it was found among; `prior_of`: of each of them.
+[[nodiscard]] bool IsDoubted(const VanishedStep& vanished,
+                             std::span<const DriveStop> stops,
+                             const std::function<const PosePrior&(size_t)>& prior_of);
 
 }  // namespace orbweave

@@ -6,42 +6,32 @@
 #include <absl/strings/str_format.h>
 
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <vector>
 
 #include "core/merging/checks/stops_of_drives.h"
 
 namespace orbweave {
-namespace {
-
-/// A step, and how long it is in steps as they are around it.
-struct ShortStep {
-  ImageId from{};
-  ImageId to{};
-  double steps = 0.0;
-};
-
-std::vector<ShortStep> FindShortSteps(const StopsOfDrive& drive, const ImageManifest& manifest) {
+std::vector<ShortStep> FindShortSteps(const std::map<ImageId, RegisteredImage>& images,
+                                      const ImageManifest& manifest) {
   std::vector<ShortStep> found;
-  for (const VanishedStep& vanished : FindVanishedSteps(drive.stops)) {
-    std::array<PosePrior, 4> around;
-    for (size_t i = 0; i < around.size(); ++i)
-      around[i] = manifest.At(drive.images[vanished.stop - 1 + i]).prior;
-    if (IsBorneOut(vanished, around)) continue;
-    found.push_back({drive.images[vanished.stop], drive.images[vanished.stop + 1], vanished.share});
+  for (const StopsOfDrive& drive : StopsOfDrives(images, manifest)) {
+    const auto prior_of = [&](size_t stop) -> const PosePrior& {
+      return manifest.At(drive.images[stop]).prior;
+    };
+    for (const VanishedStep& vanished : FindVanishedSteps(drive.stops)) {
+      if (!IsDoubted(vanished, drive.stops, prior_of)) continue;
+      ShortStep& step = found.emplace_back(
+          drive.images[vanished.stop], drive.images[vanished.stop + 1], vanished.share);
+      if (vanished.end) step.end = drive.images[*vanished.end];
+    }
   }
   return found;
 }
 
-}  // namespace
-
 CrossCheck CheckVanishedSteps(const std::map<ImageId, RegisteredImage>& images,
                               const ImageManifest& manifest) {
   CrossCheck check{.name = "vanished_steps", .limit = 1.0 - kMostVanished_steps, .unit = "step"};
-  std::vector<ShortStep> found;
-  for (const StopsOfDrive& drive : StopsOfDrives(images, manifest))
-    std::ranges::copy(FindShortSteps(drive, manifest), std::back_inserter(found));
+  const std::vector<ShortStep> found = FindShortSteps(images, manifest);
   if (found.empty()) {
     check.sentence = "no step of an even drive leads hardly anywhere";
     return check;

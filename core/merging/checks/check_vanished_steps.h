@@ -3,6 +3,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <vector>
 
 #include "core/scene/cross_check.h"
 #include "core/scene/image_manifest.h"
@@ -10,8 +12,20 @@
 
 namespace orbweave {
 
-/// "vanished_steps": whether a step of an even drive leads hardly anywhere (FindVanishedSteps), as
-/// far as positions do not bear that out (IsBorneOut). Drives and their order: StopsOfDrives.
+/// A step of a drive that leads hardly anywhere, and is doubted.
+struct ShortStep {
+  ImageId from{};
+  ImageId to{};
+  double steps = 0.0;            ///< how long it is, in steps as they are around it
+  std::optional<ImageId> end{};  ///< the one of them that nothing else holds (VanishedStep::end)
+};
+
+/// FindVanishedSteps of every drive, as far as positions do not bear them out (IsDoubted). Drives
+/// and their order: StopsOfDrives.
+[[nodiscard]] std::vector<ShortStep> FindShortSteps(
+    const std::map<ImageId, RegisteredImage>& images, const ImageManifest& manifest);
+
+/// "vanished_steps": whether a step of an even drive leads hardly anywhere (FindShortSteps).
 ///
 /// Value: how many steps the worst is short, up to one; 0 where none is.
 [[nodiscard]] CrossCheck CheckVanishedSteps(const std::map<ImageId, RegisteredImage>& images,

@@ -29,6 +29,14 @@ double VarianceOf(const NoiseAxis& axis) {
   return squares / std::max(static_cast<double>(axis.Count() - DriveRegression::kNumUnknowns), 1.0);
 }
 
+// FitUncertainty::largest_shares. Runs are axes of the same measurements.
+Eigen::VectorXd LargestShares(const NoiseAxis& axis, const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd ways = covariance * covariance.diagonal().cwiseInverse().asDiagonal();
+  Eigen::MatrixXd told = Eigen::MatrixXd::Zero(axis.runs.front().design.rows(), ways.cols());
+  for (const NoiseRun& run : axis.runs) told += (run.design * ways).cwiseAbs2();
+  return told.colwise().maxCoeff().cwiseQuotient(told.colwise().sum()).transpose();
+}
+
 }  // namespace
 
 DriveRegression::DriveRegression(const GnssDrive& drive, const Sim3& enu_from_world)
@@ -143,7 +151,8 @@ FitUncertainty UncertaintyOf(const NoiseAxis& axis, const CorrelatedNoise& noise
   const double variance = VarianceOf(axis) * freedoms / (freedoms - 2.0);
   const Eigen::MatrixXd covariance = variance * A.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
   return {.sigmas = covariance.diagonal().cwiseMax(0.0).cwiseProduct(noise.inflations).cwiseSqrt(),
-          .freedoms = freedoms};
+          .freedoms = freedoms,
+          .largest_shares = LargestShares(axis, covariance)};
 }
 
 }  // namespace orbweave

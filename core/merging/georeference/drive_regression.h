@@ -59,6 +59,9 @@ class DriveRegression {
 struct FitUncertainty {
   Eigen::VectorXd sigmas{};  ///< standard deviations of all unknowns, of Student's distribution
   double freedoms = 1.0;     ///< of it, nu
+  /// Of what the measurements tell of each unknown, how much that one tells which tells most of it:
+  /// with v = C e / (e^T C e) of the covariance C and its unit vector e, (x_i v)^2 over their sum.
+  Eigen::VectorXd largest_shares{};
 
   /// What an unknown is as unlikely to be off by as a normal variable by so many sigmas: few
   /// measurements exceed their own sigmas often. Of Student's quantile, by Wallace's approximation

@@ -34,6 +34,9 @@ constexpr double kSameDatum_m = 12.0;
 constexpr double kMadToSigma = 1.4826;
 // From here on an undetermined shift along the street is worth a word.
 constexpr double kTellingShift_m = 2.0;
+// What one position tells alone may be its own error, or that of its image: of a straight street
+// whose first panorama stands wrong, that alone says how late a clock is.
+constexpr double kMostOfOnePosition = 0.5;
 // No sigma of GNSS, which is never ten seconds late at 10 m/s: nothing tells the shift.
 constexpr double kNoShift_m = 100.0;
 
@@ -54,16 +57,21 @@ struct Shift {
   double believed = 0.0;  // beyond this
   double allowed_for = 0.0;
   double speed = 1.0;  // of a carrier as usual: m per unit of all these
+  bool is_of_one_position = false;
 
-  [[nodiscard]] bool IsBelieved() const { return std::abs(ahead) > believed; }
+  [[nodiscard]] bool IsBelieved() const {
+    return !is_of_one_position && std::abs(ahead) > believed;
+  }
   // Too little to be taken off, too much to be nothing.
   [[nodiscard]] bool IsAllowedFor() const {
-    return !IsBelieved() && std::abs(ahead) > allowed_for &&
+    return !is_of_one_position && !IsBelieved() && std::abs(ahead) > allowed_for &&
            std::abs(ahead) * speed > kTellingShift_m;
   }
-  [[nodiscard]] bool IsUnknown() const { return sigma * speed > kTellingShift_m; }
+  [[nodiscard]] bool IsUnknown() const {
+    return is_of_one_position || sigma * speed > kTellingShift_m;
+  }
   // Nothing tells it: a straight street, say.
-  [[nodiscard]] bool IsFree() const { return sigma * speed > kNoShift_m; }
+  [[nodiscard]] bool IsFree() const { return is_of_one_position || sigma * speed > kNoShift_m; }
 };
 
 CrossCheck ClockCheck(const GnssDrive& drive, const Shift& shift, double ahead) {
@@ -121,7 +129,8 @@ void TakeAlongTheWay(const GnssDrive& drive,
                     .sigma = known.sigmas[kAhead],
                     .believed = known.Bound(kAhead, kBelievedSigmas),
                     .allowed_for = known.Bound(kAhead, kAllowedForSigmas),
-                    .speed = asked.regression.speed()};
+                    .speed = asked.regression.speed(),
+                    .is_of_one_position = known.largest_shares[kAhead] > kMostOfOnePosition};
   const bool is_beside = std::abs(asked.fit.solution[kLeft]) > known.Bound(kLeft, kBelievedSigmas);
   if (shift.IsBelieved() || is_beside) {
     std::vector<int> believed(kFrameAlone.begin(), kFrameAlone.end());

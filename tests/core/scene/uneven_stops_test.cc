@@ -55,6 +55,36 @@ TEST(FindVanishedSteps, FindsTheOneWhateverTheScale) {
   EXPECT_THAT(FindVanishedSteps({}), IsEmpty());
 }
 
+/// The first and the last of a drive stand beside the next.
+std::vector<DriveStop> WithNearEnds() {
+  std::vector<DriveStop> stops = Drive(0.1);
+  stops.front().centre = stops[1].centre - Eigen::Vector3d(0.2, 0.0, 0.0);
+  stops.back().centre = stops[kStops - 2].centre + Eigen::Vector3d(0.2, 0.0, 0.0);
+  return stops;
+}
+
+TEST(FindVanishedSteps, FindsThemAtTheEndsOfADrive) {
+  const std::vector<VanishedStep> found = FindVanishedSteps(WithNearEnds());
+  ASSERT_THAT(found, SizeIs(2));
+  EXPECT_EQ(found[0].stop, 0U);
+  EXPECT_EQ(found[0].end, 0U);
+  EXPECT_EQ(found[1].stop, kStops - 2);
+  EXPECT_EQ(found[1].end, kStops - 1);
+}
+
+TEST(FindVanishedSteps, FindsThemWhereADriveGoesOnFarAway) {
+  for (const double away : {2.0, 20.0}) {
+    std::vector<DriveStop> stops = Drive(0.05);
+    for (size_t i = 0; i < 11; ++i) stops[i].centre.x() -= away;
+    for (size_t i = 0; i < 12; ++i) stops[i].centre.x() += 0.8;
+    const std::vector<VanishedStep> found = FindVanishedSteps(stops);
+    ASSERT_THAT(found, SizeIs(away > 3.0 ? 1 : 0)) << "one that hangs at two is not judged";
+    if (found.empty()) continue;
+    EXPECT_EQ(found[0].stop, 11U);
+    EXPECT_EQ(found[0].end, 11U);
+  }
+}
+
 TEST(FindUnevenStops, FindsWhoStandsAWindowTooFar) {
   for (const double further : {0.5, -0.5, 0.9, -0.9}) {
     const std::vector<UnevenStop> found = FindUnevenStops(With(Drive(0.05), 11, further));

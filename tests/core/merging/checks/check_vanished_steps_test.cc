@@ -54,5 +54,28 @@ TEST(CheckVanishedSteps, BelievesPositions) {
   EXPECT_EQ(CheckVanishedSteps(drive.images, drive.manifest).level, CheckLevel::kDoubtful);
 }
 
+TEST(CheckVanishedSteps, AsksPositionsAtAnEnd) {
+  for (const uint32_t end : {0U, EvenDrive::kImages - 1}) {
+    EvenDrive drive;
+    const double nearer_m = end == 0 ? 6.8 : -6.8;
+    drive.Move(end, nearer_m);
+    EXPECT_EQ(CheckVanishedSteps(drive.images, drive.manifest).level, CheckLevel::kGood)
+        << "it may have started there";
+    for (uint32_t i = 0; i < EvenDrive::kImages; ++i) drive.Position(i, 0.0);
+    const CrossCheck check = CheckVanishedSteps(drive.images, drive.manifest);
+    EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+    EXPECT_NEAR(check.value, 0.85, 1e-9);
+    const std::vector<ShortStep> found = FindShortSteps(drive.images, drive.manifest);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].end, ImageId(end));
+    drive.Position(end, nearer_m);
+    EXPECT_EQ(CheckVanishedSteps(drive.images, drive.manifest).level, CheckLevel::kGood);
+    drive.Position(end, 0.0);
+    for (ImageRecord& image : drive.manifest.images) image.prior.horizontal_sigma_m = 3.0;
+    EXPECT_EQ(CheckVanishedSteps(drive.images, drive.manifest).level, CheckLevel::kGood)
+        << "positions do not know";
+  }
+}
+
 }  // namespace
 }  // namespace orbweave

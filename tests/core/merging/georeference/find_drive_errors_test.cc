@@ -129,6 +129,20 @@ TEST(FindDriveErrors, FindsAClockByTheSpeedOnAStraightStreet) {
   }
 }
 
+// A clock that is late by nearly a step, of a carrier that started slowly, would say the same.
+TEST(FindDriveErrors, BelievesNoClockThatOneMisplacedImageTells) {
+  for (const uint64_t seed : {1U, 2U, 3U}) {
+    DrivenStreet street = Drive({.panoramas = 40, .turn_rad = 0.0, .sigma_m = 0.3}, seed);
+    Rigid3& first = street.model.images.at(ImageId(0)).cam_from_world;
+    const Eigen::Vector3d next = street.model.images.at(ImageId(1)).cam_from_world.Centre();
+    first = Rigid3::FromCentre(first.rotation, first.Centre() + 0.9 * (next - first.Centre()));
+    const FoundDriveErrors found = Find(street);
+    EXPECT_TRUE(found.drives.empty()) << seed;
+    ASSERT_EQ(found.checks.size(), 1U) << seed;
+    EXPECT_NE(found.checks[0].sentence.find("cannot be told"), std::string::npos);
+  }
+}
+
 // As little as noise may do, and as much as matters: said, and within what is claimed.
 TEST(FindDriveErrors, AllowsForWhatItHalfBelieves) {
   int allowed_for = 0;
