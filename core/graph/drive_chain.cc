@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/geometry/rotation.h"
+#include "core/graph/in_sequence.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -54,15 +55,19 @@ Eigen::Quaterniond RotationOf(const ViewEdge& edge, uint32_t to) {
   return edge.pair.b.value == to ? edge.b_from_a.rotation : edge.b_from_a.rotation.conjugate();
 }
 
-// Images with an edge, by drive.
+// Images with an edge, by drive and stretch of it.
 std::vector<Sequence> SequencesOf(const EdgeIndex& index, const ImageManifest& manifest) {
   std::vector<uint8_t> has_edge(manifest.images.size(), 0);
   for (const auto& [pair, edge] : index.all()) has_edge[pair.a.value] = has_edge[pair.b.value] = 1;
+  const PlacesInDrives places(manifest);
   std::vector<Sequence> list;
   for (const auto& [drive, images] : SequenceOfDrives(manifest)) {
-    Sequence& sequence = list.emplace_back();
+    std::optional<ImageId> before;
     for (const ImageId image : images) {
-      if (has_edge[image.value] != 0) sequence.push_back(image.value);
+      if (has_edge[image.value] == 0) continue;
+      if (!before || !IsInSequence(MakePair(*before, image), places)) list.emplace_back();
+      list.back().push_back(image.value);
+      before = image;
     }
   }
   return list;

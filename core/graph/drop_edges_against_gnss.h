@@ -18,8 +18,8 @@ namespace orbweave {
 /// disagrees when its positions are more than 8 standard deviations plus 2.5 such baselines apart
 /// (5 and 2.5 where positions of both images agree with all their neighbours in the sequence); it
 /// agrees within 3 and 1.5. Positions may be wrong, so that an edge is dropped only when at both of
-/// its images GNSS disagrees with half or less of the edges to neighbours in the sequence (up to 5
-/// ids of the same drive; where there are less than two of all edges), and edges that agree join
+/// its images GNSS disagrees with half or less of the edges to neighbours in the sequence
+/// (IsInSequence; where there are less than two of all edges), and edges that agree join
 /// its images - or nothing but it, and at most one more panorama on either side, joins two parts
 /// of five images and more that agree by themselves. Positions that are smooth along the sequence
 /// are thus believed whatever the number of look-alikes; a single position that is off is not, and

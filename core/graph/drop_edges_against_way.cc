@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/graph/find_headings.h"
+#include "core/graph/in_sequence.h"
 #include "core/graph/motion_edge.h"
 #include "core/graph/turn_forest.h"
 #include "core/scene/places_in_drives.h"
@@ -26,20 +27,23 @@ constexpr double kOnward_rad = std::numbers::pi / 3.0;
 constexpr size_t kFewestOnward = 2;
 constexpr double kInOrder = 0.8;
 
-/// Drives most of whose images have an edge with the next one.
+/// Drives most of whose images have an edge with the next one, where it was not left off.
 std::set<uint32_t> DrivesInOrder(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest,
                                  const PlacesInDrives& places) {
-  std::map<uint32_t, size_t> images;
+  std::map<uint32_t, size_t> steps;
+  for (const ImageRecord& image : manifest.images) {
+    const std::optional<ImageId> next = places.After(image.id);
+    if (next && IsInSequence(MakePair(image.id, *next), places)) ++steps[image.drive];
+  }
   std::map<uint32_t, size_t> followed;
-  for (const ImageRecord& image : manifest.images) ++images[image.drive];
   for (const ViewEdge& edge : edges) {
     if (edge.kind == TwoViewKind::kNone || places.StepsBetween(edge.pair) != 1) continue;
-    ++followed[manifest.At(edge.pair.a).drive];
+    if (IsInSequence(edge.pair, places)) ++followed[manifest.At(edge.pair.a).drive];
   }
   std::set<uint32_t> in_order;
-  for (const auto& [drive, count] : images) {
-    if (static_cast<double>(followed[drive]) >= kInOrder * static_cast<double>(count - 1))
+  for (const auto& [drive, count] : steps) {
+    if (static_cast<double>(followed[drive]) >= kInOrder * static_cast<double>(count))
       in_order.insert(drive);
   }
   return in_order;
