@@ -125,6 +125,24 @@ bool MisleadingPairs::AnyByWayOfThird(uint32_t pair,
   });
 }
 
+template <typename Counts, typename SaysSo>
+bool MisleadingPairs::AnyByWayOfTwo(uint32_t pair,
+                                    const Counts& counts,
+                                    const SaysSo& says_so) const {
+  const CorrespondenceGraph& graph = state_.Graph();
+  const auto [first, last] = std::pair(graph.pairs[pair].a, graph.pairs[pair].b);
+  const std::map<ImageSlot, uint32_t> pairs_to_last = PairsOf(last, counts);
+  for (const auto& [second, to_second] : PairsOf(first, counts)) {
+    for (const uint32_t onward : graph.pairs_of_image[second]) {
+      const ImageSlot third = graph.pairs[onward].Other(second);
+      const auto to_last = pairs_to_last.find(third);
+      if (third == first || to_last == pairs_to_last.end() || !counts(onward)) continue;
+      if (says_so(to_second, second, onward, third, to_last->second)) return true;
+    }
+  }
+  return false;
+}
+
 bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
   if (TurnErrorOf(pair) <= kTurnsOtherwise_rad) return false;
   const size_t matches = GeometryOf(pair).inliers.size();
@@ -132,6 +150,15 @@ bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
       pair,
       [&](uint32_t p) { return IsBorneOut(p, matches); },
       [](uint32_t /*before*/, ImageSlot /*third*/, uint32_t /*behind*/) { return true; });
+}
+
+bool MisleadingPairs::TurnsOtherwiseThanChain(uint32_t pair) const {
+  if (TurnErrorOf(pair) <= kTurnsOtherwise_rad) return false;
+  const size_t matches = GeometryOf(pair).inliers.size();
+  return AnyByWayOfTwo(
+      pair,
+      [&](uint32_t p) { return IsBorneOut(p, matches); },
+      [](uint32_t, ImageSlot, uint32_t, ImageSlot, uint32_t) { return true; });
 }
 
 bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
@@ -157,23 +184,21 @@ bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {
 bool MisleadingPairs::LeadsOtherwiseThanChain(uint32_t pair) const {
   const TwoViewGeometry& geometry = GeometryOf(pair);
   if (!HasBaseline(geometry.kind)) return false;
-  const CorrespondenceGraph& graph = state_.Graph();
-  const auto [first, last] = std::pair(graph.pairs[pair].a, graph.pairs[pair].b);
+  const ImageSlot first = state_.Graph().pairs[pair].a;
   const Vector3d way = WayInWorld(pair, first).normalized();
-  const auto counts = [&](uint32_t p) { return LeadsAsModel(p, geometry.inliers.size()); };
-  const std::map<ImageSlot, uint32_t> to_last = PairsOf(last, counts);
-  for (const auto& [second, from_first] : PairsOf(first, counts)) {
-    for (const uint32_t onward : graph.pairs_of_image[second]) {
-      const ImageSlot third = graph.pairs[onward].Other(second);
-      const auto from_third = to_last.find(third);
-      if (third == first || from_third == to_last.end() || !counts(onward)) continue;
-      const std::array ways = {WayInWorld(from_first, first).normalized(),
-                               WayInWorld(onward, second).normalized(),
-                               WayInWorld(from_third->second, third).normalized()};
-      if (IsBeyond(way, ways)) return true;
-    }
-  }
-  return false;
+  return AnyByWayOfTwo(
+      pair,
+      [&](uint32_t p) { return LeadsAsModel(p, geometry.inliers.size()); },
+      [&](uint32_t to_second,
+          ImageSlot second,
+          uint32_t onward,
+          ImageSlot third,
+          uint32_t to_last) {
+        return IsBeyond(way,
+                        {WayInWorld(to_second, first).normalized(),
+                         WayInWorld(onward, second).normalized(),
+                         WayInWorld(to_last, third).normalized()});
+      });
 }
 
 std::array<double, 2> MisleadingPairs::SharesByGnss(ImageSlot first,

@@ -187,6 +187,18 @@ TEST(MisleadingPairs, AreThoseThatLeadOtherwiseThanAChainOfStrongOnes) {
   EXPECT_FALSE(walk.IsMisleading(1, 4, {Pair(1, 2), Pair(3, 4)}));
 }
 
+TEST(MisleadingPairs, AreThoseThatTurnOtherwiseThanAChainOfStrongOnes) {
+  for (const double degrees : {1.0, 5.0}) {
+    LongWalk walk;
+    walk.PairOf(1, 4).b_from_a.rotation *=
+        Eigen::Quaterniond(Eigen::AngleAxisd(degrees * 3.14159265 / 180.0, Vector3d::UnitX()));
+    EXPECT_EQ(walk.IsMisleading(1, 4, LongWalk::Chain()), degrees > 2.0);
+    EXPECT_FALSE(walk.IsMisleading(1, 4, {Pair(1, 2), Pair(2, 3)}));
+    walk.PairOf(2, 3).inliers.resize(walk.PairOf(1, 4).inliers.size() - 1);
+    EXPECT_FALSE(walk.IsMisleading(1, 4, LongWalk::Chain()));
+  }
+}
+
 TEST(MisleadingPairs, NoChainIsStrongerThanItsWeakestPair) {
   LongWalk walk;
   walk.Turn(70.0);
