@@ -7,6 +7,7 @@
 
 #include "core/graph/find_near_positions.h"
 #include "core/graph/near_by_gnss.h"
+#include "core/scene/folder_of.h"
 #include "core/scene/sequence_of_drive.h"
 
 namespace orbweave {
@@ -28,6 +29,23 @@ void AddSequencePairs(const ImageManifest& manifest, size_t window, Pairs& pairs
       for (size_t j = i + 1; j < sequence.size() && j - i <= window; ++j) {
         pairs.push_back(MakePair(sequence[i], sequence[j]));
       }
+    }
+  }
+}
+
+/// Whether anything but its name tells where or when an image was taken.
+bool IsPlaced(const ImageRecord& image) {
+  return image.prior.position_in_enu || image.capture_time_s;
+}
+
+void AddPairsByName(const ImageManifest& manifest, size_t window, Pairs& pairs) {
+  const std::vector<ImageRecord>& images = manifest.images;
+  for (size_t i = 0; i < images.size(); ++i) {
+    for (size_t j = i + 1; j < images.size() && j - i <= window; ++j) {
+      if (images[i].drive == images[j].drive || IsPlaced(images[i]) == IsPlaced(images[j]))
+        continue;
+      if (FolderOf(images[i].name) == FolderOf(images[j].name))
+        pairs.push_back(MakePair(images[i].id, images[j].id));
     }
   }
 }
@@ -78,6 +96,7 @@ std::vector<ImagePair> SelectImagePairs(const ImageManifest& manifest,
     return pairs;
   }
   AddSequencePairs(manifest, static_cast<size_t>(options.sequence_window), pairs);
+  AddPairsByName(manifest, static_cast<size_t>(options.sequence_window), pairs);
   AddGnssPairs(manifest, options, pairs);
   AddSimilarPairs(manifest, similar, options, pairs);
   std::sort(pairs.begin(), pairs.end());

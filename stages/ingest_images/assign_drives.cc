@@ -7,9 +7,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/scene/folder_of.h"
 #include "core/scene/sequence_of_drive.h"
 #include "stages/ingest_images/join_gnss_rows.h"
 
@@ -18,8 +20,6 @@ namespace {
 
 /// Images that are gone through one after another.
 using Sequence = std::vector<ImageId>;
-
-std::string FolderOf(const std::string& name) { return name.substr(0, name.rfind('/') + 1); }
 
 /// Per image of a folder, in order of names: of the table, if it has one.
 using Labels = std::vector<std::optional<std::string>>;
@@ -46,7 +46,7 @@ void LabelBetween(Labels& labels) {
 
 /// Per image.
 Labels LabelsOf(std::span<const IngestCandidate> candidates, const ImageManifest& manifest) {
-  std::map<std::string, std::vector<size_t>> folders;
+  std::map<std::string_view, std::vector<size_t>> folders;
   for (size_t i = 0; i < candidates.size(); ++i)
     folders[FolderOf(manifest.images[i].name)].push_back(i);
   Labels labels(candidates.size());
@@ -63,7 +63,8 @@ Labels LabelsOf(std::span<const IngestCandidate> candidates, const ImageManifest
 }
 
 /// Whether one of these folders has a picture that was taken between two of another.
-bool TimesOverlap(const std::map<std::string, Sequence>& folders, const ImageManifest& manifest) {
+bool TimesOverlap(const std::map<std::string_view, Sequence>& folders,
+                  const ImageManifest& manifest) {
   std::vector<std::pair<double, double>> spans_s;
   for (const auto& [folder, images] : folders) {
     const Sequence timed = TimedAmong(manifest, images);
@@ -82,7 +83,7 @@ bool TimesOverlap(const std::map<std::string, Sequence>& folders, const ImageMan
 
 /// The images without a label, in the order in which they were taken as far as that is known.
 std::vector<TimeOrder> OrdersOf(const Sequence& unlabelled, const ImageManifest& manifest) {
-  std::map<std::string, Sequence> folders;
+  std::map<std::string_view, Sequence> folders;
   for (const ImageId id : unlabelled) folders[FolderOf(manifest.At(id).name)].push_back(id);
   if (!TimesOverlap(folders, manifest)) return {OrderByTime(manifest, unlabelled)};
   std::vector<TimeOrder> orders;

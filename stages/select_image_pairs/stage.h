@@ -16,7 +16,7 @@ namespace orbweave {
 /// Where images are and what they look like -> the pairs to try, and when (ListPairCandidates), and
 /// what goes along with the cameras (FindCarriers).
 struct SelectImagePairsStage {
-  static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "7", .weight = 3.0};
+  static constexpr StageFacts kFacts{.name = "select_image_pairs", .version = "8", .weight = 3.0};
   using Options = OptionSections<PairOptions, RetrievalOptions>;
 
   One<ImageManifest> manifest;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "core/graph/pair_options.h"
 
@@ -54,6 +55,27 @@ TEST(SelectImagePairs, KeepsDrivesApart) {
   const auto pairs = SelectImagePairs(manifest, {}, {.sequence_window = 1, .exhaustive_below = 0});
   EXPECT_EQ(pairs.size(), 4U);
   EXPECT_FALSE(Has(pairs, 2, 3));
+}
+
+/// A table that lacks three rows, between two drives.
+TEST(SelectImagePairs, PairsWhatNothingIsKnownOfWithItsNeighboursByName) {
+  ImageManifest manifest = DriveAlongStreet(11, true);
+  for (uint32_t i = 0; i < 11; ++i) {
+    ImageRecord& image = manifest.images[i];
+    image.name = "street/" + std::to_string(i) + ".jpg";
+    image.drive = i < 4 ? 0 : i < 7 ? 1 : 2;
+    if (image.drive == 1) image.prior.position_in_enu.reset();
+  }
+  const PairOptions options{.sequence_window = 2, .gnss_radius_m = 0.0, .exhaustive_below = 0};
+  const auto pairs = SelectImagePairs(manifest, {}, options);
+  ExpectSortedAndUnique(pairs);
+  EXPECT_TRUE(Has(pairs, 3, 4));
+  EXPECT_TRUE(Has(pairs, 3, 5));
+  EXPECT_TRUE(Has(pairs, 6, 7));
+  EXPECT_FALSE(Has(pairs, 2, 5));
+  EXPECT_FALSE(Has(pairs, 3, 7));
+  for (uint32_t i = 7; i < 11; ++i) manifest.images[i].name = "other/" + std::to_string(i) + ".jpg";
+  EXPECT_FALSE(Has(SelectImagePairs(manifest, {}, options), 6, 7));
 }
 
 TEST(SelectImagePairs, PairsNeighboursInTimeRatherThanInNames) {
