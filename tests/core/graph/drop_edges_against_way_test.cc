@@ -85,6 +85,32 @@ TEST(DropEdgesAgainstWay, SaysNothingOfImagesInNoOrder) {
   EXPECT_TRUE(DroppedOf({}, {}).empty());
 }
 
+/// A drive that was left off twice, for so many images each. What it took up elsewhere looks like
+/// the street ahead of where it was left off, seen from the other side: these pairs go on along a
+/// way that nobody drove.
+TEST(DropEdgesAgainstWay, KeepsTheEdgesOfADriveThatWasLeftOffAndTakenUpElsewhere) {
+  constexpr uint32_t kMissing = 15;
+  BendingDrive drive(50);  // 0 to 12, 28 to 30, 46 to 49
+  BendingDrive alike = drive;
+  for (uint32_t i = 28; i < 50; ++i) {
+    const uint32_t missing = i < 46 ? kMissing : 2 * kMissing;
+    const Eigen::AngleAxisd other_side(-0.05 * missing - 3.14159265, Vector3d::UnitZ());
+    alike.cams_from_world[i] = Rigid3::FromCentre(drive.cams_from_world[i].rotation * other_side,
+                                                  drive.cams_from_world[i - missing].Centre());
+  }
+  const auto is_missing = [](uint32_t i) { return (i > 12 && i < 28) || (i > 30 && i < 46); };
+  for (ImageRecord& image : drive.manifest.images) image.drive = is_missing(image.id.value) ? 1 : 0;
+  std::vector<ViewEdge> edges = drive.Edges(3, {});
+  std::erase_if(edges, [&](const ViewEdge& edge) {
+    return is_missing(edge.pair.a.value) || is_missing(edge.pair.b.value);
+  });
+  for (const uint32_t later : {28U, 29U, 30U}) {
+    for (uint32_t i = 8; i < 13; ++i) edges.push_back(alike.TrueEdge(i, later));
+    for (uint32_t i = 46; i < 50; ++i) edges.push_back(alike.TrueEdge(later, i));
+  }
+  EXPECT_TRUE(DroppedOf(edges, drive.manifest).empty());
+}
+
 TEST(DropEdgesAgainstWay, SaysNothingOfThinEndsAndPureRotations) {
   const BendingDrive drive = WithoutGnss(4, 2);
   EXPECT_TRUE(DroppedOf({drive.TrueEdge(0, 1), drive.BackwardEdge(1, 2), drive.TrueEdge(2, 3)},
