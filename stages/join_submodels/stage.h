@@ -14,7 +14,7 @@ namespace orbweave {
 /// Boundaries and their alignment -> worlds, georeferenced and divided into subproblems
 /// (JoinSubmodels).
 struct JoinSubmodelsStage {
-  static constexpr StageFacts kFacts{.name = "join_submodels", .version = "18", .weight = 0.5};
+  static constexpr StageFacts kFacts{.name = "join_submodels", .version = "19", .weight = 0.5};
   using Options = OptionSections<AlignOptions, GlobalAdjustOptions>;
 
   One<ImageManifest> manifest;

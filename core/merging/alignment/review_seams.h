@@ -23,8 +23,9 @@ struct PartitionReview {
 /// options.max_condition), though not when a loop contradicts one: that place is not seen too
 /// little but differently. It also asks when one of its clusters fell apart: less than half of the
 /// cluster's images are registered in submodels that share a world. A request doubles the overlap
-/// of the seam, up to options.max_overlap; a seam that had no more to lend the last time does not
-/// ask again, and nobody does after options.reviews rounds. Returned as `before` when nobody asks.
+/// of the seam, wherever its clusters meet, up to options.max_overlap; a seam that had no more to
+/// lend the last time does not ask again, and nobody does after options.reviews rounds. Returned as
+/// `before` when nobody asks.
 [[nodiscard]] PartitionReview ReviewSeams(const Partition& partition,
                                           const Alignment& alignment,
                                           PartitionReview before,

@@ -117,6 +117,10 @@ constexpr std::array<int, 4> kFrameAlone = {DriveRegression::kEast,
                                             DriveRegression::kTurn,
                                             DriveRegression::kStretch};
 
+bool IsOfOnePosition(const FitUncertainty& known, int unknown) {
+  return known.largest_shares[unknown] > kMostOfOnePosition;
+}
+
 // `known`: how far the unknowns of the drive's fit are.
 void TakeAlongTheWay(const GnssDrive& drive,
                      const AskedDrive& asked,
@@ -130,8 +134,9 @@ void TakeAlongTheWay(const GnssDrive& drive,
                     .believed = known.Bound(kAhead, kBelievedSigmas),
                     .allowed_for = known.Bound(kAhead, kAllowedForSigmas),
                     .speed = asked.regression.speed(),
-                    .is_of_one_position = known.largest_shares[kAhead] > kMostOfOnePosition};
-  const bool is_beside = std::abs(asked.fit.solution[kLeft]) > known.Bound(kLeft, kBelievedSigmas);
+                    .is_of_one_position = IsOfOnePosition(known, kAhead)};
+  const bool is_beside = !IsOfOnePosition(known, kLeft) &&
+                         std::abs(asked.fit.solution[kLeft]) > known.Bound(kLeft, kBelievedSigmas);
   if (shift.IsBelieved() || is_beside) {
     std::vector<int> believed(kFrameAlone.begin(), kFrameAlone.end());
     if (shift.IsBelieved()) believed.push_back(kAhead);

@@ -22,8 +22,8 @@ struct FoundDriveErrors {
 /// four deviations on (FitUncertainty::Bound), errors of neighbours taken as correlated as those of
 /// all drives together or of their own say, whichever claims less (EstimateCorrelatedNoise);
 /// a clock between three and four that matters is left as it is, and its sigma is what it may be:
-/// hypot(estimate, sigma), which the centres' covariances allow for (CovariancesOfErrors). One that
-/// a single position tells more of than all others is not known. A shift
+/// hypot(estimate, sigma), which the centres' covariances allow for (CovariancesOfErrors). Of
+/// neither is known what a single position tells more of than all others. A shift
 /// along a street that goes one way at one speed, or along a circle, is not to be told from an
 /// offset or a turn of all positions, and the check says so ("gnss_clock", "gnss_lever_arm").
 ///
