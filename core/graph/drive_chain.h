@@ -41,8 +41,8 @@ class DriveChain {
   /// Images of a drive follow each other as in SequenceOfDrives. A step is the strongest edge to
   /// the next image, or one of the three after it, that closes triangles in rotation with others
   /// around and leaves no more of them open, each as heavy as the weaker of its other edges has
-  /// inliers. Elsewhere, and where it was left off (IsInSequence), a stretch ends: what nothing
-  /// confirms predicts nothing.
+  /// inliers. Elsewhere, and where too many are missing (IsInSequence), a stretch ends: what
+  /// nothing confirms predicts nothing.
   DriveChain(const std::vector<ViewEdge>& edges, const ImageManifest& manifest);
 
   /// The way from the image that the drive comes to first, whichever it is, to the other; nullopt

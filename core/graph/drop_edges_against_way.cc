@@ -27,7 +27,7 @@ constexpr double kOnward_rad = std::numbers::pi / 3.0;
 constexpr size_t kFewestOnward = 2;
 constexpr double kInOrder = 0.8;
 
-/// Drives most of whose images have an edge with the next one, where it was not left off.
+/// Drives most of whose images have an edge with the next one, as far as that is in sequence.
 std::set<uint32_t> DrivesInOrder(const std::vector<ViewEdge>& edges,
                                  const ImageManifest& manifest,
                                  const PlacesInDrives& places) {

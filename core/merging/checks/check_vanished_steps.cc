@@ -11,6 +11,7 @@
 #include "core/merging/checks/stops_of_drives.h"
 
 namespace orbweave {
+
 std::vector<ShortStep> FindShortSteps(const std::map<ImageId, RegisteredImage>& images,
                                       const ImageManifest& manifest) {
   std::vector<ShortStep> found;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 #include "tests/core/graph/bending_drive.h"
 
@@ -99,7 +100,10 @@ TEST(DropEdgesAgainstWay, KeepsTheEdgesOfADriveThatWasLeftOffAndTakenUpElsewhere
                                                   drive.cams_from_world[i - missing].Centre());
   }
   const auto is_missing = [](uint32_t i) { return (i > 12 && i < 28) || (i > 30 && i < 46); };
-  for (ImageRecord& image : drive.manifest.images) image.drive = is_missing(image.id.value) ? 1 : 0;
+  for (ImageRecord& image : drive.manifest.images) {
+    image.drive = is_missing(image.id.value) ? 1 : 0;
+    image.name = std::to_string(image.id.value) + ".jpg";
+  }
   std::vector<ViewEdge> edges = drive.Edges(3, {});
   std::erase_if(edges, [&](const ViewEdge& edge) {
     return is_missing(edge.pair.a.value) || is_missing(edge.pair.b.value);
