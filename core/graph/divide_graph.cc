@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "core/base/status.h"
-#include "core/graph/strong_links.h"
 
 namespace orbweave {
 namespace {
@@ -99,9 +98,7 @@ using Chunk = std::vector<uint32_t>;
 class StrongChunks {
  public:
   StrongChunks(const ConnectedPiece& piece, const std::vector<idx_t>& part)
-      : piece_(piece),
-        part_of_(piece.adjacency.num_images(), -1),
-        strong_(piece.adjacency, piece.edge_weight) {
+      : piece_(piece), part_of_(piece.adjacency.num_images(), -1) {
     for (size_t i = 0; i < piece.images.size(); ++i) part_of_[piece.images[i]] = part[i];
   }
 
@@ -128,12 +125,11 @@ class StrongChunks {
 
  private:
   [[nodiscard]] bool Holds(uint32_t image, const Adjacency::Link& link) const {
-    return part_of_[image] == part_of_[link.image] && strong_.Has(image, link);
+    return part_of_[image] == part_of_[link.image] && piece_.strong.Has(image, link);
   }
 
   const ConnectedPiece& piece_;
   std::vector<idx_t> part_of_;
-  StrongLinks strong_;
 };
 
 // Chunks that become parts, or join others.

@@ -8,12 +8,14 @@
 
 #include "absl/status/statusor.h"
 #include "core/graph/adjacency.h"
+#include "core/graph/strong_links.h"
 
 namespace orbweave {
 
 /// Images of one connected piece of a view graph, its links and weights.
 struct ConnectedPiece {
   const Adjacency& adjacency;
+  const StrongLinks& strong;              ///< of the whole graph, by edge_weight
   std::span<const double> edge_weight{};  ///< per edge of the graph, > 0: how it holds
   std::span<const double> cut_cost{};     ///< per edge, > 0; empty: edge_weight
   std::span<const double> image_cost{};   ///< per image of the graph, about 1

@@ -16,6 +16,7 @@
 #include "core/graph/divide_graph.h"
 #include "core/graph/forecast_seam.h"
 #include "core/graph/overlap_clusters.h"
+#include "core/graph/strong_links.h"
 #include "core/graph/view_graph_weights.h"
 
 namespace orbweave {
@@ -79,10 +80,12 @@ absl::StatusOr<std::vector<Images>> DivideComponents(const ViewGraph& graph,
                                                      const PartitionOptions& options) {
   const Adjacency adjacency(graph.num_images, graph.edges);
   const std::vector<double> weights = EdgeWeights(graph);
+  const StrongLinks strong(adjacency, weights);
   const std::vector<double> costs = ImageCosts(graph);
   std::vector<Images> interiors;
   for (const Images& component : FindComponents(graph)) {
     const ConnectedPiece piece{.adjacency = adjacency,
+                               .strong = strong,
                                .edge_weight = weights,
                                .cut_cost = cut_costs,
                                .image_cost = costs,

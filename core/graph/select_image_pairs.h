@@ -10,9 +10,9 @@
 namespace orbweave {
 
 /// Which two panoramas may see the same. The union of
-///   - a window along the sequence of each drive (SequenceOfDrives), and along the names of a
-///   folder
-///     for an image that neither position nor time tell of: it may be of the drive of any,
+///   - a window along the sequence of each drive (SequenceOfDrives),
+///   - for an image of which neither position nor time is known, a window along the names of its
+///     folder: it may be of the drive of any,
 ///   - each image's nearest GNSS neighbours within a radius, by horizontal distance, and where the
 ///     street is thinly covered the nearest few beyond it, as far as look-alikes are believed,
 ///   - `similar` (per image the most similar others, best first; may be empty), without those that

@@ -15,7 +15,7 @@ namespace orbweave {
 /// reconstruct across it takes the images between.
 class StrongLinks {
  public:
-  /// `edge_weight`: per edge of `adjacency`. Both are to outlive this.
+  /// `edge_weight`: per edge of `adjacency`, to outlive this.
   StrongLinks(const Adjacency& adjacency, std::span<const double> edge_weight);
 
   [[nodiscard]] bool Has(uint32_t image, const Adjacency::Link& link) const;

@@ -146,19 +146,9 @@ bool MisleadingPairs::AnyByWayOfTwo(uint32_t pair,
 bool MisleadingPairs::TurnsOtherwise(uint32_t pair) const {
   if (TurnErrorOf(pair) <= kTurnsOtherwise_rad) return false;
   const size_t matches = GeometryOf(pair).inliers.size();
-  return AnyByWayOfThird(
-      pair,
-      [&](uint32_t p) { return IsBorneOut(p, matches); },
-      [](uint32_t /*before*/, ImageSlot /*third*/, uint32_t /*behind*/) { return true; });
-}
-
-bool MisleadingPairs::TurnsOtherwiseThanChain(uint32_t pair) const {
-  if (TurnErrorOf(pair) <= kTurnsOtherwise_rad) return false;
-  const size_t matches = GeometryOf(pair).inliers.size();
-  return AnyByWayOfTwo(
-      pair,
-      [&](uint32_t p) { return IsBorneOut(p, matches); },
-      [](uint32_t, ImageSlot, uint32_t, ImageSlot, uint32_t) { return true; });
+  const auto counts = [&](uint32_t p) { return IsBorneOut(p, matches); };
+  const auto any = [](auto... /*pairs and the images between*/) { return true; };
+  return AnyByWayOfThird(pair, counts, any) || AnyByWayOfTwo(pair, counts, any);
 }
 
 bool MisleadingPairs::LeadsOtherwise(uint32_t pair) const {

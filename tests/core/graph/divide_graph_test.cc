@@ -26,8 +26,12 @@ Parts Divide(const ViewGraph& graph,
   for (const ViewEdge& edge : graph.edges) weights.push_back(edge.num_inliers);
   std::vector<uint32_t> images(graph.num_images);
   std::iota(images.begin(), images.end(), 0U);
-  const ConnectedPiece piece{
-      .adjacency = adjacency, .edge_weight = weights, .image_cost = costs, .images = images};
+  const StrongLinks strong(adjacency, weights);
+  const ConnectedPiece piece{.adjacency = adjacency,
+                             .strong = strong,
+                             .edge_weight = weights,
+                             .image_cost = costs,
+                             .images = images};
   const auto parts = DivideGraph(piece, num_parts, min_part_size);
   EXPECT_TRUE(parts.ok()) << parts.status();
   return parts.ok() ? *parts : Parts{};
