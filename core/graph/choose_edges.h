@@ -19,7 +19,8 @@ struct ChosenEdges {
 /// stated headings (DropEdgesAgainstCompass), the sequence of their drive (DropEdgesAgainstChain),
 /// their triangles (BuildViewGraph), or the headings that all others agree on
 /// (DropEdgesAgainstHeadings), one filter after the other. Positions are those that the motion of
-/// the drives leaves (PositionsByMotion): one that is off between houses speaks against no pair.
+/// the drives leaves (PositionsByMotion): one that is off between houses speaks against no pair;
+/// and what the names between those tell of images without one (PlaceByName).
 [[nodiscard]] ChosenEdges ChooseEdges(const std::vector<ViewEdge>& edges,
                                       const ImageManifest& manifest,
                                       const ViewGraphOptions& options);

@@ -8,6 +8,7 @@
 #include "core/mapping/lengths/pair_length.h"
 #include "core/scene/ids.h"
 #include "core/scene/reconstruction.h"
+#include "core/scene/view_graph.h"
 
 namespace orbweave {
 
@@ -22,6 +23,7 @@ struct ClusterReconstruction {
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};  ///< by the submodels; JudgePairs
   std::vector<ImagePair> explained_pairs{};
+  std::vector<CrossingPair> parted_pairs{};  ///< between its submodels; PartedPairs
   std::vector<PairLength> pair_lengths{};  ///< of the submodels; MeasurePairLengths
   std::vector<GapLength> gap_lengths{};    ///< MeasureGapLengths
   int num_joined = 0;                      ///< submodels fewer, since bridges joined them

@@ -16,6 +16,7 @@
 #include "core/mapping/bridges/join_by_bridges.h"
 #include "core/mapping/checks/drop_off_scale_images.h"
 #include "core/mapping/checks/find_contradicted_pairs.h"
+#include "core/mapping/checks/parted_pairs.h"
 #include "core/mapping/cuts/cut_at_hinges.h"
 #include "core/mapping/cuts/split_by_gnss.h"
 #include "core/mapping/export_submodel.h"
@@ -261,6 +262,7 @@ absl::StatusOr<ClusterReconstruction> ReconstructCluster(const ClusterProblem& p
   }
 
   SortLargestFirst(result.submodels);
+  result.parted_pairs = PartedPairs(problem, result.submodels);
   result.residual_rms_px = residuals.Rms();
   for (ImageSlot image = 0; image < problem.images.size(); ++image) {
     const ImageId id = problem.images[image].id;

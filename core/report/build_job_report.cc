@@ -127,6 +127,7 @@ ClusterSummary SummariseCluster(const ClusterResult& result) {
                          .not_registered = cluster.not_registered,
                          .contradicted_pairs = cluster.contradicted_pairs,
                          .explained_pairs = cluster.explained_pairs,
+                         .parted_pairs = cluster.parted_pairs,
                          .pair_lengths = cluster.pair_lengths,
                          .gap_lengths = cluster.gap_lengths,
                          .residual_rms_px = cluster.residual_rms_px};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/io/first_names.h"
 #include "core/mapping/lengths/find_length_faults.h"
 #include "core/report/lengths_within_models.h"
 #include "core/report/model_of_images.h"
@@ -27,6 +28,7 @@ constexpr double kBadShare = 0.02;  // one in fifty, as in CheckSequenceSteps
 /// step that was seven hundredths off had two fifths of it.
 constexpr double kWeakShare = 0.5;
 constexpr size_t kFewestSteps = 8;
+constexpr size_t kPlacesShown = 7;
 /// So many that agree to 6 % (kCloseTolerance) tell a length to a hundredth.
 constexpr double kRaysForAHundredth = 36.0;
 
@@ -87,6 +89,21 @@ std::vector<LengthFault> FaultsThatStand(const std::vector<PairLength>& lengths,
 std::string PlaceOf(const LengthFault& fault, const ImageManifest& manifest) {
   const std::string& name = manifest.At(fault.image).name;
   return fault.next ? "between " + name + " and " + manifest.At(*fault.next).name : "at " + name;
+}
+
+/// The places of all but the worst: ", and between a and b, at c, ..."; empty where there are none.
+std::string OtherPlaces(std::vector<LengthFault> faults,
+                        const LengthFault& worst,
+                        const ImageManifest& manifest) {
+  std::erase_if(faults, [&](const LengthFault& fault) {
+    return fault.image == worst.image && fault.next == worst.next;
+  });
+  if (faults.empty()) return "";
+  std::vector<std::string> places;
+  for (const LengthFault& fault : faults) places.push_back(PlaceOf(fault, manifest));
+  return "; " + std::to_string(places.size()) + " more " +
+         (places.size() == 1 ? "place is" : "places are") + " told otherwise, " +
+         FirstNames(places, kPlacesShown);
 }
 
 int Percent(double share) { return static_cast<int>(std::lround(100.0 * share)); }
@@ -225,12 +242,11 @@ CrossCheck CheckLengths(const JobResults& results) {
   check.level = is_bad ? CheckLevel::kBad : CheckLevel::kDoubtful;
   std::snprintf(text,
                 sizeof text,
-                "%s; %d %% of the rays agree on the whole (%zu such places): part of it may stand "
-                "a house too far along where houses repeat; ",
-                WhatRaysSay(worst, results.manifest).c_str(),
-                Percent(all.Share()),
-                faults.size());
-  check.sentence = std::string(text) + kAdvice;
+                "%d %% of the rays agree on the whole: part of it may stand a house too far along "
+                "where houses repeat; ",
+                Percent(all.Share()));
+  check.sentence = WhatRaysSay(worst, results.manifest) +
+                   OtherPlaces(faults, worst, results.manifest) + "; " + text + kAdvice;
   return check;
 }
 

@@ -38,6 +38,8 @@ absl::Status CheckClusters(const std::vector<ClusterSummary>& clusters,
     const std::string whose = absl::StrCat("cluster ", cluster.cluster);
     for (const NotRegistered& missing : cluster.not_registered)
       ORBWEAVE_RETURN_IF_ERROR(CheckImages({&missing.image, 1}, manifest, whose));
+    for (const CrossingPair& pair : cluster.parted_pairs)
+      ORBWEAVE_RETURN_IF_ERROR(CheckImages({&pair.pair.b, 1}, manifest, whose));
     for (const PairLength& length : cluster.pair_lengths)
       ORBWEAVE_RETURN_IF_ERROR(CheckImages({&length.pair.b, 1}, manifest, whose));
     for (const GapLength& length : cluster.gap_lengths) {

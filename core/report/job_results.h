@@ -34,6 +34,7 @@ struct ClusterSummary {
   std::vector<NotRegistered> not_registered{};
   std::vector<ImagePair> contradicted_pairs{};
   std::vector<ImagePair> explained_pairs{};
+  std::vector<CrossingPair> parted_pairs{};
   std::vector<PairLength> pair_lengths{};
   std::vector<GapLength> gap_lengths{};
   double residual_rms_px = 0.0;

@@ -35,9 +35,10 @@ double DifferenceOf(const CrossingPair& pair, const Images& images, double steps
   return std::max(turn_rad, AngleBetween(b_in_a, pair.b_from_a.Centre()));
 }
 
-void JudgeCrossingPairs(const JobResults& results, PairsOfJob& judged) {
-  const StepsApart apart(results);
-  for (const CrossingPair& pair : results.view_graph.crossing) {
+void JudgeCrossingPairs(const std::vector<CrossingPair>& pairs,
+                        const StepsApart& apart,
+                        PairsOfJob& judged) {
+  for (const CrossingPair& pair : pairs) {
     const std::optional<double> steps = apart.Between(pair.pair);
     if (!steps) continue;
     const double off_rad = DifferenceOf(pair, apart.ModelOf(pair.pair.a), *steps);
@@ -55,7 +56,10 @@ PairsOfJob JudgePairsOfJob(const JobResults& results) {
     judged.contradicted.insert(cluster.contradicted_pairs.begin(),
                                cluster.contradicted_pairs.end());
   }
-  JudgeCrossingPairs(results, judged);
+  const StepsApart apart(results);
+  JudgeCrossingPairs(results.view_graph.crossing, apart, judged);
+  for (const ClusterSummary& cluster : results.clusters)
+    JudgeCrossingPairs(cluster.parted_pairs, apart, judged);
   const auto is_unknown = [&](const ImagePair& pair) {
     return pair.b.value >= results.manifest.images.size();
   };

@@ -29,7 +29,8 @@ struct ViewGraph {
   std::vector<ViewEdge> edges{};
 };
 
-/// A pair whose images no cluster has both of.
+/// A verified pair of whose two images no cluster, or no submodel of its cluster, has both: nothing
+/// that was reconstructed took part of it, so that it bears witness of how all was put together.
 struct CrossingPair {
   ImagePair pair{};
   Rigid3 b_from_a{};  ///< |translation| = 1

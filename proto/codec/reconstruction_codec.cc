@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "proto/codec/crossing_pair_message.h"
 #include "proto/codec/pack.h"
 #include "proto/codec/plausible.h"
 #include "proto/codec/reconstruction_messages.h"
@@ -78,6 +79,7 @@ absl::StatusOr<std::string> EncodeClusterResult(const ClusterResult& result) {
     out->set_image_b(pair.b.value);
   }
   proto.set_explained_pairs(codec::Pack(result.reconstruction.explained_pairs));
+  codec::ToProto(result.reconstruction.parted_pairs, proto.mutable_parted_pairs());
   for (const PairLength& length : result.reconstruction.pair_lengths) {
     v1::PairLength* out = proto.add_pair_lengths();
     out->set_image_a(length.pair.a.value);
@@ -131,6 +133,8 @@ absl::StatusOr<ClusterResult> DecodeClusterResult(std::string_view bytes) {
   }
   ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.explained_pairs,
                             UnpackPairs(proto.explained_pairs(), "explained pairs"));
+  ORBWEAVE_ASSIGN_OR_RETURN(result.reconstruction.parted_pairs,
+                            codec::FromProto(proto.parted_pairs()));
   for (const v1::PairLength& length : proto.pair_lengths()) {
     result.reconstruction.pair_lengths.push_back(
         {.pair = {ImageId(length.image_a()), ImageId(length.image_b())},

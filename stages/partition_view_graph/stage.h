@@ -20,7 +20,7 @@ namespace orbweave {
 /// before with more overlap where that was asked for (WidenOverlaps).
 struct PartitionViewGraphStage {
   static constexpr StageFacts kFacts{
-      .name = "partition_view_graph", .version = "28", .weight = 1.0};
+      .name = "partition_view_graph", .version = "29", .weight = 1.0};
   using Options = OptionSections<ViewGraphOptions, PartitionOptions>;
 
   One<ImageManifest> manifest;

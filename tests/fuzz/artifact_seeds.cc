@@ -112,6 +112,7 @@ void AddModels(Seeds& seeds) {
            .reconstruction = {.submodels = {TwoViewsOfAPoint()},
                               .not_registered = {{ImageId(77), "no verified matches"}},
                               .contradicted_pairs = {{ImageId(3), ImageId(8)}},
+                              .parted_pairs = {{{ImageId(4), ImageId(9)}}},
                               .start_remark = "remark"}})
           .value()};
   Alignment alignment{

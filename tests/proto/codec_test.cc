@@ -474,6 +474,10 @@ TEST(PartitionCodec, RefusesWhatIsNotBetweenItsClusters) {
   spoilt = divided;
   spoilt.crossing = {{.pair = {ImageId(0), ImageId(2)}}};
   EXPECT_FALSE(is_taken(spoilt)) << "no edge";
+  spoilt.crossing[0].pair = divided.edges[0];
+  EXPECT_TRUE(is_taken(spoilt));
+  spoilt.crossing[0].b_from_a.translation = Eigen::Vector3d(1.0, 1.0, 0.0);
+  EXPECT_FALSE(is_taken(spoilt)) << "no direction";
 }
 
 TEST(RecipesCodec, RefuseImagesOutOfOrderAndPairsOfOthers) {
@@ -588,6 +592,8 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
                          .not_registered = {{ImageId(77), "no verified matches"}},
                          .contradicted_pairs = {{ImageId(3), ImageId(8)}},
                          .explained_pairs = {{ImageId(3), ImageId(4)}},
+                         .parted_pairs = {{.pair = {ImageId(4), ImageId(9)},
+                                           .b_from_a = {.translation = {0.6, 0.0, 0.8}}}},
                          .pair_lengths = {{.pair = {ImageId(3), ImageId(4)},
                                            .agreement = {.told = 80.5, .agreeing = 20.25}}},
                          .gap_lengths = {{.between = {ImageId(4), ImageId(5)},
@@ -608,6 +614,10 @@ TEST(ReconstructionCodec, RoundTripsResultsOfEveryStage) {
   ASSERT_TRUE(cluster_out.ok()) << cluster_out.status();
   EXPECT_EQ(cluster_out->cluster, 4U);
   EXPECT_EQ(cluster_out->reconstruction.not_registered[0].reason, "no verified matches");
+  ASSERT_EQ(cluster_out->reconstruction.parted_pairs.size(), 1U);
+  EXPECT_EQ(cluster_out->reconstruction.parted_pairs[0].pair, (ImagePair{ImageId(4), ImageId(9)}));
+  EXPECT_EQ(cluster_out->reconstruction.parted_pairs[0].b_from_a.translation,
+            Eigen::Vector3d(0.6, 0.0, 0.8));
   EXPECT_EQ(cluster_out->reconstruction.contradicted_pairs,
             (std::vector<ImagePair>{{ImageId(3), ImageId(8)}}));
   ASSERT_EQ(cluster_out->reconstruction.pair_lengths.size(), 1U);
