@@ -24,9 +24,9 @@ struct ClusterReconstruction {
   std::vector<ImagePair> contradicted_pairs{};  ///< by the submodels; JudgePairs
   std::vector<ImagePair> explained_pairs{};
   std::vector<CrossingPair> parted_pairs{};  ///< between its submodels; PartedPairs
-  std::vector<PairLength> pair_lengths{};  ///< of the submodels; MeasurePairLengths
-  std::vector<GapLength> gap_lengths{};    ///< MeasureGapLengths
-  int num_joined = 0;                      ///< submodels fewer, since bridges joined them
+  std::vector<PairLength> pair_lengths{};    ///< of the submodels; MeasurePairLengths
+  std::vector<GapLength> gap_lengths{};      ///< MeasureGapLengths
+  int num_joined = 0;                        ///< submodels fewer, since bridges joined them
   int num_global_adjustments = 0;
   int num_local_adjustments = 0;
   double residual_rms_px = 0.0;

@@ -26,6 +26,7 @@ constexpr double kQuartiles = 3.0;
 constexpr double kKnownShare = 0.4;
 constexpr double kSamePlace = 0.02;
 constexpr double kRefuted_sigmas = 3.0;
+constexpr double kCosineAlike = 0.5;  // to 60 degrees
 
 /// A way from one stop to the next.
 struct Step {
@@ -136,6 +137,19 @@ Side SideOf(std::span<const Step> steps, size_t i, int next, const Usual& usual)
   return step.length > kMostPlaces * usual.step ? Side::kEnd : Side::kUnusual;
 }
 
+bool LeadAlike(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.dot(b) >= kCosineAlike * a.norm() * b.norm();
+}
+
+/// Whether step i leads back between two that lead on.
+bool LeadsBack(std::span<const DriveStop> stops, size_t i) {
+  if (i == 0 || i + 2 >= stops.size()) return false;
+  const Eigen::Vector3d before = stops[i].centre - stops[i - 1].centre;
+  const Eigen::Vector3d step = stops[i + 1].centre - stops[i].centre;
+  const Eigen::Vector3d behind = stops[i + 2].centre - stops[i + 1].centre;
+  return LeadAlike(before, behind) && LeadAlike(-step, before + behind);
+}
+
 /// A step as positions have it.
 struct ByPositions {
   double length_m = 0.0;
@@ -148,6 +162,15 @@ std::optional<ByPositions> AskPositions(const std::function<const PosePrior&(siz
   const PosePrior& b = prior_of(from + 1);
   if (!a.position_in_enu || !b.position_in_enu) return std::nullopt;
   return ByPositions{DistanceBetween(a, b), SigmaBetween(a, b)};
+}
+
+/// Whether positions have the step lead back against the way from the one before it to the one
+/// behind it, too.
+bool LeadsBackByPositions(const std::function<const PosePrior&(size_t)>& prior_of, size_t from) {
+  const auto way = [&](size_t first, size_t last) -> Eigen::Vector2d {
+    return (*prior_of(last).position_in_enu - *prior_of(first).position_in_enu).head<2>();
+  };
+  return way(from, from + 1).dot(way(from - 1, from + 2)) < 0.0;
 }
 
 /// The mean length of the steps as usual beside it, as positions have them, per place.
@@ -218,9 +241,10 @@ std::vector<VanishedStep> FindVanishedSteps(std::span<const DriveStop> stops) {
   for (size_t i = 0; i < steps.size(); ++i) {
     const std::optional<Usual> usual = UsualAround(steps, i, i + 1);
     if (!usual) continue;
-    const double share = steps[i].length / usual->step;
+    const double length = (LeadsBack(stops, i) ? -1.0 : 1.0) * steps[i].length;
+    const double share = length / usual->step;
     const double most = std::min(kMostVanished_steps, 1.0 - usual->limit);
-    if (share <= kSamePlace || share >= most) continue;
+    if (std::abs(share) <= kSamePlace || share >= most) continue;
     const Side before = SideOf(steps, i, -1, *usual);
     const Side behind = SideOf(steps, i, 1, *usual);
     VanishedStep vanished{.stop = i, .step = usual->step, .share = share};
@@ -240,8 +264,10 @@ bool IsDoubted(const VanishedStep& vanished,
   const auto beside_m = LengthBeside(vanished, stops, prior_of);
   if (!own || !beside_m) return !vanished.end;
   const double short_m = vanished.share * *beside_m;
-  const bool is_as_usual = std::abs(own->length_m - short_m) >= std::abs(own->length_m - *beside_m);
-  if (vanished.end) return is_as_usual && own->length_m - short_m > kRefuted_sigmas * own->sigma_m;
+  const bool leads_back = vanished.share < 0.0 && LeadsBackByPositions(prior_of, from);
+  const double own_m = (leads_back ? -1.0 : 1.0) * own->length_m;
+  const bool is_as_usual = std::abs(own_m - short_m) >= std::abs(own_m - *beside_m);
+  if (vanished.end) return is_as_usual && own_m - short_m > kRefuted_sigmas * own->sigma_m;
   return is_as_usual || own->sigma_m > kKnownShare * (*beside_m - short_m);
 }
 

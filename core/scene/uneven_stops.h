@@ -62,11 +62,11 @@ inline constexpr double kLeastUneven_steps = 1.0 / 3.0;
                               const PosePrior& stop,
                               const PosePrior& last);
 
-/// A step that leads hardly anywhere, while those around it are as long as ever.
+/// A step that leads hardly anywhere, or back, while those around it lead on as ever.
 struct VanishedStep {
   size_t stop = 0;     ///< from this one to the next
   double step = 0.0;   ///< as steps are around
-  double share = 0.0;  ///< of such a step
+  double share = 0.0;  ///< of such a step; negative: it leads back
   /// The one of its stops that hangs at the other alone: the drive begins or ends there, or goes on
   /// more than three steps away. Nullopt: it lies between two steps as usual.
   std::optional<size_t> end{};
@@ -76,21 +76,23 @@ struct VanishedStep {
 inline constexpr double kMostVanished_steps = 1.0 / 3.0;
 
 /// Steps of a fiftieth to a third of the median step s around, as FindUnevenStops has it, between
-/// two that are as long as that to 30 %, or beside one and the end of a run. Where houses are as
-/// wide as a step is long a panorama sees the next house where it saw this one: the rays of the
+/// two that are as long as that to 30 %, or beside one and the end of a run; and those that lead
+/// back (by 120 degrees or more) between two such that lead the same way (to 60). Where houses are
+/// as wide as a step is long a panorama sees the next house where it saw this one: the rays of the
 /// pair hardly meet, as of a camera that stands, thousands of points agree, and all that follows
-/// stands one step too near. A camera that stops slows down before, and is late; one that is
-/// carried by hand is not asked, and a frame that a video has twice is left alone. Of 2,088 steps
-/// of 114 models of rendered and real streets, most of them right, one was such between two
+/// stands one step too near, or two. A camera that stops slows down before, and is late; one that
+/// is carried by hand is not asked, and a frame that a video has twice is left alone. Of 2,088
+/// steps of 114 models of rendered and real streets, most of them right, one was such between two
 /// others: 12.8 m at 3 % of the others, which 1,912 rays bore out.
 ///
 /// `stops`: ascending by place. Ascending by stop.
 [[nodiscard]] std::vector<VanishedStep> FindVanishedSteps(std::span<const DriveStop> stops);
 
-/// Whether the step is wrong, as far as positions tell: unless they have it as short rather than as
-/// long as the steps as usual beside it, and know the difference to two fifths. At an end, where
-/// cameras do start and stop, only where they are longer by three sigmas than the model has it and
-/// rather as long as those beside. `stops`: those it was found among; `prior_of`: of each of them.
+/// Whether the step is wrong, as far as positions tell: unless they have it as short, or lead back,
+/// rather than as long as the steps as usual beside it, and know the difference to two fifths. At
+/// an end, where cameras do start and stop, only where they are longer by three sigmas than the
+/// model has it and rather as long as those beside. `stops`: those it was found among; `prior_of`:
+/// of each of them.
 [[nodiscard]] bool IsDoubted(const VanishedStep& vanished,
                              std::span<const DriveStop> stops,
                              const std::function<const PosePrior&(size_t)>& prior_of);

@@ -14,7 +14,7 @@ namespace orbweave {
 /// Where all worlds came to, and what their subproblems say of the whole -> the model but for its
 /// tracks, which stay in the subproblems (FinaliseAdjustment).
 struct ConcludeAdjustmentStage {
-  static constexpr StageFacts kFacts{.name = "conclude_adjustment", .version = "32", .weight = 1.0};
+  static constexpr StageFacts kFacts{.name = "conclude_adjustment", .version = "33", .weight = 1.0};
   using Options = OptionSections<GlobalAdjustOptions>;
 
   One<ImageManifest> manifest;

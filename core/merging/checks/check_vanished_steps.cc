@@ -6,6 +6,7 @@
 #include <absl/strings/str_format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/merging/checks/stops_of_drives.h"
@@ -34,22 +35,23 @@ CrossCheck CheckVanishedSteps(const std::map<ImageId, RegisteredImage>& images,
   CrossCheck check{.name = "vanished_steps", .limit = 1.0 - kMostVanished_steps, .unit = "step"};
   const std::vector<ShortStep> found = FindShortSteps(images, manifest);
   if (found.empty()) {
-    check.sentence = "no step of an even drive leads hardly anywhere";
+    check.sentence = "no step of an even drive leads hardly anywhere, or back";
     return check;
   }
   const ShortStep& worst = *std::ranges::min_element(found, {}, &ShortStep::steps);
   check.value = 1.0 - worst.steps;
   check.level = CheckLevel::kDoubtful;
   check.sentence = absl::StrFormat(
-      "%d steps lead hardly anywhere, first of all the one from %s to %s, %.0f %% of those around, "
-      "which are even: where houses are as wide as a step is long the next one is taken for this "
-      "one, and all that follows is a step too near, unless the camera stood there; compare the "
-      "two "
-      "pictures, or give exact GNSS positions",
+      "%d %s hardly anywhere, or back, first of all the one from %s to %s, %.0f %% %s of those "
+      "around, which are even: where houses are as wide as a step is long the next one is taken "
+      "for this one, and all that follows is a step or two too near, unless the camera stood "
+      "there; compare the two pictures, or give exact GNSS positions",
       found.size(),
+      found.size() == 1 ? "step leads" : "steps lead",
       manifest.At(worst.from).name,
       manifest.At(worst.to).name,
-      100.0 * worst.steps);
+      100.0 * std::abs(worst.steps),
+      worst.steps < 0.0 ? "back" : "on");
   return check;
 }
 

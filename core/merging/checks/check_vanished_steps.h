@@ -12,11 +12,11 @@
 
 namespace orbweave {
 
-/// A step of a drive that leads hardly anywhere, and is doubted.
+/// A step of a drive that leads hardly anywhere, or back, and is doubted.
 struct ShortStep {
   ImageId from{};
   ImageId to{};
-  double steps = 0.0;            ///< how long it is, in steps as they are around it
+  double steps = 0.0;            ///< how far it leads on, in steps as they are around it
   std::optional<ImageId> end{};  ///< the one of them that nothing else holds (VanishedStep::end)
 };
 
@@ -25,9 +25,11 @@ struct ShortStep {
 [[nodiscard]] std::vector<ShortStep> FindShortSteps(
     const std::map<ImageId, RegisteredImage>& images, const ImageManifest& manifest);
 
-/// "vanished_steps": whether a step of an even drive leads hardly anywhere (FindShortSteps).
+/// "vanished_steps": whether a step of an even drive leads hardly anywhere, or back
+/// (FindShortSteps).
 ///
-/// Value: how many steps the worst is short, up to one; 0 where none is.
+/// Value: how many steps the worst is short, up to one, or more where it leads back; 0 where none
+/// is.
 [[nodiscard]] CrossCheck CheckVanishedSteps(const std::map<ImageId, RegisteredImage>& images,
                                             const ImageManifest& manifest);
 

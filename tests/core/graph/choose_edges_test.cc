@@ -76,5 +76,18 @@ TEST(ChooseEdges, PositionsThatTheirDriveContradictsSpeakAgainstNoPair) {
   EXPECT_EQ(PairsOf(ChooseEdges(edges, manifest, {}).dropped), std::set<ImagePair>{look_alike});
 }
 
+TEST(ChooseEdges, WhatLooksLikeAPlaceFarOffIsDroppedOfImagesWithoutAPositionToo) {
+  ImageManifest manifest = ManifestOf(60);
+  for (uint32_t i = 40; i < 46; ++i) manifest.images[i].prior.position_in_enu.reset();
+  std::vector<ViewEdge> edges = EdgesOf(60);
+  for (const uint32_t like : {3U, 4U}) {
+    edges.push_back(Edge(like, like + 39));
+    edges.back().b_from_a.translation = -Eigen::Vector3d::UnitX();
+  }
+  const ChosenEdges chosen = ChooseEdges(edges, manifest, {});
+  EXPECT_EQ(PairsOf(chosen.dropped),
+            (std::set{MakePair(ImageId(3), ImageId(42)), MakePair(ImageId(4), ImageId(43))}));
+}
+
 }  // namespace
 }  // namespace orbweave

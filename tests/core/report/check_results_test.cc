@@ -56,6 +56,9 @@ TEST(CheckResults, RefusesImagesThatThereAreNot) {
   std::vector<ClusterSummary> pairs = Reconstructed();
   pairs[0].explained_pairs = {{ImageId(0), ImageId(9)}};
   ExpectDamaged(CheckClusters(pairs, TwoClusters(), Images(3)), "image 9 of 3");
+  std::vector<ClusterSummary> parted = Reconstructed();
+  parted[0].parted_pairs = {{.pair = {ImageId(0), ImageId(8)}}};
+  ExpectDamaged(CheckClusters(parted, TwoClusters(), Images(3)), "image 8 of 3");
   ExpectDamaged(CheckCarriers({{.images = {ImageId(6)}}}, Images(3)), "image 6 of 3");
 }
 

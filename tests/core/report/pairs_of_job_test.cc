@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/base/random.h"
 #include "core/geometry/rotation.h"
 #include "core/report/check_contradicted_pairs.h"
@@ -73,6 +75,15 @@ TEST(JudgePairsOfJob, ClustersThatAreFoldedOntoEachOtherContradictThem) {
   const BorneOutByGnss gnss(results);
   EXPECT_EQ(CheckPairs(results, judged, gnss).level, CheckLevel::kBad);
   EXPECT_EQ(CheckContradictedPairs(results, judged, gnss)->level, CheckLevel::kBad);
+}
+
+TEST(JudgePairsOfJob, SubmodelsThatAreFoldedOntoEachOtherContradictWhatLedFromOneToTheOther) {
+  Random random(2);
+  JobResults results = Street(random);
+  results.clusters[0].parted_pairs = std::exchange(results.view_graph.crossing, {});
+  EXPECT_EQ(JudgePairsOfJob(results).explained.size(), 9U);
+  MoveBehind({.translation = Eigen::Vector3d(-40.0, 0.0, 0.0)}, results);
+  EXPECT_EQ(JudgePairsOfJob(results).contradicted.size(), 9U);
 }
 
 TEST(JudgePairsOfJob, ClustersThatTurnOtherwiseContradictThem) {

@@ -55,6 +55,19 @@ TEST(FindVanishedSteps, FindsTheOneWhateverTheScale) {
   EXPECT_THAT(FindVanishedSteps({}), IsEmpty());
 }
 
+TEST(FindVanishedSteps, FindsOneThatLeadsBackBetweenTwoThatLeadOn) {
+  std::vector<DriveStop> stops = Drive(0.1);
+  const double length = stops[12].centre.x() - stops[11].centre.x();
+  for (size_t i = 12; i < stops.size(); ++i) stops[i].centre.x() -= 2.2 * length;
+  const std::vector<VanishedStep> found = FindVanishedSteps(stops);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].stop, 11U);
+  EXPECT_NEAR(found[0].share, -1.2, 0.2);
+  for (size_t i = 13; i < stops.size(); ++i)  // and goes on that way
+    stops[i].centre.x() = 2.0 * stops[12].centre.x() - stops[i].centre.x();
+  EXPECT_THAT(FindVanishedSteps(stops), IsEmpty()) << "a camera that turns round and drives back";
+}
+
 /// The first and the last of a drive stand beside the next.
 std::vector<DriveStop> WithNearEnds() {
   std::vector<DriveStop> stops = Drive(0.1);

@@ -35,6 +35,19 @@ TEST(CheckVanishedSteps, NamesAStepThatIsAHouseTooShort) {
   EXPECT_EQ(CheckEvenSteps(drive.images, drive.manifest).level, CheckLevel::kGood);
 }
 
+TEST(CheckVanishedSteps, NamesAStepThatLeadsBackUnlessPositionsDoToo) {
+  EvenDrive drive;
+  DrawNear(17, 17.6, drive);
+  const CrossCheck check = CheckVanishedSteps(drive.images, drive.manifest);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_NEAR(check.value, 2.2, 1e-9);
+  EXPECT_THAT(check.sentence, HasSubstr("from 16.jpg to 17.jpg, 120 % back"));
+  for (uint32_t i = 0; i < EvenDrive::kImages; ++i) drive.Position(i, i < 17 ? 0.0 : -17.6);
+  EXPECT_EQ(CheckVanishedSteps(drive.images, drive.manifest).level, CheckLevel::kGood);
+  for (uint32_t i = 17; i < EvenDrive::kImages; ++i) drive.Position(i, 0.0);
+  EXPECT_EQ(CheckVanishedSteps(drive.images, drive.manifest).level, CheckLevel::kDoubtful);
+}
+
 TEST(CheckVanishedSteps, LeavesAFrameTwiceAndACameraThatSlowsDownAlone) {
   EvenDrive twice;
   DrawNear(17, 7.9, twice);
