@@ -91,7 +91,8 @@ std::string PlaceOf(const LengthFault& fault, const ImageManifest& manifest) {
   return fault.next ? "between " + name + " and " + manifest.At(*fault.next).name : "at " + name;
 }
 
-/// The places of all but the worst: ", and between a and b, at c, ..."; empty where there are none.
+/// The places of all but the worst: "; 2 more places are doubted: between a and b, at c"; empty where
+/// there are none.
 std::string OtherPlaces(std::vector<LengthFault> faults,
                         const LengthFault& worst,
                         const ImageManifest& manifest) {
@@ -102,7 +103,7 @@ std::string OtherPlaces(std::vector<LengthFault> faults,
   std::vector<std::string> places;
   for (const LengthFault& fault : faults) places.push_back(PlaceOf(fault, manifest));
   return "; " + std::to_string(places.size()) + " more " +
-         (places.size() == 1 ? "place is" : "places are") + " told otherwise, " +
+         (places.size() == 1 ? "place is" : "places are") + " doubted: " +
          FirstNames(places, kPlacesShown);
 }
 

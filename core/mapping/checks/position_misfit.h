@@ -14,9 +14,8 @@ namespace orbweave {
 /// around it.
 ///
 /// Every image lies under a similarity of its own, about the vertical, which fits the sixty places
-/// around it best (RegisteredSequence; reweighted least squares, Cauchy): long streets may bend by
-/// more than positions are exact. What is up, cameras say (UprightFromWorld), or all positions
-/// where these do not agree. Fewer than ten positions tell nothing.
+/// around it best (FindPlacedImages; reweighted least squares, Cauchy): long streets may bend by
+/// more than positions are exact.
 class PositionMisfit {
  public:
   /// `tolerance_px`: of lines (FindStreetLines).

@@ -10,6 +10,7 @@
 #include "core/mapping/adjustment/adjust_global.h"
 #include "core/mapping/adjustment/adjust_local.h"
 #include "core/mapping/adjustment/adjust_new_images.h"
+#include "core/mapping/mending/carry_on_by_gnss.h"
 #include "core/mapping/mending/close_drift.h"
 #include "core/mapping/mending/mend_lengths.h"
 #include "core/mapping/mending/reconsider_images.h"
@@ -173,6 +174,8 @@ class Growth {
     }
     ORBWEAVE_ASSIGN_OR_RETURN(const bool has_slid, SlideOntoGnss(state_, options_, context_));
     report_.num_global_adjustments += has_slid ? 1 : 0;
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_carried_on, CarryOnByGnss(state_, options_, context_));
+    report_.num_global_adjustments += is_carried_on ? 1 : 0;
     return absl::OkStatus();
   }
 

@@ -80,7 +80,7 @@ TEST(CheckLengths, ATearIsDoubtful) {
   EXPECT_EQ(check.level, CheckLevel::kDoubtful);
   EXPECT_THAT(check.sentence, HasSubstr("between 20.jpg and 21.jpg"));
   EXPECT_THAT(check.sentence,
-              HasSubstr("2 more places are told otherwise, between 50.jpg and 51.jpg, between "
+              HasSubstr("2 more places are doubted: between 50.jpg and 51.jpg, between "
                         "80.jpg and 81.jpg"));
   results.models.emplace_back();
   for (const uint32_t beyond : {21U, 51U, 81U}) {
