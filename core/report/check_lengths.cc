@@ -91,8 +91,8 @@ std::string PlaceOf(const LengthFault& fault, const ImageManifest& manifest) {
   return fault.next ? "between " + name + " and " + manifest.At(*fault.next).name : "at " + name;
 }
 
-/// The places of all but the worst: "; 2 more places are doubted: between a and b, at c"; empty where
-/// there are none.
+/// The places of all but the worst: "; 2 more places are doubted: between a and b, at c"; empty
+/// where there are none.
 std::string OtherPlaces(std::vector<LengthFault> faults,
                         const LengthFault& worst,
                         const ImageManifest& manifest) {
@@ -103,8 +103,8 @@ std::string OtherPlaces(std::vector<LengthFault> faults,
   std::vector<std::string> places;
   for (const LengthFault& fault : faults) places.push_back(PlaceOf(fault, manifest));
   return "; " + std::to_string(places.size()) + " more " +
-         (places.size() == 1 ? "place is" : "places are") + " doubted: " +
-         FirstNames(places, kPlacesShown);
+         (places.size() == 1 ? "place is" : "places are") +
+         " doubted: " + FirstNames(places, kPlacesShown);
 }
 
 int Percent(double share) { return static_cast<int>(std::lround(100.0 * share)); }

@@ -43,7 +43,7 @@ constexpr size_t kFaultsOfTorn = 3;
 /// What rays and pairs say of a model, and the even steps of its drives.
 struct RayOpinion {
   size_t faults = 0;      ///< places where they contradict its lengths (FindLengthFaults)
-  size_t uneven = 0;      ///< FindUnevenRuns
+  size_t uneven = 0;      ///< FindUnevenRuns and FindVanishedWays
   size_t torn = 0;        ///< FindTornPairs
   double evidence = 0.0;  ///< EvidenceFor
 
@@ -60,7 +60,7 @@ struct RayOpinion {
 
 RayOpinion RaysOf(const MappingState& state, const MappingOptions& options) {
   return {FindLengthFaults(state, options).size(),
-          FindUnevenRuns(state).size(),
+          FindUnevenRuns(state).size() + FindVanishedWays(state).size(),
           FindTornPairs(state, options).size(),
           EvidenceFor(state, options)};
 }

@@ -36,8 +36,8 @@ namespace orbweave {
                                  const MappingState& other,
                                  const MappingOptions& options);
 
-/// The same where each image that stands off the even steps of its drive (FindUnevenRuns) counts as
-/// three such places.
+/// The same where each image that stands off the even steps of its drive (FindUnevenRuns), and each
+/// step that has vanished (FindVanishedWays), counts as three such places.
 [[nodiscard]] bool RaysAndStepsSpeakMoreFor(const MappingState& one,
                                             const MappingState& other,
                                             const MappingOptions& options);
@@ -46,7 +46,8 @@ namespace orbweave {
 /// twentieth, it bears out a quarter more of it (BorneOutImages); or not that much less, and
 /// positions and rays together like it better: the squared misfit of its positions
 /// (PositionMisfit), with 1.5 more for every place where rays contradict its lengths
-/// (FindLengthFaults), 9 for every image off the even steps (FindUnevenRuns) and 18 for every pair
+/// (FindLengthFaults), 9 for every image off the even steps (FindUnevenRuns) or step
+/// that has vanished (FindVanishedWays) and 18 for every pair
 /// that it is torn at (FindTornPairs), less twenty times the logarithm of EvidenceFor; and not
 /// clearly less speaks for it (four fifths of EvidenceFor), so that two positions that are wrong
 /// decide nothing. Of more images it bears out as large a

@@ -18,16 +18,20 @@ std::map<uint32_t, std::vector<ImageSlot>> ImagesOfDrives(const MappingState& st
   return drives;
 }
 
+std::vector<DriveStop> StopsOf(const MappingState& state, std::span<const ImageSlot> slots) {
+  std::vector<DriveStop> stops;
+  for (const ImageSlot slot : slots)
+    stops.push_back({state.Problem().images[slot].rank_in_drive, state.Centre(slot)});
+  return stops;
+}
+
 }  // namespace
 
 std::vector<UnevenRun> FindUnevenRuns(const MappingState& state) {
   const auto& images = state.Problem().images;
   std::vector<UnevenRun> runs;
   for (const auto& [drive, slots] : ImagesOfDrives(state)) {
-    std::vector<DriveStop> stops;
-    for (const ImageSlot slot : slots)
-      stops.push_back({images[slot].rank_in_drive, state.Centre(slot)});
-    for (UnevenStop uneven : FindUnevenStops(stops)) {
+    for (UnevenStop uneven : FindUnevenStops(StopsOf(state, slots))) {
       if (IsBorneOut(uneven,
                      images[slots[uneven.first]].prior,
                      images[slots[uneven.stop]].prior,
@@ -41,6 +45,22 @@ std::vector<UnevenRun> FindUnevenRuns(const MappingState& state) {
     }
   }
   return runs;
+}
+
+std::vector<VanishedWay> FindVanishedWays(const MappingState& state) {
+  std::vector<VanishedWay> ways;
+  for (const auto& [drive, slots] : ImagesOfDrives(state)) {
+    const std::vector<DriveStop> stops = StopsOf(state, slots);
+    const auto prior_of = [&, &slots = slots](size_t stop) -> const PosePrior& {
+      return state.Problem().images[slots[stop]].prior;
+    };
+    for (const VanishedStep& vanished : FindVanishedSteps(stops)) {
+      if (IsDoubted(vanished, stops, prior_of))
+        ways.push_back(
+            {slots[vanished.stop], slots[vanished.stop + 1], vanished.step, vanished.share});
+    }
+  }
+  return ways;
 }
 
 }  // namespace orbweave

@@ -20,4 +20,17 @@ struct UnevenRun {
 /// borne out there by positions. In order of drives, along each.
 [[nodiscard]] std::vector<UnevenRun> FindUnevenRuns(const MappingState& state);
 
+/// Two registered images one after the other in an even drive, from one to the other of which
+/// hardly a way leads, or one back.
+struct VanishedWay {
+  ImageSlot image = 0;
+  ImageSlot next = 0;
+  double step = 0.0;   ///< as steps are around
+  double share = 0.0;  ///< of it; negative: it leads back
+};
+
+/// Steps of a model that have vanished (FindVanishedSteps), as far as positions do not bear them
+/// out (IsDoubted). In order of drives, along each.
+[[nodiscard]] std::vector<VanishedWay> FindVanishedWays(const MappingState& state);
+
 }  // namespace orbweave

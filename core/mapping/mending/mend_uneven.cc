@@ -13,6 +13,7 @@
 #include "core/mapping/adjustment/adjust_global.h"
 #include "core/mapping/checks/compare_models.h"
 #include "core/mapping/checks/uneven_images.h"
+#include "core/mapping/lengths/line_pieces.h"
 #include "core/mapping/lengths/measure_pair_lengths.h"
 #include "core/mapping/model/move_images.h"
 
@@ -90,6 +91,14 @@ CandidateMove BestMove(MappingState& state, const Block& block, const MappingOpt
   return best;
 }
 
+/// All behind a step, to be moved as far as it is short.
+Block BlockBehind(const MappingState& state, const VanishedWay& way, const LinePieces& pieces) {
+  const Vector3d sense = way.share < 0.0 ? state.Centre(way.image) - state.Centre(way.next)
+                                         : state.Centre(way.next) - state.Centre(way.image);
+  const Vector3d step = way.step * sense.normalized();
+  return {.images = pieces.From(way.next), .by = (1.0 - way.share) * step, .step = step};
+}
+
 bool IsMended(const MappingState& mended,
               const MappingState& before,
               const MappingOptions& options) {
@@ -98,30 +107,67 @@ bool IsMended(const MappingState& mended,
          RaysAndStepsSpeakMoreFor(mended, before, options);
 }
 
-}  // namespace
+/// Moves a block, and everything as that has it, if that is better.
+absl::StatusOr<bool> TryMove(const Block& block,
+                             const MappingOptions& options,
+                             const StageContext& context,
+                             MappingState& state) {
+  ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  MappingState mended = state;
+  PutAt(mended, BestMove(mended, block, options));
+  RemakePoints(mended, state, options);
+  ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(mended, options, context));
+  const bool is_mended = IsMended(mended, state, options);
+  if (is_mended) state = std::move(mended);
+  return is_mended;
+}
 
-absl::StatusOr<bool> MendUneven(MappingState& state,
-                                const MappingOptions& options,
-                                const StageContext& context) {
+absl::StatusOr<bool> MendRuns(MappingState& state,
+                              const MappingOptions& options,
+                              const StageContext& context) {
   std::vector<UnevenRun> runs = FindUnevenRuns(state);
   std::ranges::stable_sort(
       runs, std::greater<>(), [](const UnevenRun& run) { return run.uneven.off_steps; });
   runs.resize(std::min(runs.size(), kMaxTries));
   bool has_moved = false;
   for (const UnevenRun& run : runs) {
-    ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
     const bool is_whole =
         std::ranges::all_of(run.images, [&](ImageSlot image) { return state.IsRegistered(image); });
     if (!is_whole) continue;
-    MappingState mended = state;
-    PutAt(mended, BestMove(mended, BlockOf(mended, run), options));
-    RemakePoints(mended, state, options);
-    ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(mended, options, context));
-    if (!IsMended(mended, state, options)) continue;
-    state = std::move(mended);
-    has_moved = true;
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_mended,
+                              TryMove(BlockOf(state, run), options, context, state));
+    has_moved = has_moved || is_mended;
   }
   return has_moved;
+}
+
+absl::StatusOr<bool> MendVanished(MappingState& state,
+                                  const MappingOptions& options,
+                                  const StageContext& context) {
+  std::vector<VanishedWay> ways = FindVanishedWays(state);
+  std::ranges::stable_sort(ways, {}, &VanishedWay::share);
+  ways.resize(std::min(ways.size(), kMaxTries));
+  bool has_moved = false;
+  for (const VanishedWay& way : ways) {
+    if (!state.IsRegistered(way.image) || !state.IsRegistered(way.next)) continue;
+    const LinePieces pieces(state, options);
+    if (!pieces.AreOfOneLine(way.image, way.next)) continue;
+    ORBWEAVE_ASSIGN_OR_RETURN(const bool is_mended,
+                              TryMove(BlockBehind(state, way, pieces), options, context, state));
+    has_moved = has_moved || is_mended;
+  }
+  return has_moved;
+}
+
+}  // namespace
+
+absl::StatusOr<bool> MendUneven(MappingState& state,
+                                const MappingOptions& options,
+                                const StageContext& context) {
+  ORBWEAVE_RETURN_IF_ERROR(context.CheckStop());
+  ORBWEAVE_ASSIGN_OR_RETURN(const bool has_moved, MendRuns(state, options, context));
+  ORBWEAVE_ASSIGN_OR_RETURN(const bool has_stretched, MendVanished(state, options, context));
+  return has_moved || has_stretched;
 }
 
 }  // namespace orbweave

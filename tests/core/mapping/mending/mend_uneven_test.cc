@@ -84,6 +84,36 @@ TEST(MendUneven, PutsWhoStandsAWindowOffBack) {
   }
 }
 
+TEST(FindVanishedWays, NamesAStepThatIsGoneOrLeadsBackUnlessPositionsDo) {
+  for (const double steps : {0.9, 2.0}) {
+    Walk walk;
+    const double back_m = -steps * GnssWalk::kStep_m;
+    const MappingState state = Moved(walk, 6, GnssWalk::kImages, back_m);
+    const std::vector<VanishedWay> ways = FindVanishedWays(state);
+    ASSERT_THAT(ways, SizeIs(1));
+    EXPECT_EQ(ways[0].image, 5U);
+    EXPECT_EQ(ways[0].next, 6U);
+    EXPECT_NEAR(ways[0].share, 1.0 - steps, 0.05);
+    walk.SetExactPositions();
+    EXPECT_THAT(FindVanishedWays(state), SizeIs(1));
+    for (ImageSlot image = 6; image < GnssWalk::kImages; ++image)
+      walk.Prior(image).position_in_enu->x() += back_m;
+    EXPECT_THAT(FindVanishedWays(state), IsEmpty());
+  }
+}
+
+TEST(MendUneven, PutsWhatLiesBehindAStepThatIsGoneOrLeadsBackWhereItWas) {
+  const Walk walk;
+  for (const double steps : {0.9, 2.0}) {
+    MappingState state = Moved(walk, 6, GnssWalk::kImages, -steps * GnssWalk::kStep_m);
+    const auto has_moved = MendUneven(state, {}, {});
+    ASSERT_TRUE(has_moved.ok()) << has_moved.status();
+    EXPECT_TRUE(*has_moved);
+    for (ImageSlot image = 0; image < GnssWalk::kImages; ++image)
+      EXPECT_LT(ErrorOf(walk, state, image), 0.1) << image;
+  }
+}
+
 TEST(MendUneven, LeavesWhatIsEvenAsItIs) {
   const Walk walk;
   MappingState state = Moved(walk, 0, 0, 0.0);
