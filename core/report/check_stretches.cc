@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/mapping/positioning/fit_plan.h"
+#include "core/mapping/positioning/position_agreement.h"
 #include "core/merging/georeference/gnss_track.h"
 
 namespace orbweave {
@@ -22,19 +24,27 @@ constexpr size_t kFewest = 4;
 constexpr double kOtherScale = 1.5;
 constexpr double kSigmas = 3.0;
 constexpr double kAsStraight = 4.0 / 3.0;
+// So many in a row tell of another scale by their shape.
+constexpr size_t kMany = 10;
+constexpr double kOtherScaleOfMany = 1.05;
+// As in CarryOnByGnss: deviations, of errors that neighbours share.
+constexpr double kDeviations = 4.0;
+constexpr double kErrorsShared = 3.0;
 
 /// A stretch that GNSS has of another length.
 struct Stretch {
   std::vector<ImageId> images{};
   double in_model_m = 0.0;
   double by_gnss_m = 0.0;
+  double limit = kOtherScale;  ///< of its factor
 
   [[nodiscard]] double Factor() const {
     return std::max(in_model_m, by_gnss_m) / std::max(std::min(in_model_m, by_gnss_m), 1e-9);
   }
 };
 
-std::optional<Stretch> AskStretch(std::span<const DrivenFix> fixes) {
+/// By the distance of its ends, and how straight it goes.
+std::optional<Stretch> AskEnds(std::span<const DrivenFix> fixes) {
   if (fixes.size() < kFewest) return std::nullopt;
   const auto by_gnss = [](const DrivenFix& a, const DrivenFix& b) {
     return (a.position_in_enu - b.position_in_enu).head<2>().norm();
@@ -56,7 +66,36 @@ std::optional<Stretch> AskStretch(std::span<const DrivenFix> fixes) {
   const bool is_as_straight =
       along_gnss_m * stretch.in_model_m <= kAsStraight * along_model_m * stretch.by_gnss_m;
   if (!differs || stretch.Factor() < kOtherScale || !is_as_straight) return std::nullopt;
-  for (const DrivenFix& fix : fixes) stretch.images.push_back(fix.image);
+  return stretch;
+}
+
+/// By the scale with which all of it, seen from above, fits its positions best.
+std::optional<Stretch> AskShape(std::span<const DrivenFix> fixes) {
+  if (fixes.size() < kMany) return std::nullopt;
+  std::vector<PlanStation> stations;
+  for (const DrivenFix& fix : fixes) {
+    stations.push_back({.centre = {fix.centre_in_world.x(), fix.centre_in_world.y()},
+                        .position = {fix.position_in_enu.x(), fix.position_in_enu.y()},
+                        .sigma_m = fix.horizontal_sigma_m});
+  }
+  const PlanFit fit = FitPlanRobustly(stations);
+  if (!(std::abs(fit.turn) > 0.0)) return std::nullopt;
+  std::vector<double> errors;
+  for (const PlanStation& station : stations) errors.push_back(fit.ErrorSigmas(station));
+  const double sigma = kErrorsShared * ScatterOfPositions(errors) /
+                       (fit.extent_sigmas * std::sqrt(static_cast<double>(stations.size())));
+  const double way_m = fixes.back().way - fixes.front().way;
+  const Stretch stretch{
+      .in_model_m = way_m, .by_gnss_m = std::abs(fit.turn) * way_m, .limit = kOtherScaleOfMany};
+  const bool differs = std::abs(std::log(std::abs(fit.turn))) > kDeviations * sigma;
+  return differs && stretch.Factor() > kOtherScaleOfMany ? std::optional(stretch) : std::nullopt;
+}
+
+std::optional<Stretch> AskStretch(std::span<const DrivenFix> fixes) {
+  std::optional<Stretch> stretch = AskEnds(fixes);
+  if (!stretch) stretch = AskShape(fixes);
+  if (!stretch) return std::nullopt;
+  for (const DrivenFix& fix : fixes) stretch->images.push_back(fix.image);
   return stretch;
 }
 
@@ -96,6 +135,7 @@ CrossCheck CheckStretches(const JobResults& results) {
     return check;
   }
   check.value = worst->Factor();
+  check.limit = worst->limit;
   check.level = CheckLevel::kDoubtful;
   check.sentence = absl::StrFormat(
       "%d panoramas in a row, from %s to %s, extend over %.1f m of the model and over %.1f m by "

@@ -16,8 +16,11 @@ namespace orbweave {
 /// Asked are runs of four contradicted panoramas or more in a row (GnssDrivesOf), by the distance
 /// of the first from the last: it has to differ by three standard deviations of the stated
 /// positions, and by the factor; and GNSS has to go as straight as the model within a third, which
-/// positions that are each off in their own way do not. Of a town's side street of seven panoramas
-/// that stood 2.8 m apart instead of 11 nothing else spoke. Value: the worst factor, 1 or more.
+/// positions that are each off in their own way do not. Of ten and more the scale with which they
+/// fit their positions best (FitPlanRobustly) has to differ by a twentieth only, and by four
+/// deviations (CarryOnByGnss): forty that stood 6 m apart instead of 5 were up to 24 m off. Of a
+/// town's side street of seven panoramas that stood 2.8 m apart instead of 11 nothing else spoke.
+/// Value: the worst factor, 1 or more.
 [[nodiscard]] CrossCheck CheckStretches(const JobResults& results);
 
 }  // namespace orbweave

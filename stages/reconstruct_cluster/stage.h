@@ -11,7 +11,7 @@ namespace orbweave {
 /// The images of a cluster and their pairs -> its submodels (ReconstructCluster).
 struct ReconstructClusterStage {
   static constexpr StageFacts kFacts{
-      .name = "reconstruct_cluster", .version = "90", .weight = 28.0};
+      .name = "reconstruct_cluster", .version = "91", .weight = 28.0};
   using Options = OptionSections<MappingOptions>;
 
   Parts<ClusterRecipe> cluster;

@@ -474,7 +474,9 @@ TEST(PartitionCodec, RefusesWhatIsNotBetweenItsClusters) {
   spoilt = divided;
   spoilt.crossing = {{.pair = {ImageId(0), ImageId(2)}}};
   EXPECT_FALSE(is_taken(spoilt)) << "no edge";
-  spoilt.crossing[0].pair = divided.edges[0];
+  spoilt.edges = {spoilt.crossing[0].pair};
+  spoilt.edge_kinds = {1};
+  spoilt.edge_rungs = {1};
   EXPECT_TRUE(is_taken(spoilt));
   spoilt.crossing[0].b_from_a.translation = Eigen::Vector3d(1.0, 1.0, 0.0);
   EXPECT_FALSE(is_taken(spoilt)) << "no direction";

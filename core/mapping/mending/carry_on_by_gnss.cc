@@ -16,7 +16,7 @@
 #include "core/mapping/checks/compare_models.h"
 #include "core/mapping/checks/placed_images.h"
 #include "core/mapping/lengths/line_pieces.h"
-#include "core/mapping/lengths/matches_in_planes.h"
+#include "core/mapping/lengths/measure_pair_lengths.h"
 #include "core/mapping/model/move_images.h"
 #include "core/mapping/positioning/position_agreement.h"
 
@@ -171,6 +171,17 @@ bool IsSettled(const MappingState& moved, const Break& way, const MappingOptions
   });
 }
 
+/// Whether rays contradict a model with a way mended in fewer places, or in no more, and as many
+/// places hold: where points hold the way as it was, it comes apart there.
+bool DoPointsAllow(const MappingState& moved,
+                   const MappingState& before,
+                   const MappingOptions& options) {
+  const size_t faults = FindLengthFaults(moved, options).size();
+  const size_t faults_before = FindLengthFaults(before, options).size();
+  if (faults != faults_before) return faults < faults_before;
+  return CountHeldPlaces(moved) >= CountHeldPlaces(before);
+}
+
 CandidateMove MoveFor(const MappingState& state, const LinePieces& pieces, const Break& way) {
   const Vector3d pivot = state.Centre(way.next);
   const Vector3d by = way.shift * (pivot - state.Centre(way.image)).normalized();
@@ -201,7 +212,8 @@ absl::StatusOr<bool> CarryOnByGnss(MappingState& state,
       RemakePoints(moved, state, options);
       ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(moved, options, context));
       is_better = moved.Registered().size() >= state.Registered().size() &&
-                  IsSettled(moved, way, options) && IsLikedByGnss(moved, state, options);
+                  DoPointsAllow(moved, state, options) && IsSettled(moved, way, options) &&
+                  IsLikedByGnss(moved, state, options);
       if (is_better) state = std::move(moved);
     }
     if (!is_better) break;

@@ -20,9 +20,10 @@ namespace orbweave {
 /// Where either is four deviations off, and scales by a twentieth, everything behind (LinePieces)
 /// is scaled about that end and shifted, the ways that are off the most first, six of them at most;
 /// points between are made anew and all is adjusted. Taken is what GNSS then likes better
-/// (IsLikedByGnss), if it stays: where points hold what lies behind as it was, they pull it back.
-/// Deviations are those that errors of positions show (ScatterOfPositions), three times, as
-/// neighbours share them.
+/// (IsLikedByGnss), if it stays, and points allow it: rays contradict the model in fewer places
+/// (FindLengthFaults), or in no more and as many places hold (CountHeldPlaces). A clock that is
+/// late looks the same along a way, but tears what points hold. Deviations are those that errors of
+/// positions show (ScatterOfPositions), three times, as neighbours share them.
 ///
 /// Whether anything was taken. Cancelled when asked to stop.
 [[nodiscard]] absl::StatusOr<bool> CarryOnByGnss(MappingState& state,

@@ -65,6 +65,28 @@ TEST(CheckStretches, DoubtsAStreetOfAnotherScale) {
   EXPECT_EQ(CheckStretches(Shrunk(20, 0.8)).level, CheckLevel::kGood);
 }
 
+TEST(CheckStretches, DoubtsManyThatAreAFifthTooFarApartRoundACorner) {
+  JobResults results = Drive();
+  const auto corner = [](double way_m) {
+    return way_m < 150.0 ? Eigen::Vector3d(way_m, 0.0, 0.0)
+                         : Eigen::Vector3d(150.0, way_m - 150.0, 0.0);
+  };
+  for (uint32_t i = 0; i < kImages; ++i) {
+    ImageRecord& image = results.manifest.images[i];
+    image.prior.position_in_enu = corner(kStep_m * i);
+    image.prior.position_in_enu->x() += i % 3 == 0 ? 2.0 : -1.0;
+    image.prior.horizontal_sigma_m = 1.5;
+    const Eigen::Vector3d centre = corner(kStep_m * 5) + 1.2 * (corner(kStep_m * i) - corner(50.0));
+    results.models[0].images[image.id].cam_from_world =
+        Rigid3::FromCentre(Eigen::Quaterniond::Identity(), centre);
+  }
+  Contradict(8, 24, results);
+  const CrossCheck check = CheckStretches(results);
+  EXPECT_EQ(check.level, CheckLevel::kDoubtful);
+  EXPECT_NEAR(check.value, 1.2, 0.03);
+  EXPECT_THAT(check.sentence, HasSubstr("16 panoramas in a row, from 8.jpg to 23.jpg"));
+}
+
 TEST(CheckStretches, DoesNotBlameTheModelForAReceiverThatJumpsOrScatters) {
   JobResults jump = Drive();
   for (uint32_t i = 8; i < 20; ++i) jump.manifest.images[i].prior.position_in_enu->y() += 100.0;

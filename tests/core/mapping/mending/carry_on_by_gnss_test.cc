@@ -24,11 +24,11 @@ std::vector<Vector3d> Centres() {
   return centres;
 }
 
-/// A street with positions, across one way of which a single pair leads: nothing but positions
-/// tells how long it is, and what lies behind.
+/// A street with positions, across one way of which a single pair leads, unless all are to: nothing
+/// but positions tells how long it is, and what lies behind.
 class HungStreet {
  public:
-  HungStreet()
+  explicit HungStreet(bool with_all_pairs = false)
       : street_({.centres = Centres(),
                  .points_per_metre = 8,
                  .reach_m = 25.0,
@@ -36,9 +36,9 @@ class HungStreet {
                  .outlier_share = 0.1,
                  .random_rotations = true}) {
     ClusterProblem& problem = street_.world.problem;
-    std::erase_if(problem.pairs, [](const TwoViewGeometry& pair) {
+    std::erase_if(problem.pairs, [&](const TwoViewGeometry& pair) {
       const bool leads_across = pair.pair.a.value < kBehind && pair.pair.b.value >= kBehind;
-      return leads_across && pair.pair.b.value - pair.pair.a.value > 1;
+      return !with_all_pairs && leads_across && pair.pair.b.value - pair.pair.a.value > 1;
     });
     street_.graph = BuildCorrespondenceGraph(problem).value();
     Random random(3);
@@ -109,6 +109,16 @@ TEST(CarryOnByGnss, LeavesARightModelToAReceiverThatJumps) {
   for (const double metres : {-15.0, 15.0, 60.0}) {
     HungStreet street;
     street.ShiftPositions(24, 30, metres);
+    MappingState state = street.With(1.0, 0.0);
+    EXPECT_FALSE(CarryOnByGnss(state, {}, {}).value()) << metres;
+    EXPECT_LT(WorstError(state), 1e-6) << metres;
+  }
+}
+
+TEST(CarryOnByGnss, LeavesARightModelThatPointsHoldToPositionsThatAreElsewhereFromAWayOn) {
+  for (const double metres : {-9.0, 9.0, 20.0}) {
+    HungStreet street(true);
+    street.ShiftPositions(kBehind, kImages - 1, metres);
     MappingState state = street.With(1.0, 0.0);
     EXPECT_FALSE(CarryOnByGnss(state, {}, {}).value()) << metres;
     EXPECT_LT(WorstError(state), 1e-6) << metres;
