@@ -27,9 +27,7 @@ constexpr double kAsStraight = 4.0 / 3.0;
 // So many in a row tell of another scale by their shape.
 constexpr size_t kMany = 10;
 constexpr double kOtherScaleOfMany = 1.05;
-// As in CarryOnByGnss: deviations, of errors that neighbours share.
-constexpr double kDeviations = 4.0;
-constexpr double kErrorsShared = 3.0;
+constexpr double kDeviations = 4.0;  // as in CarryOnByGnss
 
 /// A stretch that GNSS has of another length.
 struct Stretch {
@@ -82,8 +80,8 @@ std::optional<Stretch> AskShape(std::span<const DrivenFix> fixes) {
   if (!(std::abs(fit.turn) > 0.0)) return std::nullopt;
   std::vector<double> errors;
   for (const PlanStation& station : stations) errors.push_back(fit.ErrorSigmas(station));
-  const double sigma = kErrorsShared * ScatterOfPositions(errors) /
-                       (fit.extent_sigmas * std::sqrt(static_cast<double>(stations.size())));
+  const double sigma =
+      kErrorsShared * ScatterOfPositions(errors) * fit.SigmaOfScale(stations.size());
   const double way_m = fixes.back().way - fixes.front().way;
   const Stretch stretch{
       .in_model_m = way_m, .by_gnss_m = std::abs(fit.turn) * way_m, .limit = kOtherScaleOfMany};

@@ -30,8 +30,6 @@ using PlacedSpan = std::span<const PlacedImage>;
 constexpr size_t kPlacesAbout = 30;
 constexpr size_t kFewestOnASide = 10;
 constexpr double kDeviations = 4.0;
-/// Receivers share errors over about ten places: 148 positions of a block were worth twelve.
-constexpr double kErrorsShared = 3.0;
 constexpr double kHardlyAnother = 0.05;  // of scales
 constexpr size_t kMaxTries = 6;
 
@@ -55,9 +53,6 @@ struct Side {
     fit = FitPlanRobustly(stations);
   }
   [[nodiscard]] bool IsKnown() const { return std::abs(fit.turn) > 0.0 && fit.extent_sigmas > 0.0; }
-  [[nodiscard]] double RootOfCount() const {
-    return std::sqrt(static_cast<double>(stations.size()));
-  }
   /// If stated sigmas were true, like the next one.
   [[nodiscard]] double SigmaOfEnd_m() const {
     double sum_m2 = 0.0;
@@ -65,7 +60,7 @@ struct Side {
     return 2.0 * std::sqrt(sum_m2) / static_cast<double>(stations.size());
   }
   /// Of the logarithm of its scale.
-  [[nodiscard]] double SigmaOfScale() const { return 1.0 / (fit.extent_sigmas * RootOfCount()); }
+  [[nodiscard]] double SigmaOfScale() const { return fit.SigmaOfScale(stations.size()); }
 };
 
 /// By how much more positions scatter than they state, and share with their neighbours.
@@ -171,15 +166,20 @@ bool IsSettled(const MappingState& moved, const Break& way, const MappingOptions
   });
 }
 
+/// What speaks against a model, and for it.
+struct Standing {
+  size_t faults = 0;
+  size_t places = 0;
+
+  Standing(const MappingState& state, const MappingOptions& options)
+      : faults(FindLengthFaults(state, options).size()), places(CountHeldPlaces(state)) {}
+};
+
 /// Whether rays contradict a model with a way mended in fewer places, or in no more, and as many
 /// places hold: where points hold the way as it was, it comes apart there.
-bool DoPointsAllow(const MappingState& moved,
-                   const MappingState& before,
-                   const MappingOptions& options) {
-  const size_t faults = FindLengthFaults(moved, options).size();
-  const size_t faults_before = FindLengthFaults(before, options).size();
-  if (faults != faults_before) return faults < faults_before;
-  return CountHeldPlaces(moved) >= CountHeldPlaces(before);
+bool DoPointsAllow(const Standing& moved, const Standing& before) {
+  if (moved.faults != before.faults) return moved.faults < before.faults;
+  return moved.places >= before.places;
 }
 
 CandidateMove MoveFor(const MappingState& state, const LinePieces& pieces, const Break& way) {
@@ -203,6 +203,8 @@ absl::StatusOr<bool> CarryOnByGnss(MappingState& state,
     const LinePieces pieces(state, options);
     const std::vector<Break> breaks =
         WorstOf(BreaksOf(FindPlacedImages(state, pieces.Places()), pieces));
+    if (breaks.empty()) break;
+    const Standing standing(state, options);
     bool is_better = false;
     for (const Break& way : breaks) {
       if (is_better || tries++ >= kMaxTries) break;
@@ -212,8 +214,8 @@ absl::StatusOr<bool> CarryOnByGnss(MappingState& state,
       RemakePoints(moved, state, options);
       ORBWEAVE_RETURN_IF_ERROR(AdjustGrowingModel(moved, options, context));
       is_better = moved.Registered().size() >= state.Registered().size() &&
-                  DoPointsAllow(moved, state, options) && IsSettled(moved, way, options) &&
-                  IsLikedByGnss(moved, state, options);
+                  DoPointsAllow(Standing(moved, options), standing) &&
+                  IsSettled(moved, way, options) && IsLikedByGnss(moved, state, options);
       if (is_better) state = std::move(moved);
     }
     if (!is_better) break;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 #include "core/scene/image_manifest.h"
@@ -26,6 +28,10 @@ struct PlanStation {
           .sigma_m = prior.horizontal_sigma_m};
 }
 
+/// By so much more than independent errors would leave a fit is off, as receivers share errors over
+/// about ten places: 148 positions of a block were worth twelve.
+inline constexpr double kErrorsShared = 3.0;
+
 /// The similarity position = turn * centre + shift, with |turn| the scale: four unknowns, so that a
 /// straight street determines them too.
 struct PlanFit {
@@ -33,6 +39,11 @@ struct PlanFit {
   std::complex<double> shift{};
   double extent_sigmas = 0.0;  ///< rms distance of the centres from their mean
 
+  /// Standard deviation of the logarithm of its scale, as told by `count` stations with independent
+  /// errors as stated.
+  [[nodiscard]] double SigmaOfScale(size_t count) const {
+    return 1.0 / (extent_sigmas * std::sqrt(static_cast<double>(count)));
+  }
   [[nodiscard]] double ErrorSigmas(const PlanStation& station) const {
     return std::abs(turn * station.centre + shift - station.position) / station.sigma_m;
   }
